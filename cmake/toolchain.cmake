@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+# Compiler flags that hold for every target.
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+# Own sources get these through palpate_options; generated code does not.
+add_library(palpate_options INTERFACE)
+target_compile_options(palpate_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align=strict
+    -Wdouble-promotion -Werror>)
+
+# Real time stands in the signature (STYLE 4): a function effect where the compiler has it, else nothing.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 20)
+  target_compile_definitions(palpate_options INTERFACE "PALPATE_NONBLOCKING=[[clang::nonblocking]]")
+else()
+  target_compile_definitions(palpate_options INTERFACE "PALPATE_NONBLOCKING=")
+endif()
+target_compile_definitions(palpate_options INTERFACE PALPATE_VERSION="${PROJECT_VERSION}")
+
+if(PALPATE_SANITIZE)
+  add_compile_options(-fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer -g -O1)
+  add_link_options(-fsanitize=${PALPATE_SANITIZE})
+else()
+  # Kernels marked PALPATE_MULTIVERSION are built for several instruction sets and chosen at load time. The
+  # sanitizers cannot run in the resolvers that this needs, so there it is off.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_definitions(palpate_options INTERFACE PALPATE_HAVE_TARGET_CLONES=1)
+  endif()
+endif()

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// Exponents (a_x, a_y, a_z) of one monomial d^alpha = d_x^a_x d_y^a_y d_z^a_z.
+using MultiIndex = std::array<int, 3>;
+
+/// The monomials d^alpha with 1 <= |alpha| <= p, in the order in which every file and table holds them   DESIGN 1, 2.2
+///   by degree, then lexicographically descending: x y z | xx xy xz yy yz zz | xxx xxy ...
+/// There is no constant term: an organ that is not touched does not move.
+class MonomialBasis {
+ public:
+  static constexpr int kMaxOrder = 7;           ///< 119 monomials
+  static constexpr int kMaxCoefficients = 119;  ///< size(kMaxOrder)
+
+  /// Number of monomials up to degree p: (p+1)(p+2)(p+3)/6 - 1, e.g. 3, 9, 19, 34, 55.
+  [[nodiscard]] static constexpr int size(int order) noexcept {
+    return (order + 1) * (order + 2) * (order + 3) / 6 - 1;
+  }
+
+  /// @throw std::invalid_argument unless 1 <= order <= kMaxOrder
+  explicit MonomialBasis(int order);
+
+  [[nodiscard]] int order() const noexcept { return order_; }
+  [[nodiscard]] int size() const noexcept { return static_cast<int>(indices_.size()); }
+  [[nodiscard]] const MultiIndex& operator[](int k) const noexcept {
+    return indices_[static_cast<std::size_t>(k)];
+  }
+  /// Position of alpha in the list, -1 when its degree is 0 or above the order.
+  [[nodiscard]] int find(const MultiIndex& alpha) const noexcept;
+  /// First position of degree n (1 <= n <= order); begin(order + 1) is size().
+  [[nodiscard]] int begin(int degree) const noexcept { return size(degree - 1); }
+
+  /// values[k] = x^alpha_k. @param[out] values  size() numbers. Real-time: yes.
+  void evaluate(const Vec3& x, std::span<double> values) const noexcept PALPATE_NONBLOCKING;
+  /// gradient[k] = d(x^alpha_k)/dx. @param[out] gradient  size() vectors. Real-time: yes.
+  void gradient(const Vec3& x, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  int order_;
+  std::vector<MultiIndex> indices_;
+};
+
+}  // namespace palpate
