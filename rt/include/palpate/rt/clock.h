@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <ctime>
+
+namespace palpate::rt {
+
+/// Time on CLOCK_MONOTONIC, the only clock that decides anything here (deadlines, age of a pose), ns.
+/// Real-time: yes (vDSO, no system call). Threads: any.
+[[nodiscard]] inline std::int64_t monotonicNow() noexcept PALPATE_NONBLOCKING {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+/// @param[in] ns  time on any clock, ns, not negative
+[[nodiscard]] inline timespec toTimespec(std::int64_t ns) noexcept PALPATE_NONBLOCKING {
+  return {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+}
+
+}  // namespace palpate::rt

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace palpate::rt {
+
+/// Percentiles of durations without keeping them: a histogram whose buckets are linear within each power of
+/// two, 64 to a power, so that a value is known within 1/64 from 1 ns to 18 minutes. Longer ones count as the
+/// last bucket. Threads: one. Real-time: yes; quantile() walks all buckets, about 1 us.
+class CycleStats {
+ public:
+  /// @param[in] ns  a duration; negative counts as 0
+  void add(std::int64_t ns) noexcept PALPATE_NONBLOCKING;
+
+  /// @param[in] fraction  in [0, 1]: 0.5 is the median
+  /// @return upper edge of the bucket that holds the quantile, never above max(), ns; 0 when empty
+  [[nodiscard]] std::int64_t quantile(double fraction) const noexcept PALPATE_NONBLOCKING;
+
+  [[nodiscard]] std::int64_t max() const noexcept PALPATE_NONBLOCKING { return max_; }  ///< exact, ns
+  [[nodiscard]] std::uint64_t count() const noexcept PALPATE_NONBLOCKING { return count_; }
+
+  void clear() noexcept PALPATE_NONBLOCKING { *this = CycleStats{}; }
+
+ private:
+  static constexpr int kSubBits = 6;   // 64 buckets to a power of two
+  static constexpr int kTopBits = 40;  // values below 2^40 ns
+  static constexpr std::size_t kBuckets = (kTopBits - kSubBits + 1) << kSubBits;
+
+  static std::size_t bucketOf(std::uint64_t ns) noexcept;
+  static std::int64_t upperEdge(std::size_t bucket) noexcept;
+
+  std::array<std::uint32_t, kBuckets> buckets_{};
+  std::uint64_t count_{0};
+  std::int64_t max_{0};
+};
+
+}  // namespace palpate::rt

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace palpate::rt {
+
+/// Locks the memory of the process, so that no page fault waits inside a tick, and tells malloc to keep what
+/// it has. Future mappings are locked as well only where no limit on locked memory applies: under a limit the
+/// next thread or buffer of a library would fail to map instead of merely not being locked.
+/// @return 0, or the errno of the refusal (ENOMEM or EPERM: raise RLIMIT_MEMLOCK or grant CAP_IPC_LOCK)
+/// Real-time: no, before the loop.
+[[nodiscard]] int lockMemory() noexcept;
+
+/// Touches the next kilobytes of the calling thread's stack, so that the loop does not fault them in one by
+/// one. Real-time: no, at the start of a thread.
+void prefaultStack() noexcept;
+
+}  // namespace palpate::rt

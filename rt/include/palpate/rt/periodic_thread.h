@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "palpate/rt/thread.h"
+
+namespace palpate::rt {
+
+/// What a cycle is told about its own timing.
+struct Cycle {
+  std::uint64_t index{0};       ///< cycles run before this one
+  std::int64_t deadline_ns{0};  ///< when it was due, CLOCK_MONOTONIC
+  std::int64_t woke_ns{0};      ///< when it began
+  std::int64_t previous_ns{0};  ///< how long the cycle before computed; 0 in the first
+  std::uint64_t overruns{0};    ///< periods missed since the start
+};
+
+/// The next wake-up on the grid of periods, and how many were missed.
+struct Deadline {
+  std::int64_t ns{0};
+  std::uint64_t missed{0};
+};
+
+/// Overrun policy: a period whose time has passed is counted and skipped; cycles never run in a bunch to
+/// catch up, which would answer several stale times at once, and the phase of the grid is kept.
+/// @param[in] last_ns    deadline of the cycle that just ended
+/// @param[in] period_ns  > 0
+/// @param[in] now_ns     time after the cycle
+/// @return the first point of the grid after now_ns. Real-time: yes.
+[[nodiscard]] Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns,
+                                    std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
+
+/// Calls a function once a period, paced by absolute sleeps on CLOCK_MONOTONIC.
+/// Threads: the function runs on the thread; the other members belong to the creator.
+class PeriodicThread {
+ public:
+  /// A plain pointer and context: what it calls is visible, and calling it cannot allocate.
+  using Function = void (*)(void* context, const Cycle& cycle) noexcept;
+
+  /// Starts at once.
+  /// @param[in] period_ns  > 0
+  /// @throw RealtimeError  as Thread; @throw std::invalid_argument  period_ns <= 0
+  PeriodicThread(const ThreadOptions& options, std::int64_t period_ns, Function function, void* context);
+  ~PeriodicThread() { stop(); }
+  PeriodicThread(const PeriodicThread&) = delete;
+  PeriodicThread& operator=(const PeriodicThread&) = delete;
+
+  /// Lets the running cycle end, then joins. At most one period.
+  void stop();
+
+  [[nodiscard]] bool realtime() const noexcept { return thread_->realtime(); }
+
+  /// Page faults of the thread between the end of its tenth cycle and its last one. Valid after stop().
+  [[nodiscard]] std::int64_t pageFaults() const noexcept { return page_faults_; }
+
+ private:
+  void run(std::int64_t period_ns, Function function, void* context) noexcept;
+
+  std::atomic<bool> stopping_{false};  // a flag only, orders nothing: join() in stop() does
+  std::int64_t page_faults_{0};        // written by the thread, read after join()
+  std::unique_ptr<Thread> thread_;
+};
+
+}  // namespace palpate::rt

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <semaphore.h>
+
+#include <cerrno>
+#include <cstdint>
+
+#include "palpate/rt/clock.h"
+
+namespace palpate::rt {
+
+/// Wakes another thread. POSIX, because std::counting_semaphore of libstdc++ 12 may spin before it sleeps.
+/// post() takes no lock and is async-signal-safe; it makes a system call only when somebody waits.
+/// Threads: any number on both sides. Real-time: post() yes, wait() is where a thread gives up its core.
+class Semaphore {
+ public:
+  Semaphore() noexcept { sem_init(&handle_, 0, 0); }
+  ~Semaphore() { sem_destroy(&handle_); }
+  Semaphore(const Semaphore&) = delete;
+  Semaphore& operator=(const Semaphore&) = delete;
+
+  void post() noexcept PALPATE_NONBLOCKING { sem_post(&handle_); }
+
+  void wait() noexcept {
+    while (sem_wait(&handle_) != 0 && errno == EINTR) {
+    }
+  }
+
+  /// @return false when there was nothing to take
+  [[nodiscard]] bool tryWait() noexcept PALPATE_NONBLOCKING { return sem_trywait(&handle_) == 0; }
+
+  /// @param[in] timeout_ns  longest wait from now, ns
+  /// @return false when the time passed without a post
+  [[nodiscard]] bool waitFor(std::int64_t timeout_ns) noexcept {
+    const timespec until = toTimespec(monotonicNow() + timeout_ns);
+    int result = 0;
+    do {
+      result = sem_clockwait(&handle_, CLOCK_MONOTONIC, &until);
+    } while (result != 0 && errno == EINTR);
+    return result == 0;
+  }
+
+ private:
+  sem_t handle_{};
+};
+
+}  // namespace palpate::rt

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "palpate/rt/scheduling.h"
+
+namespace palpate::rt {
+
+/// How a thread is to run.
+struct ThreadOptions {
+  std::string name{"palpate"};                     ///< as in top and /proc, at most 15 characters
+  int priority{0};                                 ///< SCHED_FIFO priority, in [1, 99]; 0: an ordinary thread
+  RealtimePolicy policy{RealtimePolicy::kPrefer};  ///< what to do when the priority is refused
+};
+
+/// A named thread with a priority, joined by its destructor.
+class Thread {
+ public:
+  /// Starts the thread and waits until its priority is settled. The thread's stack is touched beforehand.
+  /// @param[in] body  runs once on the new thread; must not throw
+  /// @throw RealtimeError  the policy is kRequire and the system refuses; body does not run then
+  Thread(const ThreadOptions& options, std::function<void()> body);
+  ~Thread() { join(); }
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+
+  void join();
+
+  /// true when the thread runs under SCHED_FIFO
+  [[nodiscard]] bool realtime() const noexcept { return realtime_; }
+
+ private:
+  bool realtime_{false};
+  std::thread thread_;
+};
+
+}  // namespace palpate::rt

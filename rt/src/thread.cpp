@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/rt/thread.h"
+
+#include <pthread.h>
+
+#include <cstring>
+#include <future>
+#include <utility>
+
+#include "palpate/rt/memory.h"
+
+namespace palpate::rt {
+namespace {
+
+/// Name, priority and stack of the calling thread. @return 0, or the errno that refused the priority
+int settle(const ThreadOptions& options) {
+  pthread_setname_np(pthread_self(), options.name.substr(0, 15).c_str());
+  prefaultStack();
+  const bool wanted = options.priority > 0 && options.policy != RealtimePolicy::kOff;
+  return wanted ? raiseThisThread(options.priority) : 0;
+}
+
+}  // namespace
+
+Thread::Thread(const ThreadOptions& options, std::function<void()> body) {
+  std::promise<int> settled;
+  std::future<int> refusal = settled.get_future();
+  const bool required = options.priority > 0 && options.policy == RealtimePolicy::kRequire;
+  thread_ = std::thread([options, required, settled = std::move(settled), body = std::move(body)]() mutable {
+    const int error = settle(options);
+    settled.set_value(error);
+    if (error == 0 || !required) body();
+  });
+  const int error = refusal.get();
+  realtime_ = error == 0 && options.priority > 0 && options.policy != RealtimePolicy::kOff;
+  if (error == 0 || !required) return;
+  join();
+  throw RealtimeError("thread " + options.name + ": SCHED_FIFO priority " + std::to_string(options.priority) +
+                      " refused (" + std::strerror(error) + "); grant CAP_SYS_NICE or raise RLIMIT_RTPRIO");
+}
+
+void Thread::join() {
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace palpate::rt

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/rt/periodic_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <ctime>
+#include <stdexcept>
+
+#include "palpate/rt/clock.h"
+#include "palpate/rt/semaphore.h"
+
+namespace palpate::rt {
+namespace {
+
+constexpr std::int64_t kPeriod = 1'000'000;
+
+TEST(NextDeadline, IsOnePeriodLaterWhenTheCycleWasOnTime) {
+  const Deadline next = nextDeadline(5 * kPeriod, kPeriod, 5 * kPeriod + kPeriod / 3);
+  EXPECT_EQ(next.ns, 6 * kPeriod);
+  EXPECT_EQ(next.missed, 0U);
+}
+
+TEST(NextDeadline, SkipsWhatIsPastAndKeepsThePhase) {
+  const Deadline next = nextDeadline(5 * kPeriod, kPeriod, 8 * kPeriod + 1);
+  EXPECT_EQ(next.ns, 9 * kPeriod);
+  EXPECT_EQ(next.missed, 3U);
+}
+
+TEST(NextDeadline, IsNeverInThePast) {
+  for (std::int64_t now = 0; now < 5 * kPeriod; now += 77'777)
+    EXPECT_GT(nextDeadline(0, kPeriod, now).ns, now);
+}
+
+struct Log {
+  static constexpr std::size_t kCycles = 40;
+  std::array<Cycle, kCycles> cycles;
+  std::size_t count{0};
+  Semaphore done;
+};
+
+// Cycle 10 blocks for 5.5 periods: the overrun that the test is about.
+void logCycle(void* context, const Cycle& cycle) noexcept {
+  auto& log = *static_cast<Log*>(context);
+  if (log.count == Log::kCycles) return;
+  log.cycles[log.count] = cycle;
+  if (log.count == 10) {
+    const timespec pause = toTimespec(5 * kPeriod + kPeriod / 2);
+    nanosleep(&pause, nullptr);
+  }
+  if (++log.count == Log::kCycles) log.done.post();
+}
+
+TEST(PeriodicThread, MissedPeriodsAreCountedAndNeverBunched) {
+  Log log;
+  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kPeriod, logCycle, &log);
+  log.done.wait();
+  thread.stop();
+  EXPECT_FALSE(thread.realtime());
+  EXPECT_EQ(log.cycles[0].index, 0U);
+  EXPECT_EQ(log.cycles[0].overruns, 0U);
+  EXPECT_EQ(log.cycles[0].previous_ns, 0);
+  for (std::size_t i = 1; i < Log::kCycles; ++i) {
+    const Cycle& last = log.cycles[i - 1];
+    const Cycle& cycle = log.cycles[i];
+    EXPECT_EQ(cycle.index, i);
+    EXPECT_GE(cycle.woke_ns, cycle.deadline_ns) << "woke before it was due";
+    EXPECT_GE(cycle.deadline_ns, last.woke_ns) << "due before the last one began";
+    const std::int64_t periods = (cycle.deadline_ns - last.deadline_ns) / kPeriod;
+    EXPECT_EQ((cycle.deadline_ns - last.deadline_ns) % kPeriod, 0) << "left the grid";
+    EXPECT_EQ(static_cast<std::int64_t>(cycle.overruns - last.overruns), periods - 1) << "miscounted";
+  }
+  EXPECT_GE(log.cycles[11].overruns - log.cycles[10].overruns, 5U);
+  EXPECT_GE(log.cycles[11].previous_ns, 5 * kPeriod);
+}
+
+TEST(PeriodicThread, RefusesAPeriodOfZero) {
+  try {
+    PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, 0, logCycle, nullptr);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "thread test-periodic: period is 0 ns, expected more than 0");
+  }
+}
+
+}  // namespace
+}  // namespace palpate::rt

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/rt/scheduling.h"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "palpate/rt/memory.h"
+#include "palpate/rt/semaphore.h"
+#include "palpate/rt/thread.h"
+
+namespace palpate::rt {
+namespace {
+
+bool canRaise() {
+  bool raised = false;
+  Thread probe({"probe", 1, RealtimePolicy::kPrefer}, [&] { raised = sched_getscheduler(0) == SCHED_FIFO; });
+  probe.join();
+  return raised;
+}
+
+// Runs body in a child that gave up root and every real-time allowance. @return its exit code
+template <class Body>
+int withoutPrivilege(Body body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_RTPRIO, &none);
+    if (geteuid() == 0 && setuid(65534) != 0) _exit(99);
+    _exit(body());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 98;
+}
+
+TEST(Thread, HasItsNameAndPriority) {
+  if (!canRaise()) GTEST_SKIP() << "SCHED_FIFO is not granted here";
+  std::string name(16, '\0');
+  int policy = -1;
+  sched_param parameters{};
+  Thread thread({"test-named", 7, RealtimePolicy::kRequire}, [&] {
+    pthread_getname_np(pthread_self(), name.data(), name.size());
+    policy = sched_getscheduler(0);
+    sched_getparam(0, &parameters);
+  });
+  EXPECT_TRUE(thread.realtime());
+  thread.join();
+  EXPECT_STREQ(name.c_str(), "test-named");
+  EXPECT_EQ(policy, SCHED_FIFO);
+  EXPECT_EQ(parameters.sched_priority, 7);
+}
+
+TEST(Thread, PolicyOffLeavesItOrdinary) {
+  int policy = -1;
+  Thread thread({"test-off", 7, RealtimePolicy::kOff}, [&] { policy = sched_getscheduler(0); });
+  EXPECT_FALSE(thread.realtime());
+  thread.join();
+  EXPECT_EQ(policy, SCHED_OTHER);
+}
+
+TEST(Thread, RequireRefusesWithoutPrivilegeAndNeverRunsTheBody) {
+  const int code = withoutPrivilege([] {
+    bool ran = false;
+    try {
+      Thread thread({"test-req", 7, RealtimePolicy::kRequire}, [&] { ran = true; });
+    } catch (const RealtimeError& error) {
+      const std::string_view text = error.what();
+      const bool names_it = text.find("thread test-req: SCHED_FIFO priority 7 refused") == 0;
+      return names_it && !ran ? 0 : 1;
+    }
+    return 2;
+  });
+  EXPECT_EQ(code, 0);
+}
+
+TEST(Thread, PreferRunsOnWithoutPrivilege) {
+  const int code = withoutPrivilege([] {
+    bool ran = false;
+    Thread thread({"test-pref", 7, RealtimePolicy::kPrefer}, [&] { ran = true; });
+    thread.join();
+    return ran && !thread.realtime() ? 0 : 1;
+  });
+  EXPECT_EQ(code, 0);
+}
+
+TEST(RaiseThreadsNamed, RaisesExactlyTheNamedOnes) {
+  if (!canRaise()) GTEST_SKIP() << "SCHED_FIFO is not granted here";
+  std::array<int, 2> policy{-1, -1};
+  Semaphore go_first;
+  Semaphore go_second;
+  Thread first({"test-recvUC", 0, RealtimePolicy::kOff}, [&] {
+    go_first.wait();
+    policy[0] = sched_getscheduler(0);
+  });
+  Thread second({"test-other", 0, RealtimePolicy::kOff}, [&] {
+    go_second.wait();
+    policy[1] = sched_getscheduler(0);
+  });
+  const std::array<std::string_view, 2> names{"test-recvUC", "no-such-thread"};
+  EXPECT_EQ(raiseThreadsNamed(names, 5), 1U);
+  go_first.post();
+  go_second.post();
+  first.join();
+  second.join();
+  EXPECT_EQ(policy[0], SCHED_FIFO);
+  EXPECT_EQ(policy[1], SCHED_OTHER);
+}
+
+TEST(LockMemory, SaysWhyWhenRefused) {
+  const int code = withoutPrivilege([] {
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_MEMLOCK, &none);
+    return lockMemory() == 0 ? 1 : 0;
+  });
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizers take mlockall away, code " << code;
+#endif
+  EXPECT_EQ(code, 0);
+}
+
+TEST(CpuLatencyHold, IsHeldOrMissingButNeverFatal) {
+  const bool may = access("/dev/cpu_dma_latency", W_OK) == 0;
+  const CpuLatencyHold hold;
+  EXPECT_EQ(hold.held(), may);
+}
+
+}  // namespace
+}  // namespace palpate::rt
