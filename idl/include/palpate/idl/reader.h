@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "palpate/idl/loaned_samples.h"
+#include "palpate/idl/topic.h"
+
+namespace palpate::dds {
+
+/// What a data callback gets: the reader, without owning it.
+template <class T>
+class ReaderView {
+ public:
+  explicit ReaderView(dds_entity_t handle) noexcept : handle_(handle) {}
+
+  /// Takes samples into the caller's memory: those with valid data, at most min(out.size(), kMaxTake).
+  /// @return how many of `out` were filled; 0 when there is nothing or Cyclone reports an error
+  /// No allocation of ours; Cyclone locks. Threads: any; use one, or samples are shared out.
+  [[nodiscard]] std::size_t take(std::span<T> out) const noexcept requires TopicTraits<T>::kFlat {
+    std::array<void*, kMaxTake> buffers;
+    std::array<dds_sample_info_t, kMaxTake> infos;
+    const auto wanted = static_cast<std::uint32_t>(std::min(out.size(), kMaxTake));
+    if (wanted == 0) return 0;
+    for (std::uint32_t i = 0; i < wanted; ++i) buffers[i] = &out[i];
+    const dds_return_t taken = dds_take(handle_, buffers.data(), infos.data(), wanted, wanted);
+    std::size_t valid = 0;
+    for (std::size_t i = 0; taken > 0 && i < static_cast<std::size_t>(taken); ++i) {
+      if (!infos[i].valid_data) continue;
+      if (valid != i) out[valid] = out[i];
+      ++valid;
+    }
+    return valid;
+  }
+
+  /// Takes samples that stay in Cyclone's memory: the way for types with sequences.
+  [[nodiscard]] LoanedSamples<T> takeLoaned() const noexcept { return LoanedSamples<T>(handle_); }
+
+ private:
+  dds_entity_t handle_;
+};
+
+/// Called when data has come, on Cyclone's receive thread, or on the writer's thread when both are in one
+/// process. Must take the data, must not block, throw, or delete the reader.
+template <class T>
+using DataCallback = void (*)(ReaderView<T> reader, void* context) noexcept;
+
+/// Receives samples of T. The participant must outlive it.
+template <class T>
+class Reader {
+ public:
+  using Traits = TopicTraits<T>;
+
+  /// Without a callback: take() when you like.
+  /// @throw DdsError naming the topic
+  /// Real-time: no.
+  explicit Reader(const Participant& participant) : Reader(participant, nullptr, nullptr) {}
+
+  /// With a callback, from before the first sample on. `context` is passed through and must outlive the
+  /// reader.
+  Reader(const Participant& participant, DataCallback<T> callback, void* context)
+      : binding_(std::make_unique<Binding>(Binding{callback, context})), topic_(participant) {
+    dds_listener_t* listener = nullptr;
+    if (callback != nullptr) {
+      listener = dds_create_listener(nullptr);
+      dds_lset_data_available_arg(listener, &Reader::onData, binding_.get(), false);
+    }
+    const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> owner(listener,
+                                                                                &dds_delete_listener);
+    entity_ = Entity(
+        raw::createReader(participant.handle(), topic_.handle(), Traits::kName, Traits::kProfile, listener));
+  }
+
+  [[nodiscard]] std::size_t take(std::span<T> out) const noexcept requires Traits::kFlat {
+    return view().take(out);
+  }
+  [[nodiscard]] LoanedSamples<T> takeLoaned() const noexcept { return view().takeLoaned(); }
+  [[nodiscard]] ReaderView<T> view() const noexcept { return ReaderView<T>(entity_.handle()); }
+
+  [[nodiscard]] unsigned matched() const noexcept { return raw::matchedWriters(entity_.handle()); }
+  /// @return whether at least `count` writers matched within `timeout`
+  [[nodiscard]] bool waitForWriters(unsigned count, std::chrono::milliseconds timeout) const noexcept {
+    return raw::waitUntilMatched(&raw::matchedWriters, entity_.handle(), count, timeout);
+  }
+  /// One line when a writer was found whose type or QoS does not fit; else empty.
+  [[nodiscard]] std::string mismatch() const {
+    return raw::mismatchOfReader(entity_.handle(), Traits::kName);
+  }
+  [[nodiscard]] dds_entity_t handle() const noexcept { return entity_.handle(); }
+
+ private:
+  struct Binding {
+    DataCallback<T> callback;
+    void* context;
+  };
+  static void onData(dds_entity_t reader, void* arg) {
+    const auto* binding = static_cast<const Binding*>(arg);
+    binding->callback(ReaderView<T>(reader), binding->context);
+  }
+
+  std::unique_ptr<Binding> binding_;  // on the heap: the listener keeps its address while the Reader may move
+  Topic<T> topic_;
+  Entity entity_;  // last, so that it goes first and no callback outlives the binding
+};
+
+}  // namespace palpate::dds

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <palpate.h>  // generated from palpate.idl, where every field, frame, sign and unit is documented
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+namespace palpate::dds {
+
+using ToolPose = palpate_ToolPose;
+using ToolForce = palpate_ToolForce;
+using SurfaceDisplacement = palpate_SurfaceDisplacement;
+using SurfaceMesh = palpate_SurfaceMesh;
+using Percentiles = palpate_Percentiles;
+using ServerStatus = palpate_ServerStatus;
+
+/// Bits of ToolForce::flags, as palpate.idl documents them.
+namespace flag {
+inline constexpr std::uint32_t kNonFinitePose = palpate_FLAG_NON_FINITE_POSE;
+inline constexpr std::uint32_t kNonUnitQuaternion = palpate_FLAG_NON_UNIT_QUATERNION;
+inline constexpr std::uint32_t kStalePose = palpate_FLAG_STALE_POSE;
+inline constexpr std::uint32_t kBeyondDomain = palpate_FLAG_BEYOND_DOMAIN;
+inline constexpr std::uint32_t kForceLimited = palpate_FLAG_FORCE_LIMITED;
+inline constexpr std::uint32_t kNotAccessible = palpate_FLAG_NOT_ACCESSIBLE;
+inline constexpr std::uint32_t kInContact = palpate_FLAG_IN_CONTACT;
+inline constexpr std::uint32_t kShuttingDown = palpate_FLAG_SHUTTING_DOWN;
+inline constexpr std::uint32_t kPoseOrder = palpate_FLAG_POSE_ORDER;
+inline constexpr std::uint32_t kPoseSuperseded = palpate_FLAG_POSE_SUPERSEDED;
+}  // namespace flag
+
+/// Values of ToolForce::state.
+namespace tool_state {
+inline constexpr std::uint32_t kFree = palpate_STATE_FREE;
+inline constexpr std::uint32_t kStick = palpate_STATE_STICK;
+inline constexpr std::uint32_t kSlide = palpate_STATE_SLIDE;
+}  // namespace tool_state
+
+/// Values of ServerStatus::state.
+namespace server_state {
+inline constexpr std::uint32_t kStarting = palpate_SERVER_STARTING;
+inline constexpr std::uint32_t kRunning = palpate_SERVER_RUNNING;
+inline constexpr std::uint32_t kStopping = palpate_SERVER_STOPPING;
+}  // namespace server_state
+
+/// Writes a text into a bounded IDL string, cut to fit, always terminated.
+/// Real-time: yes.
+template <std::size_t N>
+void assignText(char (&field)[N], std::string_view text) noexcept {
+  const std::size_t length = std::min(text.size(), N - 1);
+  std::memcpy(field, text.data(), length);
+  field[length] = '\0';
+}
+
+}  // namespace palpate::dds

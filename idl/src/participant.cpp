@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/idl/participant.h"
+
+#include <string>
+
+#include "palpate/idl/error.h"
+
+namespace palpate::dds {
+namespace {
+
+dds_entity_t createParticipant(std::uint32_t domain) {
+  if (domain > kMaxDomain)
+    throw DdsError("DDS domain " + std::to_string(domain) + " is out of range, expected 0 to " +
+                   std::to_string(kMaxDomain));
+  return checked(
+      dds_create_participant(domain, nullptr, nullptr),
+      "cannot create a DDS participant on domain " + std::to_string(domain) + " (see CYCLONEDDS_URI)");
+}
+
+}  // namespace
+
+Participant::Participant(std::uint32_t domain) : domain_(domain), entity_(createParticipant(domain)) {}
+
+}  // namespace palpate::dds

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/idl/qos.h"
+
+namespace palpate::dds {
+
+QosPtr makeQos(QosProfile profile, Endpoint endpoint) {
+  QosPtr qos(dds_create_qos());
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  if (profile == QosProfile::kLatched) {
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  } else {
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+    dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  }
+  if (profile == QosProfile::kServo) {
+    dds_qset_deadline(qos.get(), DDS_MSECS(5));
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, DDS_MSECS(50));
+  }
+  if (endpoint == Endpoint::kReader) dds_qset_resource_limits(qos.get(), kMaxInstances, kMaxInstances, 1);
+  return qos;
+}
+
+}  // namespace palpate::dds

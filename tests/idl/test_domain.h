@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+namespace palpate::testing {
+
+/// Keeps Cyclone on loopback without multicast, unless the environment already says otherwise: works in a
+/// sandbox without a network and keeps tests of two machines apart. Child processes inherit it.
+inline void useLoopback() {
+  setenv("CYCLONEDDS_URI",
+         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
+         "multicast=\"false\"/></Interfaces>"
+         "<AllowMulticast>false</AllowMulticast></General>"
+         "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30</"
+         "MaxAutoParticipantIndex>"
+         "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
+         0);
+}
+
+/// A domain id between 1 and 200 that this process holds until it ends, by a lock on a file: two tests that
+/// run at once never see each other's samples.
+inline std::uint32_t exclusiveDomain() {
+  static const std::uint32_t domain = [] {
+    useLoopback();
+    std::random_device random;
+    for (int attempt = 0; attempt < 400; ++attempt) {
+      const std::uint32_t candidate = 1 + random() % 200;
+      const std::string path = "/tmp/palpate-test-domain-" + std::to_string(candidate);
+      const int fd = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+      if (fd < 0) continue;
+      if (flock(fd, LOCK_EX | LOCK_NB) == 0)
+        return candidate;  // the descriptor stays open on purpose: it is the lock
+      close(fd);
+    }
+    throw std::runtime_error("no free DDS domain among 1 to 200: do many tests run at once?");
+  }();
+  return domain;
+}
+
+}  // namespace palpate::testing
