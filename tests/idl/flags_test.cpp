@@ -9,9 +9,9 @@ namespace {
 TEST(Flags, AreDistinctSingleBits) {
   std::uint32_t seen = 0;
   for (const std::uint32_t bit :
-       {flag::kNonFinitePose, flag::kNonUnitQuaternion, flag::kStalePose, flag::kBeyondDomain,
-        flag::kForceLimited, flag::kNotAccessible, flag::kInContact, flag::kShuttingDown, flag::kPoseOrder,
-        flag::kPoseSuperseded}) {
+       {flag::kInContact, flag::kNonFinitePose, flag::kNonUnitQuaternion, flag::kStalePose,
+        flag::kBeyondDomain, flag::kForceLimited, flag::kNotAccessible, flag::kRamping, flag::kShuttingDown,
+        flag::kNonFiniteForce, flag::kPoseOutOfOrder}) {
     EXPECT_EQ(bit & (bit - 1), 0U) << bit;
     EXPECT_EQ(seen & bit, 0U) << bit;
     seen |= bit;

@@ -20,16 +20,17 @@ using ServerStatus = palpate_ServerStatus;
 
 /// Bits of ToolForce::flags, as palpate.idl documents them.
 namespace flag {
+inline constexpr std::uint32_t kInContact = palpate_FLAG_IN_CONTACT;
 inline constexpr std::uint32_t kNonFinitePose = palpate_FLAG_NON_FINITE_POSE;
 inline constexpr std::uint32_t kNonUnitQuaternion = palpate_FLAG_NON_UNIT_QUATERNION;
 inline constexpr std::uint32_t kStalePose = palpate_FLAG_STALE_POSE;
 inline constexpr std::uint32_t kBeyondDomain = palpate_FLAG_BEYOND_DOMAIN;
 inline constexpr std::uint32_t kForceLimited = palpate_FLAG_FORCE_LIMITED;
 inline constexpr std::uint32_t kNotAccessible = palpate_FLAG_NOT_ACCESSIBLE;
-inline constexpr std::uint32_t kInContact = palpate_FLAG_IN_CONTACT;
+inline constexpr std::uint32_t kRamping = palpate_FLAG_RAMPING;
 inline constexpr std::uint32_t kShuttingDown = palpate_FLAG_SHUTTING_DOWN;
-inline constexpr std::uint32_t kPoseOrder = palpate_FLAG_POSE_ORDER;
-inline constexpr std::uint32_t kPoseSuperseded = palpate_FLAG_POSE_SUPERSEDED;
+inline constexpr std::uint32_t kNonFiniteForce = palpate_FLAG_NON_FINITE_FORCE;
+inline constexpr std::uint32_t kPoseOutOfOrder = palpate_FLAG_POSE_OUT_OF_ORDER;
 }  // namespace flag
 
 /// Values of ToolForce::state.
