@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "palpate/core/contact_point.h"
+#include "palpate/core/meta_model.h"
+#include "palpate/core/response.h"
+#include "palpate/core/status_flags.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// What a tool remembers from tick to tick about its contact.
+struct Contact {
+  ContactState state{ContactState::kFree};
+  ContactPoint s;              ///< the anchor; when free, the nearest point of the rest surface
+  Vec3 anchor = Vec3::Zero();  ///< X(s), m
+  Vec3 direction =
+      Vec3::Zero();            ///< m, outward unit vector from the anchor to the tip's centre, set at capture
+  Vec3 normal = Vec3::Zero();  ///< n(s), outward unit normal of the rest surface
+  Vec3 displacement = Vec3::Zero();  ///< d as imposed, before clamping, m
+  Response response;                 ///< the organ's answer; zero when free
+  std::uint32_t flags{0};            ///< kInContact, kBeyondDomain, kNotAccessible
+};
+
+/// Moves a tool through free and stick DESIGN 3.1
+///   free -> stick: signed distance of the tip's centre < R on an accessible triangle; the anchor s is the
+///   nearest point stick:         d = c - X(s) - R m, with s and m as set at capture stick -> free: f . n >
+///   0, the tool would pull
+/// Differs from DESIGN 3.1 for now: friction and sliding (kSlide) are not there, an anchor sticks until
+/// release.
+class ContactSolver {
+ public:
+  explicit ContactSolver(double tip_radius) noexcept : tip_radius_(tip_radius) {}
+
+  /// One tick of one tool. @param c  tip centre, W, m, finite. At most one change of state. Real-time: yes.
+  void update(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  void tryCapture(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
+  void stick(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
+
+  double tip_radius_;
+};
+
+}  // namespace palpate

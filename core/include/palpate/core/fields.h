@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "palpate/core/contact_point.h"
+#include "palpate/core/model_view.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// The far field: u(X; s, d) = sum_k X_k(X) y_k,  y_k = sum_b lambda_b sum_alpha x^alpha Y_{k,alpha}(p_b)
+/// DESIGN 2.3 Linear in y: the y of several tools add up before the one product with X. Borrows the model's
+/// arrays.
+class SeparatedField {
+ public:
+  explicit SeparatedField(const ModelView& view);
+
+  [[nodiscard]] int modes() const noexcept { return modes_; }
+  /// y += gain * (the mode amplitudes of one tool), m.
+  /// @param monomials  [C] of d / d_ref, @param y  [n]. Cost O(C n). Real-time: yes.
+  void addAmplitudes(const PositionMix& mix, std::span<const double> monomials, double gain,
+                     std::span<float> y) const noexcept PALPATE_NONBLOCKING;
+  /// u = X^T y, m (overwrites). @param u  [Ns][3]. Cost O(n Ns), bound by reading X. Real-time: yes.
+  void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  std::span<const float> X_;
+  std::span<const float> Y_;
+  int modes_;
+};
+
+/// The near field: what the modes miss close to s, already windowed to zero at the near radius DESIGN 2.3
+class NearField {
+ public:
+  explicit NearField(const ModelView& view);
+
+  /// Numbers of scratch that add() needs: 3 * the largest K_m.
+  [[nodiscard]] int scratchSize() const noexcept { return scratch_size_; }
+  /// u += gain * (the near blocks of one tool), m.
+  /// @param monomials  [C] of d / d_ref, @param scratch  scratchSize(), @param u  [Ns][3]. Real-time: yes.
+  void add(const PositionMix& mix, std::span<const double> monomials, double gain, std::span<float> scratch,
+           std::span<float> u) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  std::span<const std::int64_t> offset_;
+  std::span<const std::int32_t> node_;
+  std::span<const float> field_;
+  int scratch_size_{0};
+};
+
+}  // namespace palpate

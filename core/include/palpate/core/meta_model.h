@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "palpate/core/contact_response.h"
+#include "palpate/core/fields.h"
+#include "palpate/core/load_error.h"
+#include "palpate/core/model_view.h"
+#include "palpate/core/multi_index.h"
+#include "palpate/core/sealed_image.h"
+#include "palpate/core/surface_mesh.h"
+
+namespace palpate {
+
+/// A model file in memory: immutable, checked, mapped, and ready to be evaluated by any number of threads.
+class MetaModel {
+ public:
+  /// Copies the file into sealed memory, checks every size, index and number of the copy, and maps it
+  /// read-only, populated, locked where the system allows it DESIGN 3.4
+  /// @throw LoadError one sentence: file, dataset, found, expected. Real-time: no (reads, allocates).
+  [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
+
+  [[nodiscard]] const ModelAttributes& attributes() const noexcept { return attributes_; }
+  [[nodiscard]] const ModelView& view() const noexcept { return view_; }
+  [[nodiscard]] const MonomialBasis& basis() const noexcept { return basis_; }
+  [[nodiscard]] const SurfaceMesh& surface() const noexcept { return surface_; }
+  [[nodiscard]] const ContactResponse& response() const noexcept { return response_; }
+  [[nodiscard]] const SeparatedField& farField() const noexcept { return far_field_; }
+  [[nodiscard]] const NearField& nearField() const noexcept { return near_field_; }
+  /// Size of the file and of its copy in memory, bytes.
+  [[nodiscard]] std::size_t bytes() const noexcept { return image_.bytes().size(); }
+  /// True when the copy is locked into memory, so that the loop meets no page fault.
+  [[nodiscard]] bool locked() const noexcept { return image_.locked(); }
+
+ private:
+  MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view);
+
+  SealedImage image_;
+  ModelAttributes attributes_;
+  ModelView view_;
+  MonomialBasis basis_;
+  SurfaceMesh surface_;
+  ContactResponse response_;
+  SeparatedField far_field_;
+  NearField near_field_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "palpate/core/contact_point.h"
+#include "palpate/core/meta_model.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+enum class ResponseStatus { kOk, kClamped, kNotAccessible };
+
+/// "ok", "clamped", "not_accessible".
+[[nodiscard]] std::string_view toString(ResponseStatus status) noexcept;
+
+/// What the organ answers to a patch displacement, before release, friction and limits.
+struct Response {
+  Vec3 force = Vec3::Zero();         ///< f, of the tool on the organ, W, N
+  Mat3 stiffness = Mat3::Zero();     ///< df/dd, N/m; beyond the domain that of the clamped map
+  Vec3 displacement = Vec3::Zero();  ///< the d that was used, m
+  double domain_radius{0.0};         ///< d_max(s), m
+};
+
+/// Reaction of the organ to a tool that displaced its contact patch at s by d DESIGN 2.2, 3.1 |d| beyond
+/// domainRadius(s) is scaled to it; stiffness then is df/dd through that projection.
+/// @param[in]  s  contact point of this model's surface, @param[in]  d  W, m, finite
+/// @param[out] out  always written; zero when not accessible
+/// @return kOk, kClamped, or kNotAccessible (the model has no answer at s). Cost O(C). Real-time: yes.
+[[nodiscard]] ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
+                                     Response& out) noexcept PALPATE_NONBLOCKING;
+
+/// Scratch of the field evaluation; one per thread, allocated before the loop.
+struct FieldScratch {
+  explicit FieldScratch(const MetaModel& model);
+  std::vector<float> amplitudes;  ///< [n] y, m
+  std::vector<float> near_block;  ///< NearField::scratchSize()
+};
+
+/// One tool's part in a field.
+struct FieldSource {
+  ContactPoint s;
+  Vec3 d = Vec3::Zero();  ///< m, clamped to the domain like respond() does
+  double gain{1.0};       ///< 0 to 1
+};
+
+/// Displacement of the surface nodes, far plus near field, superposed over the tools DESIGN 2.3
+/// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Real-time: yes.
+void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+                   std::span<float> u) noexcept PALPATE_NONBLOCKING;
+
+/// The same for one tool.
+void evaluateField(const MetaModel& model, const ContactPoint& s, const Vec3& d, FieldScratch& scratch,
+                   std::span<float> u) noexcept PALPATE_NONBLOCKING;
+
+}  // namespace palpate

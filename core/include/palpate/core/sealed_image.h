@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace palpate {
+
+/// A copy of a file in anonymous memory that nobody can write, grow or shrink any more, mapped read-only.
+/// Nothing can change between a check and a use, and truncating the file cannot kill the reader with SIGBUS
+/// DESIGN 3.4
+class SealedImage {
+ public:
+  /// @throw LoadError when the file is no regular file, empty, changes while it is read, or memory is short
+  explicit SealedImage(const std::filesystem::path& path);
+  SealedImage(SealedImage&& other) noexcept;
+  SealedImage& operator=(SealedImage&& other) noexcept;
+  SealedImage(const SealedImage&) = delete;
+  SealedImage& operator=(const SealedImage&) = delete;
+  ~SealedImage();
+
+  [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {data_, size_}; }
+  /// Open file descriptor of the copy, owned by this object.
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+  [[nodiscard]] bool locked() const noexcept { return locked_; }
+
+ private:
+  void copyFrom(const std::filesystem::path& path);
+  void seal(const std::filesystem::path& path) const;
+  void map(const std::filesystem::path& path);
+  void release() noexcept;
+
+  int descriptor_{-1};
+  const std::byte* data_{nullptr};
+  std::size_t size_{0};
+  bool locked_{false};
+};
+
+}  // namespace palpate

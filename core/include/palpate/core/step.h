@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "palpate/core/meta_model.h"
+#include "palpate/core/status_flags.h"
+#include "palpate/core/workspace.h"
+
+namespace palpate {
+
+/// What is known about one tool at the start of a tick. Plain: it crosses threads.
+struct ToolInput {
+  std::uint32_t present{0};          ///< 0: nothing was ever heard of this tool, or it is gone
+  std::array<double, 3> position{};  ///< p_WT, tip centre in world frame W, m
+  std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< q_WT, x y z w
+  std::int64_t age_ns{0};  ///< since the pose arrived, by the server's clock, ns
+};
+
+/// Input of one tick. Plain: it crosses threads.
+struct StepInput {
+  std::array<ToolInput, kMaxTools> tools{};
+  std::int64_t dt_ns{1'000'000};   ///< since the last tick, ns; taken as 0 to 0.1 s
+  std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
+};
+
+/// What one tool gets. Plain: it crosses threads.
+struct ToolResult {
+  std::uint32_t flags{0};             ///< bits of status_flags.h
+  std::uint32_t state{0};             ///< ContactState
+  std::array<double, 3> force{};      ///< on the TOOL (-f), W, N
+  std::array<double, 9> stiffness{};  ///< d force_i / d position_j as rendered, row-major, N/m
+  std::array<double, 3>
+      anchor{};  ///< X(s), rest position, m; when free, the nearest point of the rest surface
+  std::array<double, 3> proxy{};         ///< X(s) + u(X(s)), m: where a viewer draws the contact
+  std::array<double, 3> displacement{};  ///< d as used (clamped), m; zero when free
+  double domain_radius{0.0};             ///< d_max(s), m; zero when free
+  double penetration{0.0};               ///< -d . n as imposed (before clamping), m, >= 0; zero when free
+};
+
+/// Output of one tick; the surface displacement is Workspace::displacement(). Plain: it crosses threads.
+struct StepResult {
+  std::array<ToolResult, kMaxTools> tools{};
+};
+
+static_assert(std::is_trivially_copyable_v<StepInput> && std::is_trivially_copyable_v<StepResult>);
+
+/// kFlagged: some tool has a flag other than kInContact; its answer is safe but not simply the model's.
+enum class StepStatus { kOk, kFlagged };
+
+/// One tick: poses in, forces and the surface's displacement out DESIGN 3.1, 3.2 Bad input never stops it and
+/// never comes out: each has a defined, safe, continuous answer and a flag. Cost O(C n + n Ns). Allocates
+/// nothing, takes no lock, throws nothing. Real-time: yes. Threads: one per Workspace.
+[[nodiscard]] StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
+                              StepResult& result) noexcept PALPATE_NONBLOCKING;
+
+}  // namespace palpate

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "palpate/core/contact_solver.h"
+#include "palpate/core/force_limiter.h"
+#include "palpate/core/meta_model.h"
+#include "palpate/core/response.h"
+#include "palpate/core/step_config.h"
+
+namespace palpate {
+
+inline constexpr int kMaxTools = 4;
+
+/// What one tool carries from tick to tick.
+struct ToolMemory {
+  Contact contact;
+  Rendering rendering;
+  bool known{false};      ///< a good pose was seen
+  bool was_stale{false};  ///< the last tick's force was held past the timeout: bridge when a pose comes back
+  double age{0.0};        ///< s since the last good pose
+};
+
+/// All that lives from tick to tick, and all scratch: the loop's only allocation, made before it. One
+/// thread's.
+class Workspace {
+ public:
+  /// @throw std::invalid_argument naming the first bad field of config
+  Workspace(const MetaModel& model, const StepConfig& config);
+
+  /// Displacement of the surface nodes after the last step, [Ns][3], m.
+  [[nodiscard]] std::span<const float> displacement() const noexcept { return displacement_; }
+  [[nodiscard]] const StepConfig& config() const noexcept { return config_; }
+
+  // step()'s own; nobody else writes them.
+  StepConfig config_;
+  ContactSolver solver_;
+  ForceLimiter limiter_;
+  std::array<ToolMemory, kMaxTools> tools_{};
+  FieldScratch scratch_;
+  std::vector<float> displacement_;
+};
+
+}  // namespace palpate

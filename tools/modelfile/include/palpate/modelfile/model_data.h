@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "palpate/core/model_view.h"
+
+namespace palpate::modelfile {
+
+/// Everything that a model file holds, as vectors. Shapes are row-major as in core/README.md "The model
+/// file"; Ns surface nodes, T triangles, M contact positions, C = MonomialBasis::size(order) coefficients, n
+/// modes, N volume nodes, V tetrahedra. Stored coefficient = true coefficient * d_ref^|alpha|. Indices are
+/// 0-based.
+struct ModelData {
+  ModelAttributes attributes;  ///< law "stvk"; provenance is the text of a JSON object
+
+  std::vector<double> surface_positions;           ///< [Ns][3] m
+  std::vector<std::int32_t> surface_triangles;     ///< [T][3] counter-clockwise from outside
+  std::vector<std::int64_t> surface_mesh_tag;      ///< [Ns]
+  std::vector<std::int32_t> position_of_node;      ///< [Ns] or -1
+  std::vector<std::int32_t> contact_node;          ///< [M]
+  std::vector<std::uint8_t> contact_accessible;    ///< [M] 0 or 1
+  std::vector<double> contact_force;               ///< [M][C][3] N
+  std::vector<double> contact_domain_radius;       ///< [M] m
+  std::vector<float> modes_X;                      ///< [n][3 Ns]
+  std::vector<float> modes_Y;                      ///< [M][C][n] m
+  std::vector<std::int64_t> near_offset;           ///< [M+1]
+  std::vector<std::int32_t> near_node;             ///< [sum K]
+  std::vector<float> near_field;                   ///< per position [C][K_m][3] m
+  std::vector<double> mesh_nodes;                  ///< [N][3] m
+  std::vector<std::int32_t> mesh_tetrahedra;       ///< [V][4]
+  std::vector<std::int64_t> mesh_node_tag;         ///< [N]
+  std::vector<std::int64_t> mesh_tetrahedron_tag;  ///< [V]
+  std::vector<std::int32_t> mesh_fixed;            ///< volume nodes
+  std::vector<std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
+};
+
+}  // namespace palpate::modelfile
