@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/offline/series.h"
+
+#include <gtest/gtest.h>
+
+#include "boxes.h"
+#include "palpate/offline/newton.h"
+
+namespace palpate::offline {
+namespace {
+
+class BlockSeries : public ::testing::Test {
+ protected:
+  static constexpr int kOrder = 4;
+  const Box box_{6, 5, 4, Vec3(0.06, 0.05, 0.04)};
+
+  struct Case {
+    explicit Case(const Box& box, double E)
+        : model(box.clamped({E, 0.45})), surface(box.surface(model)), factor(model) {
+      factor.factorize(Eigen::VectorXd::Zero(3 * model.nodeCount()));
+      for (const int node : {box.node(4, 2, 4), box.node(6, 3, 2), box.node(3, 5, 2)}) {
+        const auto at = std::find(surface.nodes.begin(), surface.nodes.end(), node) - surface.nodes.begin();
+        patches.push_back(makePatch(model, surface, surface.atNode(static_cast<int>(at)), 0.012));
+      }
+    }
+    FeModel model;
+    ContactSurface surface;
+    Cholesky factor;
+    std::vector<Patch> patches;
+  };
+
+  static Vec3 force(const SeriesSolver& series, int lane, const Vec3& d) {
+    std::vector<double> value(static_cast<std::size_t>(series.basis().size()));
+    series.basis().evaluate(d, value);
+    Vec3 f = Vec3::Zero();
+    for (int k = 0; k < series.basis().size(); ++k)
+      f += value[static_cast<std::size_t>(k)] * series.force(lane, k);
+    return f;
+  }
+};
+
+TEST_F(BlockSeries, AgreesWithNewtonToItsOrder) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, kOrder);
+  series.solve(c.patches);
+  NewtonSolver newton(c.model);
+  const Vec3 direction = Vec3(0.3, -0.5, -0.8).normalized();
+  for (int lane = 0; lane < 3; ++lane) {
+    double error[2];
+    for (int half = 0; half < 2; ++half) {
+      const Vec3 d = (half == 0 ? 4e-3 : 2e-3) * direction;
+      const NewtonResult truth = newton.solvePatch(c.patches[static_cast<std::size_t>(lane)], d, {});
+      error[half] = (force(series, lane, d) - truth.force).norm() / truth.force.norm();
+      std::vector<double> value(static_cast<std::size_t>(series.basis().size()));
+      series.basis().evaluate(d, value);
+      double largest = 0.0;
+      for (int node = 0; node < c.model.nodeCount(); ++node) {
+        Vec3 u = Vec3::Zero();
+        for (int k = 0; k < series.basis().size(); ++k)
+          u += value[static_cast<std::size_t>(k)] * series.displacement(lane, k, node);
+        largest = std::max(largest, (u - truth.u.segment<3>(3 * node)).norm());
+      }
+      EXPECT_LT(largest, 5e-3 * d.norm());
+    }
+    EXPECT_LT(error[0], 5e-3);
+    // Relative error of a series of order p falls with d^p; halving d, by 2^4.
+    EXPECT_LT(error[1], error[0] / 10.0);
+  }
+}
+
+TEST_F(BlockSeries, PatchMovesByExactlyD) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, kOrder);
+  series.solve(c.patches);
+  for (int k = 0; k < series.basis().size(); ++k) {
+    Eigen::VectorXd u(3 * c.model.nodeCount());
+    for (int node = 0; node < c.model.nodeCount(); ++node)
+      u.segment<3>(3 * node) = series.displacement(1, k, node);
+    const Vec3 expected = k < 3 ? Vec3(Vec3::Unit(k)) : Vec3(Vec3::Zero());
+    EXPECT_LT((c.patches[1].average(u) - expected).norm(), 1e-10 * std::max(1.0, u.cwiseAbs().maxCoeff()))
+        << k;
+  }
+}
+
+TEST_F(BlockSeries, ForceIsGradientOfEnergy) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, kOrder);
+  series.solve(c.patches);
+  const MonomialBasis& basis = series.basis();
+  for (int lane = 0; lane < 3; ++lane)
+    for (int k = 0; k < basis.size(); ++k)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < i; ++j) {
+          // d f_i / d d_j = d f_j / d d_i, coefficient of d^gamma with gamma = alpha_k - e_i.
+          MultiIndex gamma = basis[k];
+          if (gamma[static_cast<std::size_t>(i)] == 0) continue;
+          --gamma[static_cast<std::size_t>(i)];
+          MultiIndex with_j = gamma;
+          ++with_j[static_cast<std::size_t>(j)];
+          const int l = basis.find(with_j);
+          const double left = (gamma[static_cast<std::size_t>(i)] + 1) * series.force(lane, k)[j];
+          const double right = (gamma[static_cast<std::size_t>(j)] + 1) * series.force(lane, l)[i];
+          double scale = 0.0;
+          for (int m = basis.begin(gamma[0] + gamma[1] + gamma[2] + 1);
+               m < basis.begin(gamma[0] + gamma[1] + gamma[2] + 2); ++m)
+            scale = std::max(scale, series.force(lane, m).norm());
+          EXPECT_NEAR(left, right, 1e-9 * scale);
+        }
+}
+
+TEST_F(BlockSeries, DisplacementDoesNotDependOnYoungsModulusAndForceIsProportional) {
+  Case soft(box_, 2e3), stiff(box_, 160e3);
+  SeriesSolver a(soft.model, soft.factor, kOrder), b(stiff.model, stiff.factor, kOrder);
+  a.solve(soft.patches);
+  b.solve(stiff.patches);
+  for (int k = 0; k < a.basis().size(); ++k) {
+    EXPECT_LT((80.0 * a.force(0, k) - b.force(0, k)).norm(), 1e-9 * b.force(0, k).norm());
+    const int node = box_.node(5, 3, 4);
+    EXPECT_LT((a.displacement(0, k, node) - b.displacement(0, k, node)).norm(),
+              1e-9 * (1.0 + b.displacement(0, k, node).norm()));
+  }
+}
+
+TEST_F(BlockSeries, ForceErrorInsideTheDomainIsSmall) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, 3);
+  series.solve(c.patches);
+  const std::vector<double> radii = series.domainRadii({});
+  ASSERT_EQ(radii.size(), 3U);
+  NewtonSolver newton(c.model);
+  for (int lane = 0; lane < 3; ++lane) {
+    const double radius = radii[static_cast<std::size_t>(lane)];
+    EXPECT_GT(radius, 1e-3);
+    EXPECT_LT(radius, 0.05);
+    const Vec3 d = radius * Vec3(-0.6, 0.0, -0.8);
+    const NewtonResult truth = newton.solvePatch(c.patches[static_cast<std::size_t>(lane)], d, {});
+    EXPECT_LT((force(series, lane, d) - truth.force).norm(), 0.01 * truth.force.norm());
+    EXPECT_GE(c.model.minDetF(truth.u), 0.25);
+  }
+}
+
+TEST_F(BlockSeries, DomainShrinksAsTheLimitOnDetFRises) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, 3);
+  series.solve(c.patches);
+  DomainCriteria loose;
+  loose.last_order_share = 1e9;
+  DomainCriteria tight = loose;
+  tight.min_det_f = 0.9;
+  const double wide = series.domainRadii(loose)[0];
+  const double narrow = series.domainRadii(tight)[0];
+  EXPECT_LT(narrow, 0.7 * wide);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * c.model.nodeCount());
+  double worst = 1.0;
+  for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0)}) {
+    std::vector<double> value(static_cast<std::size_t>(series.basis().size()));
+    series.basis().evaluate(narrow * direction, value);
+    for (int node = 0; node < c.model.nodeCount(); ++node) {
+      u.segment<3>(3 * node).setZero();
+      for (int k = 0; k < series.basis().size(); ++k)
+        u.segment<3>(3 * node) += value[static_cast<std::size_t>(k)] * series.displacement(0, k, node);
+    }
+    worst = std::min(worst, c.model.minDetF(u));
+  }
+  EXPECT_GE(worst, 0.9 - 1e-6);
+}
+
+}  // namespace
+}  // namespace palpate::offline

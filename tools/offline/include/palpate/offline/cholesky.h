@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "palpate/offline/fe_model.h"
+
+namespace palpate::offline {
+
+/// Factorization of the tangent stiffness on the unknowns of an FeModel, by CHOLMOD (METIS ordering,
+/// supernodal). The symbolic analysis is done once, at construction; factorize() may be called any number of
+/// times.
+class Cholesky {
+ public:
+  explicit Cholesky(const FeModel& model);
+  ~Cholesky();
+  Cholesky(const Cholesky&) = delete;
+  Cholesky& operator=(const Cholesky&) = delete;
+
+  /// Factorizes K_T(u). Falls back to L D L^T when K_T is not positive definite.
+  /// @param u  3 N, m  @throw std::runtime_error when K_T is singular
+  void factorize(const Eigen::VectorXd& u);
+  [[nodiscard]] bool positiveDefinite() const noexcept;
+  /// Non-zeros of the factor.
+  [[nodiscard]] double factorSize() const noexcept;
+  /// Unknowns of K0 x = b. @param b  dofs x columns
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+  /// Solves for many right-hand sides with memory of its own, so that several threads share one factor.
+  class Solver {
+   public:
+    explicit Solver(const Cholesky& factor);
+    ~Solver();
+    Solver(const Solver&) = delete;
+    Solver& operator=(const Solver&) = delete;
+    /// In place, dofs x columns column-major. @throw std::runtime_error when CHOLMOD fails
+    void solveInPlace(Eigen::Ref<Eigen::MatrixXd> b);
+
+   private:
+    struct State;
+    std::unique_ptr<State> state_;
+  };
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace palpate::offline

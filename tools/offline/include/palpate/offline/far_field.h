@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "palpate/core/multi_index.h"
+#include "palpate/offline/field_table.h"
+#include "palpate/offline/patch.h"
+
+namespace palpate::offline {
+
+/// Share of the near field at distance r from s: 1 up to rho / 2, then smoothly (two derivatives) to 0 at
+/// rho. DESIGN 2.3
+[[nodiscard]] double nearWindow(double r, double rho) noexcept;
+
+/// The surface nodes that the near field of one contact position holds.
+struct NearNodes {
+  std::vector<std::int32_t> nodes;  ///< surface nodes with |X_i - X_s| < rho, ascending
+  std::vector<float> window;        ///< nearWindow of each
+};
+
+[[nodiscard]] NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho);
+
+/// What the fit works on. The table holds U_alpha unscaled, rows node-interleaved.
+struct FitProblem {
+  const FieldTable& table;
+  const MonomialBasis& basis;
+  std::span<const double> areas;          ///< Ns, m^2
+  std::span<const NearNodes> near;        ///< M
+  std::span<const double> domain_radius;  ///< M, m
+  double reference_displacement;          ///< d_ref, m
+};
+
+struct FitOptions {
+  int modes{100};  ///< n, >= 1
+  int sweeps{12};  ///< alternating-direction sweeps
+  int workers{1};
+  bool quiet{false};
+};
+
+/// u_far(X; s, d) = sum_k X_k(X) sum_alpha (d / d_ref)^alpha Y_k,alpha(s)                       DESIGN 2.3
+struct FarField {
+  Eigen::MatrixXf X;  ///< 3 Ns x n, node-interleaved; orthonormal in the area-weighted product; by energy
+  Eigen::MatrixXf Y;  ///< n x (M C), column position * C + k, m
+  std::vector<double> errors;  ///< after each sweep: RMS error of the three parts together over the RMS field
+};
+
+/// Weighted alternating directions: least squares in X and Y in turn of what remains wrong after the near
+/// field has done its part, the weight of node i for position s being A_i (1 - window(r_is))^2; over d
+/// uniform in the ball |d| <= min(d_ref, d_max(s)), relative to |d|. Entries under a window of 1 are free.
+/// DESIGN 2.3 Reads the table once a sweep. @throw std::runtime_error on a bad table
+[[nodiscard]] FarField fitFarField(const FitProblem& problem, const FitOptions& options);
+
+}  // namespace palpate::offline

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "palpate/offline/fe_model.h"
+
+namespace palpate::offline {
+
+/// A point of the rest surface: a triangle and barycentric weights (sum 1).
+struct SurfacePoint {
+  int triangle{-1};
+  std::array<double, 3> barycentric{};
+};
+
+/// The surface that a tool may touch, in surface-node numbering, with what patches are measured by.
+struct ContactSurface {
+  std::vector<std::int32_t> nodes;                     ///< Ns volume nodes
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, outward
+  std::vector<Vec3> positions;                         ///< Ns, m
+  std::vector<double> areas;                           ///< Ns lumped rest areas A_i, m^2
+  std::vector<std::vector<std::int32_t>> triangles_of_node;
+
+  ContactSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
+                 std::vector<std::array<std::int32_t, 3>> surface_triangles);
+
+  [[nodiscard]] Vec3 position(const SurfacePoint& s) const;
+  /// The point that is surface node i.
+  [[nodiscard]] SurfacePoint atNode(int node) const;
+  /// Median edge length, m.
+  [[nodiscard]] double medianEdge() const;
+};
+
+/// The contact patch G_s of DESIGN 1: G_s f = nodal forces w_i f, G_s^T u = sum w_i u_i.
+struct Patch {
+  std::vector<std::int32_t> nodes;  ///< volume nodes, free ones only
+  std::vector<double> weights;      ///< w_i, sum 1
+  double free_share{0.0};           ///< weight on free nodes before renormalization, in [0, 1]
+
+  void addForce(const Vec3& f, Eigen::VectorXd& nodal) const {
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodal.segment<3>(3 * nodes[i]) += weights[i] * f;
+  }
+  [[nodiscard]] Vec3 average(const Eigen::VectorXd& u) const {
+    Vec3 d = Vec3::Zero();
+    for (std::size_t i = 0; i < nodes.size(); ++i) d += weights[i] * u.segment<3>(3 * nodes[i]);
+    return d;
+  }
+};
+
+/// Distances along the surface from s to the nodes nearer than a bound, by a front that unfolds one triangle
+/// at a time: exact on a flat (or developable) surface where the shortest path crosses the edge it is
+/// unfolded over, else the shorter way along an edge. DESIGN 2.3
+/// @return pairs (surface node, distance in m), nearest first
+[[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const ContactSurface& surface,
+                                                                            const SurfacePoint& s,
+                                                                            double bound);
+
+/// w_i(s) proportional to A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, restricted to free nodes, sum 1.  DESIGN
+/// 1, 2.3 A patch no node of which is free comes back empty with free_share 0.
+[[nodiscard]] Patch makePatch(const FeModel& model, const ContactSurface& surface, const SurfacePoint& s,
+                              double a);
+
+}  // namespace palpate::offline

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "domain.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::offline {
+
+namespace {
+
+bool forceIsTrusted(const MonomialBasis& basis, std::span<const Vec3> force, const DomainCriteria& criteria,
+                    const Vec3& d) {
+  std::array<double, MonomialBasis::kMaxCoefficients> value{};
+  std::array<Vec3, MonomialBasis::kMaxCoefficients> slope;
+  basis.evaluate(d, value);
+  basis.gradient(d, slope);
+  Vec3 f = Vec3::Zero();
+  Vec3 last = Vec3::Zero();
+  Mat3 K = Mat3::Zero();
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    f += value[i] * force[i];
+    K += force[i] * slope[i].transpose();
+    if (k >= basis.begin(basis.order())) last += value[i] * force[i];
+  }
+  // A series of order 1 has no higher terms to be judged by.
+  if (basis.order() > 1 && last.norm() > criteria.last_order_share * f.norm()) return false;
+  const Mat3 symmetric = 0.5 * (K + K.transpose());
+  return Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0.0;
+}
+
+/// x^alpha for x = radius * direction, per lane.
+LaneVector laneMonomials(const MonomialBasis& basis, const Vec3& direction, const Lanes& radius) {
+  std::array<double, MonomialBasis::kMaxCoefficients> unit{};
+  basis.evaluate(direction, unit);
+  LaneVector monomials(static_cast<std::size_t>(basis.size()));
+  for (int degree = 1; degree <= basis.order(); ++degree) {
+    Lanes power = radius;
+    for (int n = 1; n < degree; ++n) power *= radius;
+    for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k)
+      monomials[static_cast<std::size_t>(k)] = power * unit[static_cast<std::size_t>(k)];
+  }
+  return monomials;
+}
+
+/// The elements in which some lane could pass below the limit: det F >= (1 - |H|)^3.
+std::vector<int> suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
+                          const Lanes& radius) {
+  LaneVector powers(static_cast<std::size_t>(basis.size()));
+  for (int degree = 1; degree <= basis.order(); ++degree) {
+    Lanes power = radius;
+    for (int n = 1; n < degree; ++n) power *= radius;
+    for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k) {
+      // 26 directions: |x^alpha| <= |x|^|alpha|, times how often the symmetric tensor holds the monomial is
+      // not needed, since the coefficients already carry it.
+      powers[static_cast<std::size_t>(k)] = power;
+    }
+  }
+  LaneVector bounds(static_cast<std::size_t>(input.element_count));
+  gradientBounds(input, powers.data(), bounds.data());
+  const double harmless = 1.0 - std::cbrt(min_det_f);
+  std::vector<int> found;
+  for (int e = 0; e < input.element_count; ++e) {
+    double largest = 0.0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      largest = std::max(largest, bounds[static_cast<std::size_t>(e)][lane]);
+    if (!(largest < harmless)) found.push_back(e);
+  }
+  return found;
+}
+
+}  // namespace
+
+const std::vector<Vec3>& sampledDirections() {
+  static const std::vector<Vec3> directions = [] {
+    std::vector<Vec3> list;
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (x != 0 || y != 0 || z != 0) list.push_back(Vec3(x, y, z).normalized());
+    return list;
+  }();
+  return directions;
+}
+
+double forceRadius(const MonomialBasis& basis, std::span<const Vec3> force, const DomainCriteria& criteria) {
+  constexpr int kScan = 100;  // the radius is found by a scan, then by halving between two samples
+  double radius = criteria.cap;
+  for (const Vec3& direction : sampledDirections()) {
+    const auto trusted = [&](double r) { return forceIsTrusted(basis, force, criteria, r * direction); };
+    double good = 0.0;
+    const double step = criteria.cap / kScan;
+    while (good < radius && trusted(std::min(good + step, radius))) good = std::min(good + step, radius);
+    double bad = std::min(good + step, radius);
+    for (int halving = 0; halving < 12 && good < radius; ++halving) {
+      const double middle = 0.5 * (good + bad);
+      (trusted(middle) ? good : bad) = middle;
+      if (bad - good < 1e-3 * step) break;
+    }
+    radius = std::min(radius, good);
+  }
+  return radius;
+}
+
+void limitByDetF(const MonomialBasis& basis, const KernelInput& input, const DomainCriteria& criteria,
+                 std::span<double> radii) {
+  Lanes radius{};
+  for (std::size_t lane = 0; lane < radii.size(); ++lane) radius[static_cast<int>(lane)] = radii[lane];
+  for (const int element : suspects(basis, input, criteria.min_det_f, radius)) {
+    for (const Vec3& direction : sampledDirections()) {
+      // Ten halvings of what is too far: to a thousandth of the radius that was offered.
+      Lanes good{};
+      Lanes tried = radius;
+      Lanes step = 0.5 * radius;
+      const Lanes offered = radius;
+      for (int halving = 0; halving < 11; ++halving) {
+        Lanes det;
+        detF(input, element, laneMonomials(basis, direction, tried).data(), &det);
+        bool all_good = true;
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const bool fine = det[lane] >= criteria.min_det_f;
+          if (fine) good[lane] = std::max(good[lane], tried[lane]);
+          if (good[lane] == offered[lane]) continue;
+          all_good = false;
+          tried[lane] += fine ? step[lane] : -step[lane];
+          step[lane] *= 0.5;
+        }
+        if (all_good) break;
+      }
+      radius = good;
+    }
+  }
+  for (std::size_t lane = 0; lane < radii.size(); ++lane) radii[lane] = radius[static_cast<int>(lane)];
+}
+
+}  // namespace palpate::offline

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/offline/far_field.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "palpate/offline/parallel.h"
+#include "palpate/offline/progress.h"
+
+namespace palpate::offline {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::MatrixXf;
+using Eigen::VectorXd;
+
+constexpr std::size_t kChunk = 32;  // positions read and multiplied at once
+
+/// Mean of x^alpha over the unit ball; zero unless all exponents are even.
+double ballMoment(const std::array<int, 3>& a) {
+  const auto odd = [](int n) { return n % 2 != 0; };
+  if (odd(a[0]) || odd(a[1]) || odd(a[2])) return 0.0;
+  double sphere = 1.0;  // (a_x - 1)!! (a_y - 1)!! (a_z - 1)!! / (n + 1)!!
+  int n = 0;
+  for (const int exponent : a) {
+    for (int k = exponent - 1; k > 1; k -= 2) sphere *= k;
+    n += exponent;
+  }
+  for (int k = n + 1; k > 1; k -= 2) sphere /= k;
+  return sphere * 3.0 / (n + 3.0);
+}
+
+/// L with L L^T = M, M_kl the mean of x^(alpha_k + alpha_l) over the unit ball.
+MatrixXd momentFactor(const MonomialBasis& basis) {
+  MatrixXd M(basis.size(), basis.size());
+  for (int k = 0; k < basis.size(); ++k)
+    for (int l = 0; l < basis.size(); ++l)
+      M(k, l) = ballMoment({basis[k][0] + basis[l][0], basis[k][1] + basis[l][1], basis[k][2] + basis[l][2]});
+  return M.llt().matrixL();
+}
+
+class Fit {
+ public:
+  Fit(const FitProblem& problem, const FitOptions& options);
+  FarField run();
+
+ private:
+  struct Worker {
+    std::vector<float> fields;
+    MatrixXd row_rhs;    // 3 Ns x n, what the X-step is fed with
+    double error{0.0};   // weighted square of what remains
+    double energy{0.0};  // weighted square of the field
+  };
+  [[nodiscard]] std::size_t chunks() const { return (positions_ + kChunk - 1) / kChunk; }
+  [[nodiscard]] Eigen::Map<MatrixXf> readChunk(Worker& worker, std::size_t first, std::size_t count) const;
+  [[nodiscard]] MatrixXf whitening(std::size_t position) const;
+  void sketch();
+  void sweep(bool last);
+  void solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker);
+  void feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker);
+  void solveX(const MatrixXd& rhs);
+  void orthonormalize(MatrixXd X);
+  void orderByEnergy();
+
+  const FitProblem& problem_;
+  FitOptions options_;
+  Eigen::Index rows_, coefficients_, modes_;
+  std::size_t positions_;
+  MatrixXd moment_factor_;  // C x C
+  VectorXd row_area_;       // 3 Ns, sums to 3
+  FarField result_;
+  std::vector<std::vector<std::pair<std::int32_t, float>>>
+      positions_near_;  // node -> (position, 1 - (1 - window)^2)
+  std::vector<Worker> workers_;
+};
+
+/// Weight that the near field takes away from a node.
+float covered(float window) {
+  return 1.0F - (1.0F - window) * (1.0F - window);
+}
+
+Fit::Fit(const FitProblem& problem, const FitOptions& options)
+    : problem_(problem),
+      options_(options),
+      rows_(static_cast<Eigen::Index>(problem.table.rows())),
+      coefficients_(problem.basis.size()),
+      modes_(options.modes),
+      positions_(problem.table.positions()),
+      moment_factor_(momentFactor(problem.basis)),
+      row_area_(rows_),
+      workers_(static_cast<std::size_t>(std::max(1, options.workers))) {
+  modes_ = std::min({modes_, rows_, static_cast<Eigen::Index>(positions_) * coefficients_});
+  double total = 0.0;
+  for (const double area : problem.areas) total += area;
+  for (Eigen::Index row = 0; row < rows_; ++row)
+    row_area_[row] = problem.areas[static_cast<std::size_t>(row / 3)] / total;
+  positions_near_.resize(problem.areas.size());
+  for (std::size_t s = 0; s < positions_; ++s)
+    for (std::size_t j = 0; j < problem.near[s].nodes.size(); ++j)
+      positions_near_[static_cast<std::size_t>(problem.near[s].nodes[j])].emplace_back(
+          static_cast<std::int32_t>(s), covered(problem.near[s].window[j]));
+  result_.Y = MatrixXf::Zero(modes_, static_cast<Eigen::Index>(positions_) * coefficients_);
+}
+
+/// Columns position * C + k, scaled by d_ref^|alpha|: metres.
+Eigen::Map<MatrixXf> Fit::readChunk(Worker& worker, std::size_t first, std::size_t count) const {
+  problem_.table.read(first, count, worker.fields);
+  Eigen::Map<MatrixXf> A(worker.fields.data(), rows_, static_cast<Eigen::Index>(count) * coefficients_);
+  for (Eigen::Index column = 0; column < A.cols(); ++column) {
+    const MultiIndex& a = problem_.basis[static_cast<int>(column % coefficients_)];
+    A.col(column) *= static_cast<float>(std::pow(problem_.reference_displacement, a[0] + a[1] + a[2]));
+  }
+  return A;
+}
+
+/// C x C: times this, the columns of one position are orthonormal in the mean over the ball, relative to |d|.
+MatrixXf Fit::whitening(std::size_t position) const {
+  const double travel = std::min(1.0, problem_.domain_radius[position] / problem_.reference_displacement);
+  MatrixXd D = moment_factor_;
+  for (Eigen::Index k = 0; k < coefficients_; ++k) {
+    const MultiIndex& a = problem_.basis[static_cast<int>(k)];
+    D.row(k) *= std::pow(std::max(travel, 1e-3), a[0] + a[1] + a[2] - 1) / problem_.reference_displacement;
+  }
+  return D.cast<float>();
+}
+
+/// A first basis: the range of the table met by random numbers (a randomized range finder, one pass).
+void Fit::sketch() {
+  for (Worker& worker : workers_) worker.row_rhs = MatrixXd::Zero(rows_, modes_);
+  parallelFor(options_.workers, chunks(), [&](int w, std::size_t chunk) {
+    Worker& worker = workers_[static_cast<std::size_t>(w)];
+    const std::size_t first = chunk * kChunk;
+    const std::size_t count = std::min(kChunk, positions_ - first);
+    const Eigen::Map<MatrixXf> A = readChunk(worker, first, count);
+    std::mt19937 random(static_cast<std::mt19937::result_type>(chunk));
+    std::normal_distribution<float> normal;
+    for (std::size_t i = 0; i < count; ++i) {
+      const MatrixXf noise = MatrixXf::NullaryExpr(coefficients_, modes_, [&] { return normal(random); });
+      const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
+      worker.row_rhs += (A.middleCols(column, coefficients_) * (whitening(first + i) * noise)).cast<double>();
+    }
+  });
+  MatrixXd X = workers_[0].row_rhs;
+  for (std::size_t w = 1; w < workers_.size(); ++w) X += workers_[w].row_rhs;
+  orthonormalize(X);
+}
+
+/// X <- X R^-1 with X^T diag(area) X = R^T R; twice, since the first basis may be nearly dependent.
+void Fit::orthonormalize(MatrixXd X) {
+  for (int pass = 0; pass < 2; ++pass) {
+    MatrixXd gram = X.transpose() * row_area_.asDiagonal() * X;
+    gram.diagonal().array() += 1e-14 * gram.trace();
+    const Eigen::LLT<MatrixXd> llt(gram);
+    X = llt.matrixL().solve(X.transpose()).transpose().eval();
+  }
+  if (!X.allFinite()) throw std::runtime_error("the fit of the modes broke down: the fields are not finite");
+  result_.X = X.cast<float>();
+}
+
+/// Y-step: for each position n x n normal equations with the covered nodes taken out; shared by its
+/// coefficients.
+void Fit::solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker) {
+  const MatrixXf weighted = row_area_.cast<float>().asDiagonal() * result_.X;
+  MatrixXf rhs = weighted.transpose() * A;
+  const MatrixXd gram = (weighted.transpose() * result_.X).cast<double>();
+  for (std::size_t i = 0; i < count; ++i) {
+    const NearNodes& near = problem_.near[first + i];
+    const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
+    const auto K = static_cast<Eigen::Index>(near.nodes.size());
+    MatrixXf Xn(3 * K, modes_), An(3 * K, coefficients_);
+    for (Eigen::Index j = 0; j < K; ++j) {
+      const Eigen::Index row = 3 * near.nodes[static_cast<std::size_t>(j)];
+      const auto root = static_cast<float>(
+          std::sqrt(double{covered(near.window[static_cast<std::size_t>(j)])} * row_area_[row]));
+      Xn.middleRows<3>(3 * j) = root * result_.X.middleRows<3>(row);
+      An.middleRows<3>(3 * j) = root * A.block(row, column, 3, coefficients_);
+    }
+    const MatrixXf near_gram = Xn.transpose() * Xn;
+    MatrixXd normal = gram - near_gram.cast<double>();
+    normal.diagonal().array() += 1e-6;  // X is orthonormal: against what only covered nodes would see
+    const MatrixXf near_rhs = Xn.transpose() * An;
+    const MatrixXd b = (rhs.middleCols(column, coefficients_) - near_rhs).cast<double>();
+    const MatrixXd Y = normal.llt().solve(b);
+    result_.Y.middleCols(static_cast<Eigen::Index>(first) * coefficients_ + column, coefficients_) =
+        Y.cast<float>();
+    // |A - X Y|^2 in the weights, from the normal equations: |A|^2 - Y : b.
+    const MatrixXf W = whitening(first + i);
+    const MatrixXf AW = A.middleCols(column, coefficients_) * W;
+    const MatrixXf AnW = An * W;
+    const double all = (row_area_.cast<float>().cwiseSqrt().asDiagonal() * AW).cast<double>().squaredNorm();
+    const double outside = all - AnW.cast<double>().squaredNorm();
+    const MatrixXd Wd = W.cast<double>();
+    worker.energy += all;
+    worker.error += std::max(0.0, outside - (Y * Wd).cwiseProduct(b * Wd).sum());
+  }
+}
+
+/// Right-hand side of the X-step: A W W^T Y^T with the covered share of each near row taken out.
+void Fit::feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker) {
+  MatrixXf V(A.cols(), modes_);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
+    const MatrixXf W = whitening(first + i);
+    const auto Y =
+        result_.Y.middleCols(static_cast<Eigen::Index>(first) * coefficients_ + column, coefficients_);
+    V.middleRows(column, coefficients_) = W * (W.transpose() * Y.transpose());
+    const NearNodes& near = problem_.near[first + i];
+    MatrixXf An(static_cast<Eigen::Index>(3 * near.nodes.size()), coefficients_);
+    for (std::size_t j = 0; j < near.nodes.size(); ++j)
+      An.middleRows<3>(static_cast<Eigen::Index>(3 * j)) =
+          covered(near.window[j]) * A.block(3 * near.nodes[j], column, 3, coefficients_);
+    const MatrixXf near_part = An * V.middleRows(column, coefficients_);
+    for (std::size_t j = 0; j < near.nodes.size(); ++j)
+      worker.row_rhs.middleRows<3>(3 * near.nodes[j]) -=
+          near_part.middleRows<3>(static_cast<Eigen::Index>(3 * j)).cast<double>();
+  }
+  const MatrixXf product = A * V;
+  worker.row_rhs += product.cast<double>();
+}
+
+/// X-step: one n x n system a node, from all positions but the covered share of those near it.
+void Fit::solveX(const MatrixXd& rhs) {
+  MatrixXf Z(result_.Y.rows(), result_.Y.cols());
+  for (std::size_t s = 0; s < positions_; ++s) {
+    const Eigen::Index column = static_cast<Eigen::Index>(s) * coefficients_;
+    Z.middleCols(column, coefficients_) = result_.Y.middleCols(column, coefficients_) * whitening(s);
+  }
+  const MatrixXf all_f = Z * Z.transpose();
+  const MatrixXd all = all_f.cast<double>();
+  const double ridge = 1e-9 * all.trace() / static_cast<double>(modes_);
+  MatrixXd X(rows_, modes_);
+  parallelFor(options_.workers, problem_.areas.size(), [&](int, std::size_t node) {
+    const auto& near = positions_near_[node];
+    MatrixXf Zn(modes_, static_cast<Eigen::Index>(near.size()) * coefficients_);
+    for (std::size_t j = 0; j < near.size(); ++j)
+      Zn.middleCols(static_cast<Eigen::Index>(j) * coefficients_, coefficients_) =
+          std::sqrt(near[j].second) * Z.middleCols(near[j].first * coefficients_, coefficients_);
+    const MatrixXf taken = Zn * Zn.transpose();
+    MatrixXd normal = all - taken.cast<double>();
+    normal.diagonal().array() += ridge;
+    const auto row = static_cast<Eigen::Index>(3 * node);
+    X.middleRows<3>(row) = normal.llt().solve(rhs.middleRows<3>(row).transpose()).transpose();
+  });
+  orthonormalize(X);
+}
+
+void Fit::sweep(bool last) {
+  for (Worker& worker : workers_) {
+    worker.row_rhs = MatrixXd::Zero(rows_, modes_);
+    worker.error = worker.energy = 0.0;
+  }
+  parallelFor(options_.workers, chunks(), [&](int w, std::size_t chunk) {
+    Worker& worker = workers_[static_cast<std::size_t>(w)];
+    const std::size_t first = chunk * kChunk;
+    const std::size_t count = std::min(kChunk, positions_ - first);
+    const Eigen::Map<MatrixXf> A = readChunk(worker, first, count);
+    solveY(A, first, count, worker);
+    if (!last) feedX(A, first, count, worker);
+  });
+  double error = 0.0;
+  double energy = 0.0;
+  for (const Worker& worker : workers_) {
+    error += worker.error;
+    energy += worker.energy;
+  }
+  result_.errors.push_back(std::sqrt(error / std::max(energy, 1e-300)));
+  if (last) return;
+  MatrixXd rhs = workers_[0].row_rhs;
+  for (std::size_t w = 1; w < workers_.size(); ++w) rhs += workers_[w].row_rhs;
+  solveX(rhs);
+}
+
+/// Turns the modes so that Y's mean square is diagonal and falls.
+void Fit::orderByEnergy() {
+  MatrixXf Z(result_.Y.rows(), result_.Y.cols());
+  for (std::size_t s = 0; s < positions_; ++s) {
+    const Eigen::Index column = static_cast<Eigen::Index>(s) * coefficients_;
+    Z.middleCols(column, coefficients_) = result_.Y.middleCols(column, coefficients_) * whitening(s);
+  }
+  const MatrixXf gram = Z * Z.transpose();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram.cast<double>());
+  const MatrixXf turn = eigen.eigenvectors().rowwise().reverse().cast<float>();
+  result_.X = (result_.X * turn).eval();
+  result_.Y = (turn.transpose() * result_.Y).eval();
+}
+
+FarField Fit::run() {
+  Progress progress("far field", static_cast<std::size_t>(options_.sweeps) + 2, options_.quiet);
+  sketch();
+  progress.advance();
+  for (int i = 0; i < options_.sweeps; ++i) {
+    sweep(false);
+    progress.advance();
+  }
+  sweep(true);
+  orderByEnergy();
+  progress.advance();
+  return std::move(result_);
+}
+
+}  // namespace
+
+double nearWindow(double r, double rho) noexcept {
+  const double t = std::clamp(2.0 * r / rho - 1.0, 0.0, 1.0);
+  return 1.0 - t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
+
+NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho) {
+  NearNodes near;
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const double r = (surface.positions[i] - x).norm();
+    if (r >= rho) continue;
+    near.nodes.push_back(static_cast<std::int32_t>(i));
+    near.window.push_back(static_cast<float>(nearWindow(r, rho)));
+  }
+  return near;
+}
+
+FarField fitFarField(const FitProblem& problem, const FitOptions& options) {
+  if (problem.table.positions() == 0 || options.modes < 1)
+    throw std::runtime_error("nothing to fit: no contact positions or no modes");
+  return Fit(problem, options).run();
+}
+
+}  // namespace palpate::offline

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/offline/newton.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace palpate::offline {
+
+namespace {
+
+Eigen::VectorXd toDofs(const FeModel& model, const Eigen::VectorXd& nodal) {
+  Eigen::VectorXd b(model.dofCount());
+  for (int node = 0; node < model.nodeCount(); ++node)
+    if (model.isFree(node)) b.segment<3>(model.dof(node)) = nodal.segment<3>(3 * node);
+  return b;
+}
+
+void addDofs(const FeModel& model, const Eigen::VectorXd& step, Eigen::VectorXd& u) {
+  for (int node = 0; node < model.nodeCount(); ++node)
+    if (model.isFree(node)) u.segment<3>(3 * node) += step.segment<3>(model.dof(node));
+}
+
+/// Largest free nodal force that is out of balance, relative to the largest internal one (reactions
+/// included).
+double imbalance(const FeModel& model, const Eigen::VectorXd& internal, const Eigen::VectorXd& external) {
+  const double scale = std::max(internal.cwiseAbs().maxCoeff(), external.cwiseAbs().maxCoeff());
+  const double largest = toDofs(model, external - internal).cwiseAbs().maxCoeff();
+  return scale > 0.0 ? largest / scale : 0.0;
+}
+
+struct LoadProblem {
+  const FeModel& model;
+  Cholesky& factor;
+  const Eigen::VectorXd& load;
+
+  void aim(double level, NewtonResult& /*state*/) { external = level * load; }
+  double error(const NewtonResult& state) {
+    internal = model.internalForce(state.u);
+    return imbalance(model, internal, external);
+  }
+  void improve(NewtonResult& state) {
+    factor.factorize(state.u);
+    addDofs(model, factor.solve(toDofs(model, external - internal)), state.u);
+  }
+  Eigen::VectorXd external, internal;
+};
+
+struct PatchProblem {
+  const FeModel& model;
+  Cholesky& factor;
+  const Patch& patch;
+  const Vec3& d;
+
+  void aim(double level, NewtonResult& /*state*/) { target = level * d; }
+  double error(const NewtonResult& state) {
+    internal = model.internalForce(state.u);
+    external = Eigen::VectorXd::Zero(internal.size());
+    patch.addForce(state.force, external);
+    const double off = (patch.average(state.u) - target).norm() / std::max(target.norm(), 1e-300);
+    return std::max(imbalance(model, internal, external), off);
+  }
+  /// [K -G; G^T 0] [du; df] = [G f - f_int; d - G^T u], by the 3 x 3 Schur complement of K.
+  void improve(NewtonResult& state) {
+    factor.factorize(state.u);
+    Eigen::MatrixXd b(model.dofCount(), 4);
+    b.col(0) = toDofs(model, external - internal);
+    for (int c = 0; c < 3; ++c) {
+      Eigen::VectorXd unit = Eigen::VectorXd::Zero(3 * model.nodeCount());
+      patch.addForce(Vec3::Unit(c), unit);
+      b.col(c + 1) = toDofs(model, unit);
+    }
+    const Eigen::MatrixXd x = factor.solve(b);
+    const Eigen::Matrix<double, 3, 4> averages = b.rightCols<3>().transpose() * x;
+    const Vec3 gap = target - patch.average(state.u) - averages.col(0);
+    const Vec3 df = averages.rightCols<3>().partialPivLu().solve(gap);
+    addDofs(model, x.col(0) + x.rightCols<3>() * df, state.u);
+    state.force += df;
+  }
+  Vec3 target{Vec3::Zero()};
+  Eigen::VectorXd external, internal;
+};
+
+/// Newton at one level. @return whether it converged; state is then the solution
+template <typename Problem>
+bool converge(Problem& problem, NewtonResult& state, const NewtonOptions& options) {
+  double previous = problem.error(state);
+  for (int i = 0; i < options.max_iterations; ++i) {
+    try {
+      problem.improve(state);
+    } catch (const std::runtime_error&) {
+      return false;  // singular tangent: the caller takes a smaller step
+    }
+    ++state.iterations;
+    state.residual = problem.error(state);
+    if (!std::isfinite(state.residual) || state.residual > 1e6) return false;
+    // Rounding may keep the residual just above the tolerance; then it no longer falls.
+    const bool stagnated = state.residual < 1e3 * options.tolerance && state.residual > 0.5 * previous;
+    if (state.residual <= options.tolerance || stagnated) return true;
+    previous = state.residual;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <typename Problem>
+NewtonResult NewtonSolver::walk(Problem problem, const NewtonOptions& options) {
+  NewtonResult state;
+  state.u = Eigen::VectorXd::Zero(3 * model_.nodeCount());
+  double level = 0.0;
+  double step = 1.0 / std::max(options.steps, 1);
+  int halvings = 0;
+  while (level < 1.0) {
+    NewtonResult attempt = state;
+    const double next = level + step > 1.0 - 1e-9 ? 1.0 : level + step;
+    problem.aim(next, attempt);
+    if (converge(problem, attempt, options)) {
+      state = attempt;
+      level = next;
+      halvings = 0;
+    } else if (++halvings > options.max_halvings) {
+      throw std::runtime_error("Newton does not converge beyond " + std::to_string(level) +
+                               " of the prescribed load (step " + std::to_string(step) + ")");
+    } else {
+      step *= 0.5;
+    }
+  }
+  return state;
+}
+
+NewtonResult NewtonSolver::solveLoad(const Eigen::VectorXd& load, const NewtonOptions& options) {
+  return walk(LoadProblem{model_, factor_, load, {}, {}}, options);
+}
+
+NewtonResult NewtonSolver::solvePatch(const Patch& patch, const Vec3& d, const NewtonOptions& options) {
+  if (d.norm() == 0.0) {
+    NewtonResult rest;
+    rest.u = Eigen::VectorXd::Zero(3 * model_.nodeCount());
+    return rest;
+  }
+  return walk(PatchProblem{model_, factor_, patch, d, Vec3::Zero(), {}, {}}, options);
+}
+
+}  // namespace palpate::offline

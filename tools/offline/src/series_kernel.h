@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "palpate/core/multi_index.h"
+#include "palpate/offline/fe_model.h"
+#include "palpate/offline/lanes.h"
+
+namespace palpate::offline {
+
+/// The unordered pairs {b, c}, b + c = alpha, both of degree >= 1, that make up each coefficient.
+struct CauchyProduct {
+  struct Pair {
+    int b;
+    int c;
+  };
+  explicit CauchyProduct(const MonomialBasis& basis);
+  std::vector<Pair> pairs;
+  std::vector<int> begin;  ///< coefficients + 1, offsets into pairs
+};
+
+/// One element of the mesh as the kernels read it.
+struct KernelElement {
+  std::array<std::int32_t, 4> nodes;
+  std::array<std::array<double, 3>, 4> gradients;  ///< dN_a/dX, 1/m
+  double volume;                                   ///< m^3
+};
+
+/// What the kernels work on. U holds all coefficients of all nodes, [node][k][3] lanes.
+struct KernelInput {
+  const KernelElement* elements;
+  int element_count;
+  int coefficients;  ///< stride of U
+  const Lanes* U;
+  double lambda;  ///< Pa
+  double mu;      ///< Pa
+};
+
+/// r[node][k - first][3] += r_alpha for the coefficients first <= k < last of one degree:
+///   S'_alpha = C : sum H_b^T H_c / 2,  r_alpha = int (S'_alpha + sum H_b S_c) : grad delta     DESIGN 2.2
+/// The coefficients below `first` must be in U.
+void assembleDegree(const KernelInput& input, const CauchyProduct& product, int first, int last, Lanes* r);
+
+/// det F of one element: F = I + sum x^alpha H_alpha.
+/// @param monomials  [k] lanes: x^alpha of each lane's sample  @param[out] det  det F, one a lane
+void detF(const KernelInput& input, int element, const Lanes* monomials, Lanes* det);
+
+/// sum_k radius^|alpha_k| |H_alpha_k|_F of one element: a bound of |H|_F in the ball |d| <= radius.
+/// @param powers  [k] lanes: radius^|alpha_k|
+void gradientBounds(const KernelInput& input, const Lanes* powers, Lanes* bounds);
+
+}  // namespace palpate::offline
