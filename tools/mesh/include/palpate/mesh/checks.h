@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palpate/mesh/tet_mesh.h"
+
+namespace palpate::mesh {
+
+/// Turns every tetrahedron over when all of them have negative volume, a convention of some exporters.
+/// @return true if it did; a mesh with both signs stays as it is, for checkMesh() to refuse.
+bool reorientIfAllNegative(TetMesh& mesh);
+
+/// Refuses what the solver cannot take, in this order: empty mesh, wrong array sizes or indices out of range,
+/// non-finite coordinates, unreferenced nodes, repeated corners, flat tetrahedra (volume < 1e-9 of the
+/// longest edge cubed), inverted ones, duplicates, faces shared by more than two tetrahedra or by two on the
+/// same side, disconnected parts, boundary edges in other than two triangles, boundary vertices whose
+/// triangles are not one fan.
+/// @throw MeshError naming the entity by its number in the mesh file (node_tags, tetrahedron_tags)
+/// Cost O(T log T). Real-time: no.
+void checkMesh(const TetMesh& mesh);
+
+}  // namespace palpate::mesh

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "palpate/mesh/tet_mesh.h"
+#include "palpate/mesh/triangle_surface.h"
+
+namespace palpate::mesh {
+
+/// Reads the linear tetrahedra of a Gmsh .msh (1, 2, 4.0, 4.1; text or binary), legacy .vtk (unstructured
+/// grid, text or binary) or Medit .mesh (text) file, chosen by extension.
+///   Nodes keep the file's order; those in no tetrahedron are dropped. Points, lines and triangles count
+///   only for groups. A group is the nodes of all elements of a physical group (Medit: reference), whatever
+///   their dimension; groups of the same name are one. Without a name the number is the name, or `point:1`,
+///   `curve:1`, `surface:1`, `volume:1` where several dimensions use the number. VTK has no groups; there,
+///   nodes and cells are numbered by position from 1. The file is untrusted: counts are held against its
+///   size, indices against ranges. Geometry is checkMesh()'s business.
+/// @throw MeshError, one line with the file and the entity
+[[nodiscard]] TetMesh readMesh(const std::filesystem::path& path);
+
+/// Whether readSurface() is in charge of this file: .stl or .obj.
+[[nodiscard]] bool isSurfaceFile(const std::filesystem::path& path);
+
+/// Reads the triangles of an .stl (text or binary; corners at the same place become one vertex) or .obj file
+/// (polygons are fanned; normals, textures, groups and materials are skipped; unused vertices dropped).
+/// @throw MeshError, one line with the file and the entity
+[[nodiscard]] TriangleSurface readSurface(const std::filesystem::path& path);
+
+}  // namespace palpate::mesh

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/mesh/gmsh_session.h"
+
+#include <gmsh.h>
+
+#include <array>
+#include <csignal>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "palpate/mesh/mesh_error.h"
+
+namespace palpate::mesh {
+namespace {
+
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGHUP, SIGPIPE};
+
+// Gmsh takes over signals when it starts; palpate's programs end on them as any other does.
+class KeepSignals {
+ public:
+  KeepSignals() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &saved_[i]);
+  }
+  ~KeepSignals() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &saved_[i], nullptr);
+  }
+  KeepSignals(const KeepSignals&) = delete;
+  KeepSignals& operator=(const KeepSignals&) = delete;
+
+ private:
+  std::array<struct sigaction, kSignals.size()> saved_{};
+};
+
+[[noreturn]] void fail(const std::string& what, std::string reason) {
+  for (auto& c : reason) c = c == '\n' ? ' ' : c;
+  throw MeshError(what + ": " + (reason.empty() ? "Gmsh gives no reason" : reason));
+}
+
+std::string lastError() {
+  std::string error;
+  gmsh::logger::getLastError(error);
+  return error;
+}
+
+}  // namespace
+
+GmshSession::GmshSession() {
+  const KeepSignals keep;
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.NumThreads", 1);  // the same mesh on every machine
+}
+
+GmshSession::~GmshSession() {
+  const KeepSignals keep;
+  gmsh::finalize();
+}
+
+void GmshSession::run(const std::string& what, const std::function<void()>& work) const {
+  // Gmsh throws strings, numbers and what OpenCASCADE throws, depending on version and place.
+  try {
+    work();
+  } catch (const std::exception& error) {
+    fail(what, error.what());
+  } catch (const std::string& error) {
+    fail(what, error);
+  } catch (const char* error) {
+    fail(what, error);
+  } catch (int) {
+    fail(what, lastError());
+  }
+}
+
+TetMesh GmshSession::tetrahedra() const {
+  std::vector<std::size_t> node_tags, element_tags, corners;
+  std::vector<double> coordinates, parameters;
+  gmsh::model::mesh::getNodes(node_tags, coordinates, parameters);
+  constexpr int kTetrahedron = 4;
+  gmsh::model::mesh::getElementsByType(kTetrahedron, element_tags, corners);
+  std::map<std::size_t, std::size_t> position;  // by Gmsh number: of the nodes that tetrahedra use
+  for (std::size_t i = 0; i < node_tags.size(); ++i) position[node_tags[i]] = i;
+  std::map<std::size_t, std::int32_t> index;
+  for (const auto corner : corners) index[corner] = 0;
+  TetMesh mesh;
+  for (auto& [tag, i] : index) {
+    const double* x = coordinates.data() + 3 * position.at(tag);
+    i = static_cast<std::int32_t>(mesh.nodes.size());
+    mesh.nodes.emplace_back(x[0], x[1], x[2]);
+  }
+  for (std::size_t c = 0; c + 3 < corners.size(); c += 4) {
+    mesh.tetrahedra.push_back(
+        {index[corners[c]], index[corners[c + 1]], index[corners[c + 2]], index[corners[c + 3]]});
+  }
+  mesh.node_tags.resize(mesh.nodes.size());
+  mesh.tetrahedron_tags.resize(mesh.tetrahedra.size());
+  std::iota(mesh.node_tags.begin(), mesh.node_tags.end(), 1);
+  std::iota(mesh.tetrahedron_tags.begin(), mesh.tetrahedron_tags.end(), 1);
+  return mesh;
+}
+
+}  // namespace palpate::mesh

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "byte_reader.h"
+#include "raw_mesh.h"
+
+namespace palpate::mesh {
+
+/// What the first section of a .msh file says.
+struct MshFormat {
+  int major{0};  ///< 1, 2 or 4
+  int minor{0};
+  bool binary{false};
+};
+
+/// Dimension and number of nodes of a Gmsh element type.
+struct MshElementType {
+  int dimension;
+  int nodes;
+};
+
+/// Looks up the type of element `tag`. Refuses volume elements that are not linear tetrahedra: leaving them
+/// out would leave a hole.
+MshElementType mshElementType(const ByteReader& in, std::int64_t type, std::int64_t tag);
+
+/// Reads the nodes of one element; keeps it if it is a tetrahedron, and adds its nodes to its physical
+/// groups.
+void readMshElement(ByteReader& in, RawMesh& mesh, bool wide, std::int64_t tag, const MshElementType& type,
+                    const std::vector<std::int64_t>& groups);
+
+/// Physical groups of the model's entities: (dimension, tag) -> numbers.
+using MshEntities = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>>;
+
+/// The sections of version 4. The reader stands behind the line with the section's name, and is in binary
+/// mode if the file is.
+void readMsh4Entities(ByteReader& in, const MshFormat& format, MshEntities& entities);
+void readMsh4Nodes(ByteReader& in, const MshFormat& format, RawMesh& mesh);
+void readMsh4Elements(ByteReader& in, const MshFormat& format, const MshEntities& entities, RawMesh& mesh);
+
+}  // namespace palpate::mesh
