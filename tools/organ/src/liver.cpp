@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
+#include <numbers>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -19,19 +19,21 @@ namespace palpate::organ {
 namespace {
 
 namespace occ = gmsh::model::occ;
-constexpr double kRounding = 0.014;      // radius of the rounded creases, m
+constexpr double kRounding = 0.020;      // radius of the rounded creases, m; OpenCASCADE gives up at 0.022
 constexpr double kFixedFraction = 0.10;  // of the surface nodes
 
 struct Ellipsoid {
   Eigen::Vector3d centre, radii;
   double turn;  // about y, rad
 };
-const Ellipsoid kRightLobe{{-0.035, 0, 0}, {0.078, 0.062, 0.060}, 0};
-const Ellipsoid kLeftLobe{{0.040, 0.006, 0.012}, {0.085, 0.045, 0.040}, -0.15};
-const Ellipsoid kHollow{{0.030, -0.015, -0.066}, {0.130, 0.060, 0.050}, 0};  // the visceral face
+const Ellipsoid kRightLobe{{-0.033, 0, 0}, {0.074, 0.065, 0.069}, 0};
+const Ellipsoid kLeftLobe{{0.038, 0.006, 0.0134}, {0.081, 0.046, 0.046}, -0.15};
+const Ellipsoid kHollow{{0.0285, -0.015, -0.074}, {0.1235, 0.060, 0.056}, 0};  // the visceral face
 
 gmsh::vectorpair addEllipsoid(const Ellipsoid& e) {
   gmsh::vectorpair body{{3, occ::addSphere(0, 0, 0, 1)}};
+  // Poles along x: where they meet the creases, tiny faces would force slivers into the mesh.
+  occ::rotate(body, 0, 0, 0, 0, 1, 0, std::numbers::pi / 2);
   occ::dilate(body, 0, 0, 0, e.radii.x(), e.radii.y(), e.radii.z());
   occ::rotate(body, 0, 0, 0, 0, 1, 0, e.turn);
   occ::translate(body, e.centre.x(), e.centre.y(), e.centre.z());

@@ -33,7 +33,7 @@ CLI::App* addLiver(CLI::App& app, Arguments& arguments) {
   CLI::App* command =
       app.add_subcommand("liver", "Make the default organ, a liver-like body of about 0.22 x 0.13 x 0.12 m");
   addOutput(*command, arguments);
-  command->add_option("--element-size", arguments.element_size, "Edge length of the tetrahedra, m [0.0065]");
+  command->add_option("--element-size", arguments.element_size, "Edge length of the tetrahedra, m [0.0067]");
   return command;
 }
 

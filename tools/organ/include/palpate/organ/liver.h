@@ -5,7 +5,7 @@
 
 namespace palpate::organ {
 
-constexpr double kLiverElementSize = 0.0065;  ///< m; gives about 2,100 surface nodes
+constexpr double kLiverElementSize = 0.0067;  ///< m; gives about 2,200 surface nodes
 
 /// The default organ: a smooth, closed, liver-like body of about 0.22 x 0.13 x 0.12 m. Two ellipsoids joined,
 /// a third cut away from below, all creases rounded (DESIGN 2.3). x points to the organ's left, y to the
