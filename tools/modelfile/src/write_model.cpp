@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
+#include <hdf5.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include "check_sizes.h"
-#include "hdf5_handle.h"
+#include "palpate/core/hdf5_handle.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/modelfile/model_file.h"
 
@@ -56,30 +57,31 @@ void require(bool good, const std::string& what) {
 }
 
 /// Creates the temporary file, all of whose objects begin on a page.
-Handle createFile(const std::string& path) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+Hdf5Handle createFile(const std::string& path) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   require(access.valid() && H5Pset_alignment(access.get(), 0, kAlignment) >= 0, path);
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+  Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
   require(file.valid(), path);
   return file;
 }
 
-void makeGroups(const Handle& file) {
+void makeGroups(const Hdf5Handle& file) {
   for (const char* name : {"surface", "contact", "modes", "near", "mesh"}) {
-    const Handle group(H5Gcreate2(file.get(), name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const Hdf5Handle group(H5Gcreate2(file.get(), name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
     require(group.valid(), name);
   }
 }
 
 template <typename T>
-void writeDataset(const Handle& file, const char* name, const std::vector<T>& values, const Shape& shape) {
-  const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+void writeDataset(const Hdf5Handle& file, const char* name, const std::vector<T>& values,
+                  const Shape& shape) {
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   require(space.valid() && creation.valid(), name);
   H5Pset_layout(creation.get(), H5D_CONTIGUOUS);
   H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(creation.get(), H5D_FILL_TIME_NEVER);  // every number is written below
-  const Handle dataset(
+  const Hdf5Handle dataset(
       H5Dcreate2(file.get(), name, fileType(T{}), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
       H5Dclose);
   require(dataset.valid(), name);
@@ -88,26 +90,26 @@ void writeDataset(const Handle& file, const char* name, const std::vector<T>& va
 }
 
 template <typename T>
-void writeNumber(const Handle& file, const char* name, T value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(file.get(), name, fileType(T{}), space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
+void writeNumber(const Hdf5Handle& file, const char* name, T value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle attribute(
+      H5Acreate2(file.get(), name, fileType(T{}), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   require(attribute.valid() && H5Awrite(attribute.get(), memoryType(T{}), &value) >= 0, name);
 }
 
 /// Variable length, so that a long provenance does not meet the 64 KiB limit of an object header.
-void writeText(const Handle& file, const char* name, const std::string& text) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+void writeText(const Hdf5Handle& file, const char* name, const std::string& text) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   require(type.valid() && H5Tset_size(type.get(), H5T_VARIABLE) >= 0, name);
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
-  const Handle attribute(H5Acreate2(file.get(), name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
+  const Hdf5Handle attribute(H5Acreate2(file.get(), name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
   const char* const start = text.c_str();
   require(attribute.valid() && H5Awrite(attribute.get(), type.get(), &start) >= 0, name);
 }
 
-void writeAttributes(const Handle& file, const ModelAttributes& a) {
+void writeAttributes(const Hdf5Handle& file, const ModelAttributes& a) {
   writeText(file, "format", "palpate-model");
   writeNumber(file, "version", std::int32_t{1});
   writeText(file, "model_id", a.model_id);
@@ -121,7 +123,7 @@ void writeAttributes(const Handle& file, const ModelAttributes& a) {
   writeText(file, "provenance", a.provenance);
 }
 
-void writeDatasets(const Handle& file, const ModelData& d) {
+void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
   const hsize_t Ns = d.surface_mesh_tag.size(), M = d.contact_node.size();
   const hsize_t C = static_cast<hsize_t>(MonomialBasis::size(d.attributes.order));
   const hsize_t n = d.modes_X.size() / (3 * Ns);
@@ -157,7 +159,7 @@ void sync(const std::string& path) {
 }
 
 void writeAll(const std::string& path, const ModelData& data) {
-  Handle file = createFile(path);
+  Hdf5Handle file = createFile(path);
   makeGroups(file);
   writeAttributes(file, data.attributes);
   writeDatasets(file, data);

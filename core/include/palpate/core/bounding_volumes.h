@@ -51,6 +51,7 @@ class BoundingVolumes {
   void build(std::int32_t begin, std::int32_t end, std::span<const Vec3> centres);
   [[nodiscard]] Box boxOf(std::int32_t begin, std::int32_t end) const;
   [[nodiscard]] double squaredDistance(const Box& box, const Vec3& p) const noexcept;
+  void visitLeaf(const Box& box, const Vec3& p, Hit& best) const noexcept;
   [[nodiscard]] Vec3 corner(std::int32_t triangle, int k) const noexcept;
 
   std::span<const double> positions_;

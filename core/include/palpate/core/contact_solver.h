@@ -22,6 +22,8 @@ struct Contact {
   Vec3 displacement = Vec3::Zero();  ///< d as imposed, before clamping, m
   Response response;                 ///< the organ's answer; zero when free
   std::uint32_t flags{0};            ///< kInContact, kBeyondDomain, kNotAccessible
+  bool overlapping{false};           ///< free, although the tip's sphere reaches into the organ
+  bool jumped{false};  ///< the last update made a force that does not follow from the one before
 };
 
 /// Moves a tool through free and stick DESIGN 3.1
@@ -35,7 +37,10 @@ class ContactSolver {
   explicit ContactSolver(double tip_radius) noexcept : tip_radius_(tip_radius) {}
 
   /// One tick of one tool. @param c  tip centre, W, m, finite. At most one change of state. Real-time: yes.
+  /// Sets `jumped` where the force is not continuous in c: at release, and at a capture that is deep at once.
   void update(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
+  /// Frees the tool: no force, no displacement; the anchor stays as the nearest point known. Real-time: yes.
+  static void release(Contact& contact) noexcept PALPATE_NONBLOCKING;
 
  private:
   void tryCapture(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;

@@ -11,35 +11,38 @@ namespace palpate {
 
 /// What a tool remembers from tick to tick about what was rendered to it.
 struct Rendering {
-  double gain{0.0};  ///< 0 to 1; starts at 0, so that a tool that appears inside the organ is not kicked
   Vec3 target = Vec3::Zero();    ///< last good force on the tool, limited, N
   Vec3 rendered = Vec3::Zero();  ///< force of the last tick, N
-  Vec3 jump = Vec3::Zero();      ///< difference being bridged, N
-  double bridge{0.0};            ///< part of the jump that is left, 1 to 0
+  Vec3 from = Vec3::Zero();      ///< force at the last jump, N
+  double blend{0.0};             ///< weight of `from`, 1 at the jump, then falling to 0
+  double gain{0.0};              ///< of the last tick, 0 to 1: staleness and shutdown together
+  double fade{1.0};              ///< 1, falling to 0 at shutdown
 };
 
 /// What the limiter is told in one tick.
 struct LimiterInput {
   Vec3 force = Vec3::Zero();      ///< of the organ on the tool, W, N (not looked at when held)
-  Mat3 stiffness = Mat3::Zero();  ///< d force / d pose, N/m
+  Mat3 stiffness = Mat3::Zero();  ///< d force / d pose, N/m (not looked at when held)
   double age{0.0};                ///< s since the last good pose
   double dt{0.0};                 ///< s since the last tick
   bool held{false};               ///< no good pose in this tick: the last good force stands in
-  bool jumped{false};             ///< the force may have jumped (contact made, lost, pose back): bridge it
-  bool shutting_down{false};
+  bool jumped{false};             ///< the model's force is not continuous in this tick: blend over
+  bool shutting_down{false};      ///< fade to zero, for good
 };
 
 struct LimitedForce {
-  Vec3 force = Vec3::Zero();      ///< on the tool, W, N, never longer than the limit
-  Mat3 stiffness = Mat3::Zero();  ///< d force / d pose as rendered: limit and gain included; zero while held
-  std::uint32_t flags{0};         ///< kForceLimited, kStalePose, kRamping, kShuttingDown
+  Vec3 force = Vec3::Zero();  ///< on the tool, W, N, never longer than the limit
+  Mat3 stiffness =
+      Mat3::Zero();        ///< d force / d pose as rendered, chain rule through all below; zero while held
+  std::uint32_t flags{0};  ///< kForceLimited, kStalePose, kRamping, kShuttingDown
 };
 
 /// Keeps what a device gets safe and continuous DESIGN 3.2
-///   force = gain * limit(f) + jump * bridge;  limit(f) = f min(1, F / |f|)
-///   gain <= (zero_after - age) / (zero_after - stale_timeout): a stale pose ramps to zero by zero_after,
-///   whatever the rate of the loop; it rises by dt / ramp_time at most. jump is taken once so that the force
-///   is continuous where the model's force is not, and fades within ramp_time.
+///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
+///   gain  = fade clamp((zero_after - age) / (zero_after - stale_timeout), 0, 1): a stale pose has ramped to
+///   zero by zero_after, whatever the rate of the loop. A jump keeps the force of the tick before as `from`
+///   and lets its weight fall from 1 to 0 within ramp_time. A convex mix, so that two forces that push never
+///   add to one that pulls, and two within the limit never to one beyond it.
 class ForceLimiter {
  public:
   explicit ForceLimiter(const StepConfig& config) noexcept : config_(config) {}
@@ -49,7 +52,7 @@ class ForceLimiter {
                                    Rendering& memory) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] double nextGain(const LimiterInput& in, double gain) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] double freshness(double age) const noexcept PALPATE_NONBLOCKING;
 
   StepConfig config_;
 };

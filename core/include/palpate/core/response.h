@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-enum class ResponseStatus { kOk, kClamped, kNotAccessible };
+enum class ResponseStatus { kOk, kClamped, kNoAnswer };
 
 /// "ok", "clamped", "not_accessible".
 [[nodiscard]] std::string_view toString(ResponseStatus status) noexcept;
@@ -28,7 +28,7 @@ struct Response {
 /// domainRadius(s) is scaled to it; stiffness then is df/dd through that projection.
 /// @param[in]  s  contact point of this model's surface, @param[in]  d  W, m, finite
 /// @param[out] out  always written; zero when not accessible
-/// @return kOk, kClamped, or kNotAccessible (the model has no answer at s). Cost O(C). Real-time: yes.
+/// @return kOk, kClamped, or kNoAnswer (the model has no answer at s). Cost O(C). Real-time: yes.
 [[nodiscard]] ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                      Response& out) noexcept PALPATE_NONBLOCKING;
 

@@ -27,6 +27,7 @@ class SealedImage {
 
  private:
   void copyFrom(const std::filesystem::path& path);
+  void writeCopy(const std::filesystem::path& path, std::span<const std::byte> bytes) const;
   void seal(const std::filesystem::path& path) const;
   void map(const std::filesystem::path& path);
   void release() noexcept;

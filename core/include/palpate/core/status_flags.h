@@ -10,7 +10,7 @@ namespace palpate {
 
 inline constexpr std::uint32_t kInContact = 1U << 0;  ///< the tool sticks to or slides on the organ
 inline constexpr std::uint32_t kNonFinitePose =
-    1U << 1;  ///< NaN or infinity in the pose; answered like a stale pose
+    1U << 1;  ///< NaN, infinity or beyond 1 km in the pose; answered like a stale pose
 inline constexpr std::uint32_t kNonUnitQuaternion =
     1U << 2;  ///< orientation is no rotation; answered like a stale pose
 inline constexpr std::uint32_t kStalePose =
@@ -22,11 +22,11 @@ inline constexpr std::uint32_t kForceLimited = 1U
 inline constexpr std::uint32_t kNotAccessible =
     1U << 6;  ///< the tip touches the organ where no answer was computed
 inline constexpr std::uint32_t kRamping =
-    1U << 7;  ///< gain below 1 or a jump being bridged: force is not the model's
+    1U << 7;  ///< the force is on its way to or from the model's, or fading
 inline constexpr std::uint32_t kShuttingDown =
     1U << 8;  ///< the server stops; the force goes to zero and stays there
-inline constexpr std::uint32_t kNonFiniteForce = 1U
-                                                 << 9;  ///< the model overflowed; answered like a stale pose
+inline constexpr std::uint32_t kNonFiniteForce =
+    1U << 9;  ///< the model's numbers overflowed; answered like a stale pose
 inline constexpr std::uint32_t kPoseOutOfOrder =
     1U << 10;  ///< sender's stamps went backwards (set by the server)
 

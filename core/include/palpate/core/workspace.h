@@ -20,7 +20,7 @@ struct ToolMemory {
   Contact contact;
   Rendering rendering;
   bool known{false};      ///< a good pose was seen
-  bool was_stale{false};  ///< the last tick's force was held past the timeout: bridge when a pose comes back
+  bool was_stale{false};  ///< the force was fading in the last tick: blend over when a pose comes back
   double age{0.0};        ///< s since the last good pose
 };
 
@@ -35,7 +35,9 @@ class Workspace {
   [[nodiscard]] std::span<const float> displacement() const noexcept { return displacement_; }
   [[nodiscard]] const StepConfig& config() const noexcept { return config_; }
 
-  // step()'s own; nobody else writes them.
+ private:
+  friend class Tick;  // step()'s own
+
   StepConfig config_;
   ContactSolver solver_;
   ForceLimiter limiter_;

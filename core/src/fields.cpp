@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/fields.h"
+
+#include <algorithm>
+#include <array>
+
+#include "kernels.h"
+#include "palpate/core/multi_index.h"
+
+namespace palpate {
+
+namespace {
+
+using Weights = std::array<float, MonomialBasis::kMaxCoefficients>;
+
+std::size_t index(std::int64_t i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+/// Weight of each coefficient of one contact position.
+Weights scaled(std::span<const double> monomials, double factor) noexcept {
+  Weights weight;
+  for (std::size_t k = 0; k < monomials.size(); ++k) weight[k] = static_cast<float>(factor * monomials[k]);
+  return weight;
+}
+
+}  // namespace
+
+SeparatedField::SeparatedField(const ModelView& view)
+    : X_(view.modes_X), Y_(view.modes_Y), modes_(static_cast<int>(view.modes())) {}
+
+void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const double> monomials, double gain,
+                                   std::span<float> y) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t n = y.size();
+  for (std::size_t b = 0; b < index(mix.count); ++b) {
+    const Weights weight = scaled(monomials, gain * mix.weight[b]);
+    const float* const Y = Y_.data() + index(mix.position[b]) * monomials.size() * n;
+    addWeightedRows(Y, n, weight.data(), monomials.size(), n, y.data());
+  }
+}
+
+void SeparatedField::expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
+  std::fill(u.begin(), u.end(), 0.0F);
+  addWeightedRows(X_.data(), u.size(), y.data(), y.size(), u.size(), u.data());
+}
+
+NearField::NearField(const ModelView& view)
+    : offset_(view.near_offset), node_(view.near_node), field_(view.near_field) {
+  std::int64_t most = 0;
+  for (std::size_t m = 0; m + 1 < offset_.size(); ++m) most = std::max(most, offset_[m + 1] - offset_[m]);
+  scratch_size_ = static_cast<int>(3 * most);
+}
+
+void NearField::add(const PositionMix& mix, std::span<const double> monomials, double gain,
+                    std::span<float> scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
+  for (std::size_t b = 0; b < index(mix.count); ++b) {
+    const std::size_t m = index(mix.position[b]);
+    const std::size_t first = index(offset_[m]), nodes = index(offset_[m + 1]) - first;
+    const std::span<float> block = scratch.first(3 * nodes);
+    std::fill(block.begin(), block.end(), 0.0F);
+    const Weights weight = scaled(monomials, gain * mix.weight[b]);
+    const float* const field = field_.data() + 3 * monomials.size() * first;
+    addWeightedRows(field, 3 * nodes, weight.data(), monomials.size(), 3 * nodes, block.data());
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        u[3 * index(node_[first + i]) + axis] += block[3 * i + axis];
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/force_limiter.h"
+
+#include <algorithm>
+
+namespace palpate {
+
+namespace {
+
+/// f cut to the length `limit`, K with it: d(limit f/|f|)/df = limit/|f| (I - f f^T / f.f). @return true when
+/// cut
+bool cut(double limit, Vec3& f, Mat3& K) noexcept {
+  const double length = f.norm();
+  if (!(length > limit)) return false;
+  const Vec3 direction = f / length;
+  K = ((limit / length) * (Mat3::Identity() - direction * direction.transpose()) * K).eval();
+  f = limit * direction;
+  return true;
+}
+
+}  // namespace
+
+double ForceLimiter::freshness(double age) const noexcept PALPATE_NONBLOCKING {
+  return std::clamp((config_.zero_after - age) / (config_.zero_after - config_.stale_timeout), 0.0, 1.0);
+}
+
+LimitedForce ForceLimiter::limit(const LimiterInput& in,
+                                 Rendering& memory) const noexcept PALPATE_NONBLOCKING {
+  LimitedForce out;
+  Mat3 K = Mat3::Zero();
+  if (!in.held) {
+    memory.target = in.force;
+    K = in.stiffness;
+    if (cut(config_.force_limit, memory.target, K)) out.flags |= kForceLimited;
+  }
+  if (in.jumped) {
+    memory.from = memory.rendered;
+    memory.blend = 1.0;
+  }
+  const double step = in.dt / config_.ramp_time;
+  memory.blend = std::max(0.0, memory.blend - step);
+  if (in.shutting_down) memory.fade = std::max(0.0, memory.fade - step);
+  memory.gain = memory.fade * freshness(in.age);
+  out.force = memory.gain * ((1.0 - memory.blend) * memory.target + memory.blend * memory.from);
+  out.stiffness = memory.gain * (1.0 - memory.blend) * K;
+  memory.rendered = out.force;
+  if (in.age > config_.stale_timeout) out.flags |= kStalePose;
+  if (out.force != memory.target) out.flags |= kRamping;
+  if (in.shutting_down) out.flags |= kShuttingDown;
+  return out;
+}
+
+}  // namespace palpate

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels.h"
+
+#include "multiversion.h"
+
+namespace palpate {
+
+PALPATE_MULTIVERSION void addWeightedRows(const float* A, std::size_t stride, const float* weight,
+                                          std::size_t rows, std::size_t length,
+                                          float* y) noexcept PALPATE_NONBLOCKING {
+  std::size_t r = 0;
+  for (; r + 4 <= rows; r += 4) {  // four rows at a time: one pass over y for four over A
+    const float* __restrict__ const a0 = A + r * stride;
+    const float* __restrict__ const a1 = a0 + stride;
+    const float* __restrict__ const a2 = a1 + stride;
+    const float* __restrict__ const a3 = a2 + stride;
+    const float w0 = weight[r], w1 = weight[r + 1], w2 = weight[r + 2], w3 = weight[r + 3];
+    float* __restrict__ const out = y;
+    for (std::size_t i = 0; i < length; ++i) out[i] += (w0 * a0[i] + w1 * a1[i]) + (w2 * a2[i] + w3 * a3[i]);
+  }
+  for (; r < rows; ++r) {
+    const float* __restrict__ const a = A + r * stride;
+    float* __restrict__ const out = y;
+    for (std::size_t i = 0; i < length; ++i) out[i] += weight[r] * a[i];
+  }
+}
+
+}  // namespace palpate

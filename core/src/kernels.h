@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// y[i] += sum over `rows` rows of weight[r] * A[r * stride + i], i < length. The loops that a tick spends
+/// its time in: y stays in the first-level cache while A streams past once. Real-time: yes.
+void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
+                     std::size_t length, float* y) noexcept PALPATE_NONBLOCKING;
+
+}  // namespace palpate

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/meta_model.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "model_reader.h"
+
+namespace palpate {
+
+MetaModel MetaModel::load(const std::filesystem::path& path) {
+  SealedImage image(
+      path);  // first: whatever happens to the file from here on, the copy stays what was checked
+  ModelContents contents = readModel(image, path.string());
+  checkContents(contents.view, path.string());
+  try {
+    return MetaModel(std::move(image), std::move(contents.attributes), contents.view);
+  } catch (const std::invalid_argument& error) {
+    throw LoadError(path.string() + ": " + error.what());
+  }
+}
+
+MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view)
+    : image_(std::move(image)),
+      attributes_(std::move(attributes)),
+      view_(view),
+      basis_(attributes_.order),
+      surface_(view_),
+      response_(view_, attributes_),
+      far_field_(view_),
+      near_field_(view_) {}
+
+}  // namespace palpate

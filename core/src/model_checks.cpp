@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include "model_reader.h"
+#include "palpate/core/load_error.h"
+#include "palpate/core/multi_index.h"
+
+namespace palpate {
+
+namespace {
+
+/// Says what is wrong with the numbers of one file.
+class Checker {
+ public:
+  explicit Checker(const std::string& name) : name_(name) {}
+
+  void require(bool good, const std::string& found, const std::string& expected) const {
+    if (!good) throw LoadError(name_ + ": " + found + ", expected " + expected);
+  }
+
+  template <typename T>
+  void finite(const char* dataset, std::span<const T> values) const {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i])) failAt(dataset, i, "is " + std::to_string(values[i]), "a finite number");
+  }
+
+  /// Each value is an index below `end`, and at least `begin` (0, or -1 where "none" is allowed).
+  void indices(const char* dataset, std::span<const std::int32_t> values, std::size_t end,
+               std::int32_t begin = 0) const {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (values[i] < begin || (values[i] >= 0 && static_cast<std::size_t>(values[i]) >= end))
+        failAt(dataset, i, "is " + std::to_string(values[i]),
+               std::to_string(begin) + " to " + std::to_string(end - 1));
+  }
+
+  [[noreturn]] void failAt(const char* dataset, std::size_t i, const std::string& found,
+                           const std::string& expected) const {
+    throw LoadError(name_ + ": " + dataset + " number " + std::to_string(i) + " " + found + ", expected " +
+                    expected);
+  }
+
+ private:
+  const std::string& name_;
+};
+
+void checkPositions(const ModelView& v, const Checker& check) {
+  check.require(v.positions() > 0, "/contact/node is empty", "contact positions");
+  check.indices("/contact/node", v.contact_node, v.surfaceNodes());
+  check.indices("/surface/position_of_node", v.position_of_node, v.positions(), -1);
+  for (std::size_t m = 0; m < v.positions(); ++m) {
+    const std::int32_t back = v.position_of_node[static_cast<std::size_t>(v.contact_node[m])];
+    if (back != static_cast<std::int32_t>(m))
+      check.failAt("/contact/node", m, "leads back to position " + std::to_string(back), std::to_string(m));
+    if (v.contact_accessible[m] > 1)
+      check.failAt("/contact/accessible", m, "is " + std::to_string(v.contact_accessible[m]), "0 or 1");
+    if (v.contact_domain_radius[m] < 0.0)
+      check.failAt("/contact/domain_radius", m, "is " + std::to_string(v.contact_domain_radius[m]),
+                   "at least 0");
+  }
+  std::size_t used = 0;
+  for (const std::int32_t position : v.position_of_node) used += position >= 0 ? 1 : 0;
+  check.require(used == v.positions(),
+                "/surface/position_of_node names " + std::to_string(used) + " positions",
+                "the " + std::to_string(v.positions()) + " of /contact/node, each once");
+}
+
+void checkNear(const ModelView& v, const Checker& check) {
+  const auto end = static_cast<std::int64_t>(v.near_node.size());
+  const auto Ns = static_cast<std::int64_t>(v.surfaceNodes());
+  check.require(v.near_offset.front() == 0,
+                "/near/offset begins with " + std::to_string(v.near_offset.front()), "0");
+  for (std::size_t m = 0; m + 1 < v.near_offset.size(); ++m) {
+    const std::int64_t first = v.near_offset[m], last = v.near_offset[m + 1];
+    if (last < first || last > end || last - first > Ns)
+      check.failAt("/near/offset", m + 1, "is " + std::to_string(last),
+                   "at least " + std::to_string(first) + ", at most " + std::to_string(end) +
+                       " and no more than one entry for each surface node");
+  }
+  check.require(v.near_offset.back() == end, "/near/offset ends with " + std::to_string(v.near_offset.back()),
+                "the length of /near/node, " + std::to_string(end));
+  check.indices("/near/node", v.near_node, v.surfaceNodes());
+}
+
+void checkFinite(const ModelView& v, const Checker& check) {
+  check.finite("/surface/positions", v.surface_positions);
+  check.finite("/contact/force", v.contact_force);
+  check.finite("/contact/domain_radius", v.contact_domain_radius);
+  check.finite("/modes/X", v.modes_X);
+  check.finite("/modes/Y", v.modes_Y);
+  check.finite("/near/field", v.near_field);
+  check.finite("/mesh/nodes", v.mesh_nodes);
+}
+
+}  // namespace
+
+void checkAttributes(const ModelAttributes& a, const std::string& name) {
+  const Checker check(name);
+  const auto range = [&](const char* attribute, double value, bool good, const char* expected) {
+    check.require(std::isfinite(value) && good,
+                  std::string("attribute ") + attribute + " is " + std::to_string(value), expected);
+  };
+  check.require(a.law == "stvk", "attribute law is \"" + a.law.substr(0, 40) + "\"", "\"stvk\"");
+  check.require(a.order >= 1 && a.order <= MonomialBasis::kMaxOrder,
+                "attribute order is " + std::to_string(a.order),
+                "1 to " + std::to_string(MonomialBasis::kMaxOrder));
+  range("E", a.E, a.E > 0.0, "more than 0 Pa");
+  range("nu", a.nu, a.nu > -1.0 && a.nu < 0.5, "more than -1 and less than 0.5");
+  range("patch_radius", a.patch_radius, a.patch_radius > 0.0, "more than 0 m");
+  range("near_radius", a.near_radius, a.near_radius >= 0.0, "at least 0 m");
+  range("reference_displacement", a.reference_displacement, a.reference_displacement > 0.0, "more than 0 m");
+}
+
+void checkContents(const ModelView& v, const std::string& name) {
+  const Checker check(name);
+  check.require(v.surfaceNodes() > 0 && v.triangles() > 0, "/surface is empty", "a closed surface");
+  checkFinite(v, check);
+  check.indices("/surface/triangles", v.surface_triangles, v.surfaceNodes());
+  checkPositions(v, check);
+  checkNear(v, check);
+  const std::size_t N = v.mesh_node_tag.size();
+  check.require(N > 0, "/mesh/nodes is empty", "the volume mesh");
+  check.indices("/mesh/tetrahedra", v.mesh_tetrahedra, N);
+  check.indices("/mesh/fixed", v.mesh_fixed, N);
+  check.indices("/mesh/surface_node", v.mesh_surface_node, N);
+}
+
+}  // namespace palpate

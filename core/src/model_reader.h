@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palpate/core/model_view.h"
+#include "palpate/core/sealed_image.h"
+
+namespace palpate {
+
+/// What HDF5 says about a model: its attributes, and where its arrays lie in the image.
+struct ModelContents {
+  ModelAttributes attributes;
+  ModelView view;
+};
+
+/// Asks HDF5 for format, attributes and each array's type, shape, layout and place, checks all of them, and
+/// closes HDF5 again. The numbers in the arrays are not looked at: see checkContents().
+/// @param name  how the file is called in messages
+/// @throw LoadError file, dataset, found, expected
+[[nodiscard]] ModelContents readModel(const SealedImage& image, const std::string& name);
+
+/// Ranges of the root attributes. @throw LoadError
+void checkAttributes(const ModelAttributes& attributes, const std::string& name);
+
+/// Every index in range, every table consistent, every number finite. @throw LoadError
+void checkContents(const ModelView& view, const std::string& name);
+
+}  // namespace palpate

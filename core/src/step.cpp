@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace palpate {
+
+/// One tick over one workspace.
+class Tick {
+ public:
+  Tick(const MetaModel& model, Workspace& work, const StepInput& input) noexcept
+      : model_(model), work_(work), input_(input), dt_(std::clamp(1e-9 * double(input.dt_ns), 0.0, 0.1)) {}
+
+  [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
+
+ private:
+  [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept;
+  void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
+  [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
+  void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
+  void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept;
+  void deform(StepResult& result) noexcept;
+  void report(const ToolMemory& memory, ToolResult& out) const noexcept;
+
+  const MetaModel& model_;
+  Workspace& work_;
+  const StepInput& input_;
+  double dt_;
+};
+
+namespace {
+
+template <std::size_t N, typename Vector>
+void store(const Vector& from, std::array<double, N>& to) noexcept {
+  for (std::size_t i = 0; i < N; ++i) to[i] = from(static_cast<Eigen::Index>(i));
+}
+
+bool isFinite(std::span<const float> values) noexcept {
+  int bad = 0;  // counted without a branch, so that the loop runs in vectors
+  for (const float value : values) bad |= static_cast<int>(!(std::abs(value) <= std::numeric_limits<float>::max()));
+  return bad == 0;
+}
+
+}  // namespace
+
+/// Flags of the pose itself; 0 when it can be followed.
+std::uint32_t Tick::judge(const ToolInput& tool) const noexcept {
+  constexpr double kFarthest =
+      1000.0;  // m; an organ and its tools are not that far apart, and squares stay finite
+  for (const double x : tool.position)
+    if (!(std::abs(x) <= kFarthest)) return kNonFinitePose;
+  double square = 0.0;
+  for (const double q : tool.orientation) {
+    if (!std::isfinite(q)) return kNonFinitePose;
+    square += q * q;
+  }
+  return std::abs(std::sqrt(square) - 1.0) <= work_.config_.quaternion_tolerance ? 0 : kNonUnitQuaternion;
+}
+
+/// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
+bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
+  const Contact before = memory.contact;
+  work_.solver_.update(model_, Vec3(tool.position[0], tool.position[1], tool.position[2]), memory.contact);
+  if (memory.contact.response.force.allFinite() && memory.contact.response.stiffness.allFinite()) return true;
+  memory.contact = before;
+  out.flags |= kNonFiniteForce;
+  return false;
+}
+
+/// Age of a tool's last good pose in a tick without one.
+void Tick::grow(const ToolInput& tool, ToolMemory& memory) const noexcept {
+  memory.age += dt_;
+  if (tool.present != 0) memory.age = std::max(memory.age, 1e-9 * double(tool.age_ns));
+  if (!memory.known) memory.age = std::max(memory.age, work_.config_.zero_after);
+}
+
+void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
+  if (tool.present == 0 && !memory.known) return;
+  if (tool.present != 0) out.flags |= judge(tool);
+  const bool fresh = tool.present != 0 && 1e-9 * double(tool.age_ns) <= work_.config_.stale_timeout;
+  const bool usable = fresh && out.flags == 0;
+  const bool good = usable && input_.shutting_down == 0 && follow(tool, memory, out);
+  const bool jumped = good && (memory.contact.jumped || memory.was_stale || !memory.known);
+  if (usable && out.flags == 0) {
+    memory.age = std::max(0.0, 1e-9 * double(tool.age_ns));
+    memory.known = true;
+  } else {
+    grow(tool, memory);
+  }
+  memory.was_stale = memory.age > work_.config_.stale_timeout;
+  render(memory, !good, jumped, out);
+}
+
+/// Limits and fades the force. A contact whose force has faded to nothing is given up.
+void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept {
+  LimiterInput in;
+  in.force = -memory.contact.response.force;
+  in.stiffness = -memory.contact.response.stiffness;
+  in.age = memory.age;
+  in.dt = dt_;
+  in.held = held;
+  in.jumped = jumped;
+  in.shutting_down = input_.shutting_down != 0;
+  const LimitedForce limited = work_.limiter_.limit(in, memory.rendering);
+  if (memory.rendering.gain <= 0.0) ContactSolver::release(memory.contact);
+  out.flags |= limited.flags | memory.contact.flags;
+  store(limited.force, out.force);
+  for (std::size_t i = 0; i < 9; ++i)
+    out.stiffness[i] = limited.stiffness(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
+}
+
+/// The surface under all tools together; a tool whose force fades takes its dimple with it.
+void Tick::deform(StepResult& result) noexcept {
+  std::array<FieldSource, kMaxTools> sources;
+  std::size_t count = 0;
+  for (const ToolMemory& memory : work_.tools_)
+    if (memory.contact.state != ContactState::kFree)
+      sources[count++] = {memory.contact.s, memory.contact.displacement, memory.rendering.gain};
+  const std::span<float> u(work_.displacement_);
+  std::fill(u.begin(), u.end(), 0.0F);
+  if (count == 0) return;
+  evaluateField(model_, std::span(sources).first(count), work_.scratch_, u);
+  if (isFinite(u)) return;
+  std::fill(u.begin(), u.end(), 0.0F);
+  for (ToolResult& out : result.tools)
+    if ((out.flags & kInContact) != 0) out.flags |= kNonFiniteForce;
+}
+
+void Tick::report(const ToolMemory& memory, ToolResult& out) const noexcept {
+  const Contact& contact = memory.contact;
+  if (contact.s.triangle < 0) return;
+  out.state = static_cast<std::uint32_t>(contact.state);
+  store(contact.anchor, out.anchor);
+  store(Vec3(contact.anchor + model_.surface().interpolate(work_.displacement_, contact.s)), out.proxy);
+  store(contact.response.displacement, out.displacement);
+  out.domain_radius = contact.response.domain_radius;
+  out.penetration = std::max(0.0, -contact.displacement.dot(contact.normal));
+}
+
+StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
+  result = StepResult{};
+  for (std::size_t i = 0; i < kMaxTools; ++i) advance(input_.tools[i], work_.tools_[i], result.tools[i]);
+  deform(result);
+  std::uint32_t flags = 0;
+  for (std::size_t i = 0; i < kMaxTools; ++i) {
+    report(work_.tools_[i], result.tools[i]);
+    flags |= result.tools[i].flags;
+    const bool gone = input_.tools[i].present == 0 && work_.tools_[i].rendering.gain <= 0.0;
+    if (gone) work_.tools_[i] = ToolMemory{};
+  }
+  return (flags & ~kInContact) == 0 ? StepStatus::kOk : StepStatus::kFlagged;
+}
+
+StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
+                StepResult& result) noexcept PALPATE_NONBLOCKING {
+  return Tick(model, work, input).run(result);
+}
+
+}  // namespace palpate

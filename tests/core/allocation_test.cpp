@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <memory>
+
+#include "driver.h"
+#include "palpate/testing/allocation_guard.h"
+
+namespace palpate::testing {
+
+TEST(AllocationGuard, CountsWhatIsAllocated) {
+  AllocationGuard guard;
+  auto number = std::make_unique<int>(1);
+  EXPECT_GT(guard.count(), 0U);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const std::size_t before = guard.count();
+  void* volatile memory = std::malloc(10);
+  std::free(memory);
+  EXPECT_GE(guard.count(), before + 2);
+#endif
+}
+
+TEST(Step, NeverAllocates) {
+  const MetaModel model = loadSynthetic();
+  Driver driver(model);
+  driver.input().tools[2].present = 1;
+  driver.input().tools[2].position = {0.053, 0.0, 0.0};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::uint32_t seen = 0;
+  std::size_t allocations = 0;
+  {
+    const AllocationGuard guard;
+    for (int ms = 0; ms < 500; ++ms) {
+      const double z = 0.056 - 0.014 * std::abs(std::sin(0.03 * ms));
+      const bool bad = ms > 200 && ms < 240;
+      const std::int64_t age = ms > 300 && ms < 380 ? 1'000'000LL * (ms - 300) : 0;
+      seen |= driver.at(Vec3(0.0001 * ms, bad ? nan : 0.0, z), age).flags;
+      driver.input().tools[2].present = ms > 400 ? 0 : 1;
+    }
+    driver.input().shutting_down = 1;
+    for (int ms = 0; ms < 50; ++ms) seen |= driver.tick().flags;
+    allocations = guard.count();
+  }
+  EXPECT_EQ(allocations, 0U);
+  for (const std::uint32_t flag :
+       {kInContact, kNonFinitePose, kStalePose, kBeyondDomain, kRamping, kShuttingDown})
+    EXPECT_EQ(seen & flag, flag) << "the path of flag " << flag << " was not taken";
+}
+
+}  // namespace palpate::testing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "palpate/core/types.h"
+#include "palpate/modelfile/model_data.h"
+
+namespace palpate::testing {
+
+/// A round organ with invented, smooth coefficients: known in closed form, no solver needed.
+struct SyntheticOptions {
+  int subdivisions{3};                   ///< of the icosahedron: 10 * 4^n + 2 surface nodes
+  double radius{0.05};                   ///< m
+  int order{3};                          ///< p
+  int modes{6};                          ///< n
+  double near_radius{0.02};              ///< m
+  double reference_displacement{0.005};  ///< m
+  double domain_radius{0.008};           ///< d_max, m
+  double stiffness{300.0};               ///< N/m, tangential; the normal one is 1.5 times as large
+  double nonlinearity{0.1};              ///< size of the higher terms at d_ref
+  double fixed_below{-0.7};    ///< z / radius below which nodes are fixed and have no contact position
+  double helper_below{-0.55};  ///< z / radius below which contact positions are helpers, not accessible
+};
+
+/// All datasets. Surface node i is volume node i; the last volume node is the centre. Outward normal at X is
+/// X / |X|.
+[[nodiscard]] modelfile::ModelData syntheticModel(const SyntheticOptions& options = {});
+
+/// Writes them with writeModel().
+void writeSyntheticModel(const std::filesystem::path& path, const SyntheticOptions& options = {});
+
+/// The energy W_s(d) at surface point X, J, whose gradient the model's force is at a node that lies at X.
+[[nodiscard]] double syntheticEnergy(const SyntheticOptions& options, const Vec3& X, const Vec3& d);
+
+/// A file name in the system's temporary folder that is this process's own; what lies there is removed at the
+/// end.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& name);
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile();
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace palpate::testing

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/testing/synthetic_model.h"
+
+#include <unistd.h>
+
+#include <cmath>
+
+#include "icosphere.h"
+#include "palpate/core/multi_index.h"
+#include "palpate/modelfile/model_file.h"
+
+namespace palpate::testing {
+
+namespace {
+
+using modelfile::ModelData;
+
+/// Coefficient of x^beta, x = d / d_ref, in the energy at X, J: quadratic part (k/2)(|d|^2 + (n.d)^2 / 2),
+/// and small smooth higher terms that differ from place to place.
+double energyCoefficient(const SyntheticOptions& o, const Vec3& X, const MultiIndex& beta) {
+  const Vec3 n = X.normalized();
+  const double scale = o.stiffness * o.reference_displacement * o.reference_displacement;
+  const int degree = beta[0] + beta[1] + beta[2];
+  if (degree == 1) return 0.0;
+  if (degree > 2) {
+    const double phase = 3.0 * n.x() * beta[0] + 2.0 * n.y() * beta[1] + n.z() * beta[2] + degree;
+    return scale * o.nonlinearity * std::sin(phase) / (degree * degree);
+  }
+  std::array<Eigen::Index, 2> axis{};
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int times = 0; times < beta[i]; ++times) axis[found++] = static_cast<Eigen::Index>(i);
+  const double mixed = 0.5 * n[axis[0]] * n[axis[1]];
+  return axis[0] == axis[1] ? 0.5 * scale * (1.0 + mixed) : scale * mixed;
+}
+
+double window(double r, double radius) {
+  const double x = r / radius;
+  return x < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0;
+}
+
+/// An invented answer of the surface at distance r to the monomial alpha, m.
+Vec3 nearValue(const SyntheticOptions& o, const MultiIndex& alpha, double r) {
+  const double degree = alpha[0] + alpha[1] + alpha[2];
+  const Vec3 along(alpha[0], alpha[1], alpha[2]);
+  return o.reference_displacement * window(r, o.near_radius) * 0.5 * along / (degree * degree * degree);
+}
+
+void fillSurface(const SyntheticOptions& o, const Icosphere& sphere, ModelData& data) {
+  for (const Vec3& n : sphere.nodes) {
+    const Vec3 X = o.radius * n;
+    data.surface_positions.insert(data.surface_positions.end(), {X.x(), X.y(), X.z()});
+    const auto node = static_cast<std::int32_t>(data.surface_mesh_tag.size());
+    data.surface_mesh_tag.push_back(node + 1);
+    data.mesh_surface_node.push_back(node);
+    const bool fixed = n.z() < o.fixed_below;
+    data.position_of_node.push_back(fixed ? -1 : static_cast<std::int32_t>(data.contact_node.size()));
+    if (fixed) {
+      data.mesh_fixed.push_back(node);
+      continue;
+    }
+    data.contact_node.push_back(node);
+    data.contact_accessible.push_back(n.z() < o.helper_below ? 0 : 1);
+    data.contact_domain_radius.push_back(o.domain_radius);
+  }
+  for (const auto& triangle : sphere.triangles)
+    data.surface_triangles.insert(data.surface_triangles.end(), triangle.begin(), triangle.end());
+}
+
+void fillForce(const SyntheticOptions& o, const Vec3& X, const MonomialBasis& basis, ModelData& data) {
+  for (int k = 0; k < basis.size(); ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      MultiIndex beta = basis[k];
+      ++beta[axis];  // f_i = dW/dd_i: the coefficient of x^alpha is (alpha_i + 1) w_{alpha + e_i} / d_ref
+      data.contact_force.push_back(beta[axis] * energyCoefficient(o, X, beta) / o.reference_displacement);
+    }
+}
+
+void fillModes(const SyntheticOptions& o, const Icosphere& sphere, const MonomialBasis& basis,
+               ModelData& data) {
+  for (int mode = 0; mode < o.modes; ++mode)
+    for (const Vec3& n : sphere.nodes)
+      for (int axis = 0; axis < 3; ++axis)
+        data.modes_X.push_back(static_cast<float>(0.1 * std::cos((mode + 1) * n[(axis + mode) % 3] + axis)));
+  for (const std::int32_t node : data.contact_node)
+    for (int k = 0; k < basis.size(); ++k)
+      for (int mode = 0; mode < o.modes; ++mode) {
+        const Vec3& n = sphere.nodes[static_cast<std::size_t>(node)];
+        const double y = std::sin(n.x() + 2.0 * n.y() + 3.0 * n.z() + mode) / ((k + 1.0) * (mode + 1.0));
+        data.modes_Y.push_back(static_cast<float>(o.reference_displacement * y));
+      }
+}
+
+void fillNear(const SyntheticOptions& o, const Icosphere& sphere, const MonomialBasis& basis,
+              ModelData& data) {
+  data.near_offset.push_back(0);
+  for (const std::int32_t node : data.contact_node) {
+    const Vec3 X = o.radius * sphere.nodes[static_cast<std::size_t>(node)];
+    const std::size_t first = data.near_node.size();
+    for (std::size_t i = 0; i < sphere.nodes.size(); ++i)
+      if ((o.radius * sphere.nodes[i] - X).norm() < o.near_radius)
+        data.near_node.push_back(static_cast<std::int32_t>(i));
+    for (int k = 0; k < basis.size(); ++k)
+      for (std::size_t i = first; i < data.near_node.size(); ++i) {
+        const Vec3 there = o.radius * sphere.nodes[static_cast<std::size_t>(data.near_node[i])];
+        const Vec3 u = nearValue(o, basis[k], (there - X).norm());
+        for (int axis = 0; axis < 3; ++axis) data.near_field.push_back(static_cast<float>(u[axis]));
+      }
+    data.near_offset.push_back(static_cast<std::int64_t>(data.near_node.size()));
+  }
+}
+
+void fillMesh(const Icosphere& sphere, ModelData& data) {
+  const auto centre = static_cast<std::int32_t>(sphere.nodes.size());
+  data.mesh_nodes = data.surface_positions;
+  data.mesh_nodes.insert(data.mesh_nodes.end(), {0.0, 0.0, 0.0});
+  data.mesh_node_tag = data.surface_mesh_tag;
+  data.mesh_node_tag.push_back(centre + 1);
+  for (const auto& [a, b, c] : sphere.triangles) {
+    data.mesh_tetrahedra.insert(data.mesh_tetrahedra.end(), {centre, a, b, c});
+    data.mesh_tetrahedron_tag.push_back(static_cast<std::int64_t>(data.mesh_tetrahedron_tag.size()) + 1);
+  }
+}
+
+}  // namespace
+
+ModelData syntheticModel(const SyntheticOptions& o) {
+  const Icosphere sphere = icosphere(o.subdivisions);
+  const MonomialBasis basis(o.order);
+  ModelData data;
+  data.attributes = {"0123456789abcdef",
+                     "stvk",
+                     R"({"program": "synthetic", "fit_error": 0.0})",
+                     160e3,
+                     0.48,
+                     o.order,
+                     0.008,
+                     o.near_radius,
+                     o.reference_displacement};
+  fillSurface(o, sphere, data);
+  for (const std::int32_t node : data.contact_node)
+    fillForce(o, o.radius * sphere.nodes[static_cast<std::size_t>(node)], basis, data);
+  fillModes(o, sphere, basis, data);
+  fillNear(o, sphere, basis, data);
+  fillMesh(sphere, data);
+  return data;
+}
+
+void writeSyntheticModel(const std::filesystem::path& path, const SyntheticOptions& options) {
+  modelfile::writeModel(path, syntheticModel(options));
+}
+
+double syntheticEnergy(const SyntheticOptions& o, const Vec3& X, const Vec3& d) {
+  const MonomialBasis basis(o.order + 1);
+  std::vector<double> monomial(static_cast<std::size_t>(basis.size()));
+  basis.evaluate(d / o.reference_displacement, monomial);
+  double energy = 0.0;
+  for (int k = 0; k < basis.size(); ++k)
+    energy += energyCoefficient(o, X, basis[k]) * monomial[static_cast<std::size_t>(k)];
+  return energy;
+}
+
+TemporaryFile::TemporaryFile(const std::string& name)
+    : path_(std::filesystem::temp_directory_path() / ("palpate-" + std::to_string(::getpid()) + "-" + name)) {
+}
+
+TemporaryFile::~TemporaryFile() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace palpate::testing
