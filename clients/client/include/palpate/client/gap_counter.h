@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace palpate::client {
+
+/// Counts what is missing from a counter that rises by one: the samples lost on the way. A counter that falls
+/// back means that the sender started anew. Threads: one. Real-time: yes.
+class GapCounter {
+ public:
+  void add(std::uint64_t seq) noexcept {
+    if (received_ > 0 && seq <= last_) ++restarts_;
+    if (received_ > 0 && seq > last_) lost_ += seq - last_ - 1;
+    last_ = seq;
+    ++received_;
+  }
+  [[nodiscard]] std::uint64_t received() const noexcept { return received_; }
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+  [[nodiscard]] std::uint64_t restarts() const noexcept { return restarts_; }
+
+ private:
+  std::uint64_t last_{0};
+  std::uint64_t received_{0};
+  std::uint64_t lost_{0};
+  std::uint64_t restarts_{0};
+};
+
+}  // namespace palpate::client

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpate/client/path.h"
+#include "palpate/idl/types.h"
+
+namespace palpate::client {
+
+/// The organ's rest surface as a client keeps it.
+struct Surface {
+  std::uint32_t organ_id{0};
+  std::string model_id;
+  std::uint32_t topology_revision{0};
+  std::vector<Point> positions;                         ///< Ns rest positions X, m
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< T, 0-based, counter-clockwise from outside
+  std::vector<std::uint8_t> accessible;                 ///< Ns, 1 = may be touched
+  std::vector<std::int64_t> mesh_tags;                  ///< Ns node numbers in the mesh file
+};
+
+/// Copies what came over the wire, once it is checked: whoever publishes is not trusted.
+/// @throw ClientError naming the field and the number: sizes that do not fit, an index out of range, a
+/// non-finite
+///        position, no triangle
+[[nodiscard]] Surface checkedSurface(const dds::SurfaceMesh& message);
+
+/// A place on the surface for a tool to touch.
+struct Spot {
+  std::uint32_t node{0};  ///< 0-based surface node
+  std::int64_t mesh_tag{0};
+  Point position{};  ///< X, m
+  Point normal{};    ///< outward unit normal there, angle-weighted over the triangles around
+};
+
+/// The accessible node nearest to `at`, or the one highest up (+z) when `at` is absent; nodes with none but
+/// accessible neighbours come first.
+/// @throw ClientError when no node is accessible, or the surface has no normal there
+[[nodiscard]] Spot chooseSpot(const Surface& surface, const std::optional<Point>& at);
+
+}  // namespace palpate::client

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "palpate/client/latest_value.h"
+#include "palpate/client/path.h"
+#include "palpate/idl/reader.h"
+#include "palpate/idl/writer.h"
+
+namespace palpate::client {
+
+/// One haptic tool as the server sees it: send its poses, get the forces on it. What a device driver builds
+/// on.
+class ToolClient {
+ public:
+  /// Called for every answer to this tool, on Cyclone's receive thread: must not block or throw.
+  /// @param[in] received_ns  nowNs() on arrival
+  using ForceCallback = void (*)(const dds::ToolForce& force, std::int64_t received_ns,
+                                 void* context) noexcept;
+
+  /// @param[in] tool_id  0 to 3, one client for each
+  /// @throw ClientError for another id, dds::DdsError
+  /// Real-time: no. The participant, and what `context` points to, must outlive it.
+  ToolClient(const dds::Participant& participant, std::uint32_t tool_id, ForceCallback callback = nullptr,
+             void* context = nullptr);
+  ToolClient(const ToolClient&) = delete;
+  ToolClient& operator=(const ToolClient&) = delete;
+
+  /// Sends the next pose, stamped now.
+  /// @param[in] position     p_WT, m
+  /// @param[in] orientation  q_WT, x y z w, unit length
+  /// @return its seq, from 1; 0 when DDS refused it
+  /// No allocation of ours (Cyclone's own: DESIGN 3.3). Threads: one.
+  std::uint64_t publish(const Point& position, const std::array<double, 4>& orientation = {0, 0, 0, 1},
+                        std::uint32_t buttons = 0) noexcept;
+
+  /// The newest answer, if there is one that no call gave before. Real-time: yes. Threads: one, any.
+  [[nodiscard]] bool latest(dds::ToolForce& force) noexcept { return latest_.load(force); }
+
+  /// @return whether a server listens to the poses and one sends forces, within `timeout`
+  [[nodiscard]] bool waitForServer(std::chrono::milliseconds timeout) const noexcept;
+
+ private:
+  static void onData(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept;
+
+  std::uint32_t tool_id_;
+  dds::ToolPose pose_{};  // publish()'s only
+  ForceCallback callback_;
+  void* context_;
+  LatestValue<dds::ToolForce> latest_;  // written by the receive thread, read by latest()'s caller
+  dds::Writer<dds::ToolPose> poses_;
+  dds::Reader<dds::ToolForce> forces_;  // last, so that no callback comes once the rest is gone
+};
+
+}  // namespace palpate::client

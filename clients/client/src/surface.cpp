@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/client/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "palpate/client/error.h"
+
+namespace palpate::client {
+namespace {
+
+void expectSize(const char* field, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    throw ClientError(std::string("surface from the server: ") + field + " has " + std::to_string(found) +
+                      " entries, expected " + std::to_string(expected));
+}
+
+void copyPositions(const dds::SurfaceMesh& message, Surface& surface) {
+  const auto& from = message.positions;
+  if (from._length == 0 || from._length % 3 != 0)
+    throw ClientError("surface from the server: positions has " + std::to_string(from._length) +
+                      " entries, expected 3 for each node");
+  for (std::uint32_t i = 0; i < from._length; i += 3) {
+    const Point X{from._buffer[i], from._buffer[i + 1], from._buffer[i + 2]};
+    if (!std::isfinite(dot(X, X)))
+      throw ClientError("surface from the server: position of node " + std::to_string(i / 3) +
+                        " is not finite");
+    surface.positions.push_back(X);
+  }
+}
+
+void copyTriangles(const dds::SurfaceMesh& message, Surface& surface) {
+  const auto& from = message.triangles;
+  if (from._length == 0 || from._length % 3 != 0)
+    throw ClientError("surface from the server: triangles has " + std::to_string(from._length) +
+                      " entries, expected 3 for each triangle");
+  for (std::uint32_t i = 0; i < from._length; ++i)
+    if (from._buffer[i] >= surface.positions.size())
+      throw ClientError("surface from the server: triangle " + std::to_string(i / 3) + " names node " +
+                        std::to_string(from._buffer[i]) + " of " + std::to_string(surface.positions.size()));
+  for (std::uint32_t i = 0; i < from._length; i += 3)
+    surface.triangles.push_back({from._buffer[i], from._buffer[i + 1], from._buffer[i + 2]});
+}
+
+// Sum of the triangles' normals around a node, each weighted by its angle there.
+Point normalAt(const Surface& surface, std::uint32_t node) {
+  Point sum{};
+  for (const auto& triangle : surface.triangles) {
+    const auto corner = std::find(triangle.begin(), triangle.end(), node) - triangle.begin();
+    if (corner == 3) continue;
+    const Point a = surface.positions[triangle[(corner + 1) % 3]] - surface.positions[node];
+    const Point b = surface.positions[triangle[(corner + 2) % 3]] - surface.positions[node];
+    const Point cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double area = length(cross);
+    if (area > 0.0) sum = sum + (std::atan2(area, dot(a, b)) / area) * cross;
+  }
+  return sum;
+}
+
+// Accessible nodes whose triangles have accessible corners only; all accessible ones when there is none.
+std::vector<std::uint32_t> candidates(const Surface& surface) {
+  std::vector<std::uint8_t> inner = surface.accessible;
+  for (const auto& triangle : surface.triangles)
+    for (const std::uint32_t corner : triangle)
+      if (surface.accessible[corner] == 0)
+        for (const std::uint32_t other : triangle) inner[other] = 0;
+  const auto collect = [](const std::vector<std::uint8_t>& mask) {
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t i = 0; i < mask.size(); ++i)
+      if (mask[i] != 0) nodes.push_back(i);
+    return nodes;
+  };
+  const auto nodes = collect(inner);
+  return nodes.empty() ? collect(surface.accessible) : nodes;
+}
+
+void checkModelId(const std::string& model_id) {
+  for (const char c : model_id)
+    if (c < ' ' || c > '~')
+      throw ClientError("surface from the server: model_id holds an unprintable character");
+}
+
+}  // namespace
+
+Surface checkedSurface(const dds::SurfaceMesh& message) {
+  Surface surface;
+  surface.organ_id = message.organ_id;
+  surface.model_id = message.model_id;
+  checkModelId(surface.model_id);
+  surface.topology_revision = message.topology_revision;
+  copyPositions(message, surface);
+  copyTriangles(message, surface);
+  expectSize("accessible", message.accessible._length, surface.positions.size());
+  expectSize("mesh_tags", message.mesh_tags._length, surface.positions.size());
+  surface.accessible.assign(message.accessible._buffer,
+                            message.accessible._buffer + message.accessible._length);
+  surface.mesh_tags.assign(message.mesh_tags._buffer, message.mesh_tags._buffer + message.mesh_tags._length);
+  return surface;
+}
+
+Spot chooseSpot(const Surface& surface, const std::optional<Point>& at) {
+  const auto cost = [&](std::uint32_t node) {
+    const Point& X = surface.positions[node];
+    return at ? length(X - *at) : -X[2];
+  };
+  const auto nodes = candidates(surface);
+  if (nodes.empty()) throw ClientError("no node of the organ's surface is accessible");
+  const std::uint32_t node =
+      *std::min_element(nodes.begin(), nodes.end(), [&](auto a, auto b) { return cost(a) < cost(b); });
+  const Point sum = normalAt(surface, node);
+  const double size = length(sum);
+  if (!(size > std::numeric_limits<double>::min()))
+    throw ClientError("the surface has no normal at node " + std::to_string(node));
+  return {node, surface.mesh_tags[node], surface.positions[node], (1.0 / size) * sum};
+}
+
+}  // namespace palpate::client

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/client/tool_client.h"
+
+#include <algorithm>
+
+#include "palpate/client/error.h"
+#include "palpate/client/pacer.h"
+
+namespace palpate::client {
+namespace {
+
+constexpr std::uint32_t kTools = 4;  // palpate.idl: tool_id 0 .. 3
+
+std::uint32_t checkedId(std::uint32_t tool_id) {
+  if (tool_id >= kTools) throw ClientError("tool id is " + std::to_string(tool_id) + ", expected 0 to 3");
+  return tool_id;
+}
+
+}  // namespace
+
+ToolClient::ToolClient(const dds::Participant& participant, std::uint32_t tool_id, ForceCallback callback,
+                       void* context)
+    : tool_id_(checkedId(tool_id)),
+      callback_(callback),
+      context_(context),
+      poses_(participant),
+      forces_(participant, &ToolClient::onData, this) {
+  pose_.tool_id = tool_id_;
+}
+
+std::uint64_t ToolClient::publish(const Point& position, const std::array<double, 4>& orientation,
+                                  std::uint32_t buttons) noexcept {
+  ++pose_.seq;
+  std::copy(position.begin(), position.end(), pose_.position);
+  std::copy(orientation.begin(), orientation.end(), pose_.orientation);
+  pose_.buttons = buttons;
+  pose_.stamp_ns = nowNs();
+  return poses_.write(pose_) ? pose_.seq : 0;
+}
+
+bool ToolClient::waitForServer(std::chrono::milliseconds timeout) const noexcept {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  if (!poses_.waitForReaders(1, timeout)) return false;
+  const auto left =
+      std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+  return forces_.waitForWriters(1, std::max(left, std::chrono::milliseconds(1)));
+}
+
+void ToolClient::onData(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept {
+  auto& self = *static_cast<ToolClient*>(context);
+  const std::int64_t received_ns = nowNs();
+  std::array<dds::ToolForce, dds::kMaxTake> forces;
+  const std::size_t count = reader.take(forces);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (forces[i].tool_id != self.tool_id_) continue;
+    self.latest_.store(forces[i]);
+    if (self.callback_ != nullptr) self.callback_(forces[i], received_ns, self.context_);
+  }
+}
+
+}  // namespace palpate::client

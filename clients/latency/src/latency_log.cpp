@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "latency_log.h"
+
+namespace palpate::latency {
+
+void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noexcept {
+  const bool known = force.pose_seq <= newest_pose_;
+  if (!known) newest_pose_ = force.pose_seq;
+  if (!recording_.load(std::memory_order_relaxed)) return;
+  const std::uint64_t restarts_before = answers_.restarts();
+  answers_.add(force.seq);
+  last_ = {force.overruns, force.superseded};
+  if (answers_.received() == 1 || answers_.restarts() != restarts_before) first_ = last_;
+  wakeup_.add(force.wakeup_ns);
+  tick_.add(force.tick_ns);
+  if (force.pose_stamp_ns == 0) return;
+  const std::int64_t age_ns = received_ns - force.pose_stamp_ns;
+  if (age_ns > 2 * period_ns_) ++late_;
+  if (!known) pose_to_force_.add(age_ns);  // only the first answer to a pose is a round trip
+}
+
+}  // namespace palpate::latency

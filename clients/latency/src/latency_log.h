@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "palpate/client/gap_counter.h"
+#include "palpate/client/histogram.h"
+#include "palpate/idl/types.h"
+
+namespace palpate::latency {
+
+/// What the answers of a server say about time.
+/// Threads: add() on the receive thread; the rest before receiving starts or after it ended, but for
+/// record().
+class LatencyLog {
+ public:
+  /// @param[in] period_ns  of the poses: an answer to a pose older than two of them is late
+  explicit LatencyLog(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
+
+  /// Starts and ends the measurement; answers before and after do not count. Threads: any.
+  void record(bool on) noexcept { recording_.store(on, std::memory_order_relaxed); }
+
+  /// @param[in] received_ns  on the clock that stamped the poses
+  /// Real-time: yes.
+  void add(const dds::ToolForce& force, std::int64_t received_ns) noexcept;
+
+  [[nodiscard]] const client::Histogram& poseToForce() const noexcept { return pose_to_force_; }
+  [[nodiscard]] const client::Histogram& wakeup() const noexcept { return wakeup_; }
+  [[nodiscard]] const client::Histogram& tick() const noexcept { return tick_; }
+  [[nodiscard]] std::uint64_t received() const noexcept { return answers_.received(); }
+  [[nodiscard]] std::uint64_t lost() const noexcept { return answers_.lost(); }
+  [[nodiscard]] std::uint64_t restarts() const noexcept { return answers_.restarts(); }
+  [[nodiscard]] std::uint64_t late() const noexcept { return late_; }
+  /// Of the server, during the measurement.
+  [[nodiscard]] std::uint64_t overruns() const noexcept { return last_.overruns - first_.overruns; }
+  [[nodiscard]] std::uint64_t superseded() const noexcept { return last_.superseded - first_.superseded; }
+
+ private:
+  struct ServerCounters {
+    std::uint64_t overruns{0};
+    std::uint64_t superseded{0};
+  };
+
+  std::int64_t period_ns_;
+  std::atomic<bool> recording_{false};  // a flag on its own: nothing else is read because of it
+  client::Histogram pose_to_force_;
+  client::Histogram wakeup_;
+  client::Histogram tick_;
+  client::GapCounter answers_;
+  std::uint64_t newest_pose_{0};
+  std::uint64_t late_{0};
+  ServerCounters first_;
+  ServerCounters last_;
+};
+
+}  // namespace palpate::latency

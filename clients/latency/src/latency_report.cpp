@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "latency_report.h"
+
+#include <array>
+#include <cstdio>
+
+#include "palpate/report/program.h"
+#include "palpate/report/svg_plot.h"
+#include "palpate/report/text_chart.h"
+
+namespace palpate::latency {
+namespace {
+
+std::string rowOf(const char* name, const client::TimeSummary& s) {
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), "%-28s %9.1f %9.1f %9.1f %9.1f %9llu\n", name, s.p50, s.p99, s.p999,
+                s.max, static_cast<unsigned long long>(s.count));
+  return text.data();
+}
+
+report::Series barsOf(const char* name, const client::Histogram& histogram) {
+  report::Series series{name, {}, {}, {}};
+  for (const auto& bar : histogram.bars(10)) {
+    series.x.push_back(bar.from_ns * 1e-3);
+    series.x_end.push_back(bar.to_ns * 1e-3);
+    series.y.push_back(static_cast<double>(bar.count));
+  }
+  return series;
+}
+
+}  // namespace
+
+std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
+  std::string text = "time / us                          p50       p99     p99.9       max     count\n";
+  text += rowOf("pose to force, round trip", log.poseToForce().summary());
+  text += rowOf("tick, compute time", log.tick().summary());
+  text += rowOf("tick, woke late by", log.wakeup().summary());
+  text += rowOf("sender, woke late by", sender.wakeup.summary());
+  std::array<char, 256> counters{};
+  std::snprintf(
+      counters.data(), counters.size(),
+      "%.2f s at %g Hz: %llu poses, %llu forces, lost %llu, late %llu, superseded %llu, overruns %llu\n",
+      sender.seconds, server.rate_hz, static_cast<unsigned long long>(sender.sent),
+      static_cast<unsigned long long>(log.received()), static_cast<unsigned long long>(log.lost()),
+      static_cast<unsigned long long>(log.late()), static_cast<unsigned long long>(log.superseded()),
+      static_cast<unsigned long long>(log.overruns()));
+  text += counters.data();
+  text += std::string("real-time priority: server ") + (server.realtime ? "yes" : "no") + ", sender " +
+          (sender.realtime ? "yes" : "no") +
+          "; server's memory locked: " + (server.memory_locked ? "yes" : "no") + "\n\n";
+  return text + "pose to force:\n" + report::textHistogram(log.poseToForce());
+}
+
+nlohmann::json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
+  return {{"pose_to_force_us", report::toJson(log.poseToForce().summary())},
+          {"wakeup_us", report::toJson(log.wakeup().summary())},
+          {"tick_us", report::toJson(log.tick().summary())},
+          {"client_wakeup_us", report::toJson(sender.wakeup.summary())},
+          {"overruns", log.overruns()},
+          {"lost", log.lost()},
+          {"late", log.late()},
+          {"superseded", log.superseded()},
+          {"seconds", sender.seconds},
+          {"sent", sender.sent},
+          {"received", log.received()},
+          {"server_restarts", log.restarts()},
+          {"client_realtime", sender.realtime},
+          {"server_realtime", server.realtime},
+          {"server_memory_locked", server.memory_locked},
+          {"server_rate_hz", server.rate_hz},
+          {"model_id", server.model_id}};
+}
+
+std::string plotOf(const LatencyLog& log) {
+  report::SvgPlot plot;
+  plot.title = "palpate-latency: " + std::to_string(log.received()) + " ticks";
+  plot.x_label = "time / us";
+  plot.y_label = "samples";
+  plot.log_x = true;
+  plot.log_y = true;
+  plot.series = {barsOf("pose to force", log.poseToForce()), barsOf("tick, late by", log.wakeup()),
+                 barsOf("tick, compute", log.tick())};
+  return plot.render();
+}
+
+}  // namespace palpate::latency

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "latency_log.h"
+#include "measure.h"
+#include "palpate/idl/types.h"
+
+namespace palpate::latency {
+
+/// The table of percentiles, the counters, and the histogram of the round trip, for people.
+[[nodiscard]] std::string textOf(const LatencyLog& log, const SenderStats& sender,
+                                 const dds::ServerStatus& server);
+
+/// The same for programs: `pose_to_force_us`, `wakeup_us`, `tick_us`, `client_wakeup_us`, each {p50, p99,
+/// p999, max, count}; `overruns`, `lost`, `late`, `superseded`, `seconds` and more.
+[[nodiscard]] nlohmann::json jsonOf(const LatencyLog& log, const SenderStats& sender,
+                                    const dds::ServerStatus& server);
+
+/// The three histograms on logarithmic axes, as SVG.
+[[nodiscard]] std::string plotOf(const LatencyLog& log);
+
+}  // namespace palpate::latency

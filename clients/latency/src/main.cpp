@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-latency: how long a pose takes to become a force, and how steadily the server ticks.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "latency_report.h"
+#include "palpate/client/error.h"
+#include "palpate/client/server_finder.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/report/program.h"
+
+namespace palpate::latency {
+namespace {
+
+struct Options {
+  MeasureOptions measure;
+  std::string at;
+  std::uint32_t domain{0};
+  double wait_s{10.0};
+  bool json{false};
+  std::string plot;
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  app.add_option("--seconds", options.measure.seconds, "how long to measure, s")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
+  app.add_option("--rate", options.measure.rate_hz, "poses a second")
+      ->check(CLI::Range(10.0, 4000.0))
+      ->capture_default_str();
+  app.add_option("--at", options.at,
+                 "press the accessible node nearest to x,y,z (m); default: the highest one");
+  app.add_option("--tool", options.measure.tool_id, "tool id, 0 to 3")
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
+  app.add_option("--wait", options.wait_s, "how long to wait for a server, s")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "print one JSON object on standard output");
+  app.add_option("--plot", options.plot, "write the histograms to this SVG file");
+  app.set_version_flag("--version", PALPATE_VERSION);
+}
+
+int body(int argc, char** argv) {
+  // 1. What to do.
+  CLI::App app("Sends poses to a palpate-server and measures round trip, tick time and wake-up lateness.");
+  Options options;
+  addOptions(app, options);
+  CLI11_PARSE(app, argc, argv);
+  std::optional<client::Point> at;
+  if (!options.at.empty()) at = report::parsePoint("--at", options.at);
+  client::catchStopSignals();
+
+  // 2. Find the server and a place to press.
+  const dds::Participant participant(options.domain);
+  std::cerr << "waiting for a server on DDS domain " << options.domain << "\n";
+  const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
+  const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+  const client::Spot spot = client::chooseSpot(server.surface, at);
+  options.measure.tip_radius = server.status.tip_radius;
+
+  // 3. Measure.
+  LatencyLog log(static_cast<std::int64_t>(1e9 / options.measure.rate_hz));
+  const SenderStats sender = measure(participant, spot, options.measure, log);
+  if (!sender.realtime)
+    std::cerr << "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
+  if (log.received() == 0)
+    throw client::ClientError("no force came back for " + std::to_string(sender.sent) + " poses");
+
+  // 4. Tell.
+  (options.json ? std::cerr : std::cout) << textOf(log, sender, server.status) << std::flush;
+  if (options.json) report::printJson(jsonOf(log, sender, server.status));
+  if (!options.plot.empty()) report::writeFile(options.plot, plotOf(log));
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::latency
+
+int main(int argc, char** argv) {
+  return palpate::report::runProgram("palpate-latency", &palpate::latency::body, argc, argv);
+}

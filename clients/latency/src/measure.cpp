@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "palpate/client/error.h"
+#include "palpate/client/pacer.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/client/thread_priority.h"
+#include "palpate/client/tool_client.h"
+
+namespace palpate::latency {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kPriority = 60;  // below the server's threads (DESIGN 3.3)
+constexpr int kReceivePriority = 65;
+constexpr double kApproachSeconds = 1.0;
+
+// In between 1 and 2 mm deep, one second a turn, so that the force never rests.
+client::Path gentlePress(const client::Spot& spot, const MeasureOptions& options) {
+  const auto above = [&](double height) {
+    return spot.position + (options.tip_radius + height) * spot.normal;
+  };
+  std::vector<client::Leg> legs{{above(-0.001), kApproachSeconds, "approach"}};
+  for (double t = 0.0; t < options.seconds; t += 1.0) {
+    legs.push_back({above(-0.002), 0.5, "in"});
+    legs.push_back({above(-0.001), 0.5, "out"});
+  }
+  return client::Path(above(0.010), std::move(legs));
+}
+
+// Sends from `from` to `to` on the path's time; the pacer keeps going from one call to the next.
+void send(client::ToolClient& tool, const client::Path& path, double from, double to, client::Pacer& pacer,
+          SenderStats& stats) {
+  const std::int64_t start_ns = client::nowNs();
+  const double direction = from <= to ? 1.0 : -1.0;
+  for (double t = 0.0; t < std::abs(to - from); t = static_cast<double>(client::nowNs() - start_ns) * 1e-9) {
+    if (tool.publish(path.at(from + direction * t)) > 0) ++stats.sent;
+    stats.wakeup.add(pacer.wait());
+    if (client::stopRequested()) break;
+  }
+  stats.seconds = static_cast<double>(client::nowNs() - start_ns) * 1e-9;
+}
+
+}  // namespace
+
+SenderStats measure(const dds::Participant& participant, const client::Spot& spot,
+                    const MeasureOptions& options, LatencyLog& log) {
+  const auto on_force = [](const dds::ToolForce& force, std::int64_t received_ns, void* context) noexcept {
+    static_cast<LatencyLog*>(context)->add(force, received_ns);
+  };
+  client::ToolClient tool(participant, options.tool_id, on_force, &log);
+  if (!tool.waitForServer(5s))
+    throw client::ClientError("the server takes no poses or sends no forces (waited 5 s)");
+  const client::Path path = gentlePress(spot, options);
+  SenderStats unmeasured;
+  SenderStats stats;
+  client::raiseReceiveThreads(kReceivePriority);
+  stats.realtime = client::raiseThisThread(kPriority);
+  client::Pacer pacer(std::llround(1e9 / options.rate_hz));
+  send(tool, path, 0.0, kApproachSeconds, pacer, unmeasured);
+  log.record(true);
+  send(tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats);
+  log.record(false);
+  send(tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
+  return stats;
+}
+
+}  // namespace palpate::latency

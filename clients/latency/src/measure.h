@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "latency_log.h"
+#include "palpate/client/surface.h"
+#include "palpate/idl/participant.h"
+
+namespace palpate::latency {
+
+/// How to measure.
+struct MeasureOptions {
+  double seconds{10.0};      ///< of the measurement, in (0, 86400]
+  double rate_hz{1000.0};    ///< of the poses, in [10, 4000]
+  double tip_radius{0.005};  ///< R, m; the server's
+  std::uint32_t tool_id{0};
+};
+
+/// This process's side of the measurement.
+struct SenderStats {
+  client::Histogram wakeup;  ///< how late the sending thread woke
+  double seconds{0.0};       ///< how long it was measured
+  std::uint64_t sent{0};
+  bool realtime{false};
+};
+
+/// Presses the organ gently at `spot`, for the tick has less to do without contact, and fills `log`. About
+/// one second of approach before and of retreat after are not measured.
+/// @throw client::ClientError when no server takes poses
+[[nodiscard]] SenderStats measure(const dds::Participant& participant, const client::Spot& spot,
+                                  const MeasureOptions& options, LatencyLog& log);
+
+}  // namespace palpate::latency

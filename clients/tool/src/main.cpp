@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-tool: a scripted tool touches the organ and prints the force over time.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "palpate/client/error.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/report/program.h"
+#include "tool_report.h"
+
+namespace palpate::tool {
+namespace {
+
+struct Options {
+  std::string script{"press"};
+  client::ScriptOptions path;
+  std::optional<double> seconds;     ///< of the whole script, in (0, 3600]
+  std::optional<double> tip_radius;  ///< m; absent: the server's
+  std::string at;
+  std::uint32_t tool_id{0};
+  std::uint32_t domain{0};
+  double wait_s{10.0};
+  bool json{false};
+  std::string plot;
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  app.add_option("--script", options.script, "what to play: press, slide or poke")
+      ->check(CLI::IsMember({"press", "slide", "poke"}))
+      ->capture_default_str();
+  app.add_option("--seconds", options.seconds, "duration of the whole script, s")
+      ->check(CLI::Range(0.05, 3600.0));
+  app.add_option("--depth", options.path.depth, "how far below the rest surface, m")->capture_default_str();
+  app.add_option("--slide", options.path.slide_distance, "way along the surface, m")->capture_default_str();
+  app.add_option("--pokes", options.path.pokes, "how often poke goes in")->capture_default_str();
+  app.add_option("--clearance", options.path.clearance, "distance at the start and the end, m")
+      ->capture_default_str();
+  app.add_option("--at", options.at,
+                 "touch the accessible node nearest to x,y,z (m); default: the highest one");
+  app.add_option("--tip-radius", options.tip_radius, "radius of the tip, m; default: what the server says");
+  app.add_option("--tool", options.tool_id, "tool id, 0 to 3")
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
+  app.add_option("--wait", options.wait_s, "how long to wait for a server, s")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "print one JSON object on standard output");
+  app.add_option("--plot", options.plot, "write the force over time to this SVG file");
+  app.set_version_flag("--version", PALPATE_VERSION);
+}
+
+Played prepare(const Options& options, const client::ServerInfo& server) {
+  client::ScriptOptions path_options = options.path;
+  path_options.tip_radius = options.tip_radius.value_or(server.status.tip_radius);
+  if (path_options.tip_radius != server.status.tip_radius)
+    std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
+              << server.status.tip_radius << " m\n";
+  std::optional<client::Point> at;
+  if (!options.at.empty()) at = report::parsePoint("--at", options.at);
+  const client::Spot spot = client::chooseSpot(server.surface, at);
+  client::Path path = client::scriptedPath(options.script, spot, path_options);
+  if (options.seconds) path = path.stretchedTo(*options.seconds);
+  return {options.script, path_options, spot, std::move(path), server};
+}
+
+int body(int argc, char** argv) {
+  // 1. What to do; refuse what cannot be before anybody waits.
+  CLI::App app("Plays a scripted tool path against a palpate-server and prints the force on the tool.");
+  Options options;
+  addOptions(app, options);
+  CLI11_PARSE(app, argc, argv);
+  client::check(options.path);
+  if (!options.at.empty()) (void)report::parsePoint("--at", options.at);
+  client::catchStopSignals();
+
+  // 2. Find the server and its organ.
+  const dds::Participant participant(options.domain);
+  std::cerr << "waiting for a server on DDS domain " << options.domain << "\n";
+  const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
+  const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+
+  // 3. Play the path.
+  const Played played = prepare(options, server);
+  const Recording recording = play(participant, options.tool_id, played.path);
+
+  // 4. Tell.
+  (options.json ? std::cerr : std::cout) << tableOf(played, recording) << std::flush;
+  if (options.json) report::printJson(jsonOf(played, recording));
+  if (!options.plot.empty()) report::writeFile(options.plot, plotOf(played, recording));
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::tool
+
+int main(int argc, char** argv) {
+  return palpate::report::runProgram("palpate-tool", &palpate::tool::body, argc, argv);
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "play.h"
+
+#include <atomic>
+#include <chrono>
+#include <iostream>
+#include <thread>
+
+#include "palpate/client/error.h"
+#include "palpate/client/pacer.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/client/thread_priority.h"
+#include "palpate/client/tool_client.h"
+
+namespace palpate::tool {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr int kPriority = 60;  // below the server's threads (DESIGN 3.3)
+constexpr int kReceivePriority = 65;
+
+// Written by the receive thread; read once the ToolClient, and with it the receiving, has ended.
+struct AnswerLog {
+  explicit AnswerLog(std::size_t capacity) { first_answers.reserve(capacity); }
+
+  static void onForce(const dds::ToolForce& force, std::int64_t, void* context) noexcept {
+    auto& self = *static_cast<AnswerLog*>(context);
+    self.answers.add(force.seq);
+    if ((force.flags & dds::flag::kShuttingDown) != 0)
+      self.server_left.store(true, std::memory_order_relaxed);
+    const bool first = force.pose_seq > self.newest_pose;
+    if (!first || self.first_answers.size() == self.first_answers.capacity()) return;
+    self.newest_pose = force.pose_seq;
+    self.first_answers.push_back(force);
+  }
+
+  std::vector<dds::ToolForce> first_answers;
+  client::GapCounter answers;
+  std::uint64_t newest_pose{0};
+  std::atomic<bool> server_left{
+      false};  // a flag on its own: nothing else is read because of it while receiving
+};
+
+struct SentPose {
+  std::uint64_t seq;
+  double t_s;
+  client::Point position;
+};
+
+std::vector<Sample> join(const std::vector<SentPose>& sent, const std::vector<dds::ToolForce>& answers) {
+  std::vector<Sample> samples;
+  auto pose = sent.begin();
+  for (const dds::ToolForce& answer : answers) {
+    while (pose != sent.end() && pose->seq < answer.pose_seq) ++pose;
+    if (pose != sent.end() && pose->seq == answer.pose_seq)
+      samples.push_back({pose->t_s, pose->position, answer});
+  }
+  return samples;
+}
+
+void sendAlong(const client::Path& path, client::ToolClient& tool, const AnswerLog& log,
+               std::vector<SentPose>& sent, Recording& recording) {
+  const std::int64_t start_ns = client::nowNs();
+  client::Pacer pacer(kPeriodNs);
+  for (double t = 0.0; t <= path.seconds() && !client::stopRequested(); pacer.wait()) {
+    if (log.server_left.load(std::memory_order_relaxed)) break;
+    t = static_cast<double>(client::nowNs() - start_ns) * 1e-9;
+    const client::Point position = path.at(t);
+    const std::uint64_t seq = tool.publish(position);
+    if (seq > 0) sent.push_back({seq, t, position});
+  }
+  recording.missed_periods = pacer.missed();
+}
+
+}  // namespace
+
+Recording play(const dds::Participant& participant, std::uint32_t tool_id, const client::Path& path) {
+  Recording recording;
+  const auto capacity = static_cast<std::size_t>(path.seconds() * 1e3) + 1000;
+  AnswerLog log(capacity);
+  std::vector<SentPose> sent;
+  sent.reserve(capacity);
+  {
+    client::ToolClient tool(participant, tool_id, &AnswerLog::onForce, &log);
+    if (!tool.waitForServer(5s))
+      throw client::ClientError("the server takes no poses or sends no forces (waited 5 s)");
+    client::raiseReceiveThreads(kReceivePriority);
+    if (!client::raiseThisThread(kPriority))
+      std::cerr << "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
+    sendAlong(path, tool, log, sent, recording);
+    std::this_thread::sleep_for(20ms);  // the last answers are still on their way
+  }
+  recording.samples = join(sent, log.first_answers);
+  recording.answers = log.answers;
+  recording.sent = sent.size();
+  recording.server_left = log.server_left;
+  if (recording.samples.empty())
+    throw client::ClientError("no force came back for " + std::to_string(sent.size()) + " poses");
+  return recording;
+}
+
+}  // namespace palpate::tool

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "palpate/client/gap_counter.h"
+#include "palpate/client/path.h"
+#include "palpate/idl/participant.h"
+#include "palpate/idl/types.h"
+
+namespace palpate::tool {
+
+/// The first answer to one pose.
+struct Sample {
+  double t_s;          ///< when the pose was sent, s since the start
+  client::Point pose;  ///< p_WT, m
+  dds::ToolForce force;
+};
+
+/// What happened while a path was played.
+struct Recording {
+  std::vector<Sample> samples;  ///< in the order of the poses
+  client::GapCounter answers;
+  std::uint64_t sent{0};
+  std::uint64_t missed_periods{0};  ///< periods in which this process did not get to run
+  bool server_left{false};          ///< the server said that it shuts down
+  [[nodiscard]] std::uint64_t unanswered() const noexcept { return sent - samples.size(); }
+};
+
+/// Sends poses along the path at 1 kHz and records the answers; ends early on a stop signal or when the
+/// server leaves.
+/// @throw client::ClientError when no server takes poses, or none answers
+[[nodiscard]] Recording play(const dds::Participant& participant, std::uint32_t tool_id,
+                             const client::Path& path);
+
+}  // namespace palpate::tool

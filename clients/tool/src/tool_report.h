@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "palpate/client/scripts.h"
+#include "palpate/client/server_finder.h"
+#include "play.h"
+
+namespace palpate::tool {
+
+/// What was played, for the reports.
+struct Played {
+  std::string script;
+  client::ScriptOptions options;
+  client::Spot spot;
+  client::Path path;
+  const client::ServerInfo& server;
+};
+
+/// A table of force over time, a chart of its size, and a summary line, for people.
+[[nodiscard]] std::string tableOf(const Played& played, const Recording& recording);
+
+/// The same for programs: `t_s`[n], `pose_m`[n][3], `force_N`[n][3] (on the tool), `flags`[n],
+/// `penetration_m`[n], `summary`, and what was played. tools/README.md documents it.
+[[nodiscard]] nlohmann::json jsonOf(const Played& played, const Recording& recording);
+
+/// The force's size and components over time, as SVG.
+[[nodiscard]] std::string plotOf(const Played& played, const Recording& recording);
+
+}  // namespace palpate::tool

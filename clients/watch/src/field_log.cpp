@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field_log.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::watch {
+namespace {
+
+NodeDisplacement largestOf(const dds::SurfaceDisplacement& field) noexcept {
+  NodeDisplacement largest;
+  const float* u = field.displacement._buffer;
+  for (std::size_t i = 0; i < field.displacement._length / 3; ++i) {
+    const client::Point here{u[3 * i], u[3 * i + 1], u[3 * i + 2]};
+    if (const double size = length(here); size > largest.size) largest = {i, here, size};
+  }
+  return largest;
+}
+
+}  // namespace
+
+FieldLog::FieldLog(const client::Surface& surface)
+    : surface_(surface), peak_field_(3 * surface.positions.size(), 0.0F) {}
+
+bool FieldLog::fits(const dds::SurfaceDisplacement& field) const noexcept {
+  const auto& u = field.displacement;
+  return surface_.model_id == field.model_id && surface_.topology_revision == field.topology_revision &&
+         u._length == peak_field_.size() &&
+         std::all_of(u._buffer, u._buffer + u._length, [](float value) { return std::isfinite(value); });
+}
+
+void FieldLog::add(const dds::SurfaceDisplacement& field) noexcept {
+  if (!fits(field)) {
+    ++refused_;
+    return;
+  }
+  fields_.add(field.seq);
+  largest_ = largestOf(field);
+  if (largest_.size <= peak_.size) return;
+  peak_ = largest_;
+  std::copy_n(field.displacement._buffer, peak_field_.size(), peak_field_.begin());
+}
+
+void FieldLog::take(dds::ReaderView<dds::SurfaceDisplacement> reader) noexcept {
+  const auto samples = reader.takeLoaned();
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i].organ_id == surface_.organ_id) add(samples[i]);
+}
+
+FieldSummary FieldLog::summary() const {
+  const std::lock_guard lock(mutex_);
+  return {fields_.received(), fields_.lost(), refused_, largest_, peak_};
+}
+
+std::vector<float> FieldLog::peakField() const {
+  const std::lock_guard lock(mutex_);
+  return peak_field_;
+}
+
+}  // namespace palpate::watch

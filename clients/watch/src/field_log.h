@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "palpate/client/gap_counter.h"
+#include "palpate/client/path.h"
+#include "palpate/client/surface.h"
+#include "palpate/idl/reader.h"
+
+namespace palpate::watch {
+
+/// The displacement of one node.
+struct NodeDisplacement {
+  std::size_t node{0};
+  client::Point u{};  ///< m
+  double size{0.0};   ///< m
+};
+
+/// What the fields showed since the log began, or since the last look.
+struct FieldSummary {
+  std::uint64_t received{0};
+  std::uint64_t superseded{0};  ///< sent by the server but replaced or lost before they came here
+  std::uint64_t refused{0};     ///< of another model, of the wrong size, or with a number that is not finite
+  NodeDisplacement largest;     ///< of the newest field
+  NodeDisplacement peak;        ///< of all fields so far
+};
+
+/// Follows an organ's displacement field. Threads: take() on the receive thread, the rest on one other; they
+/// share a lock, for a viewer may wait. Real-time: no.
+class FieldLog {
+ public:
+  /// @param[in] surface  must outlive the log
+  explicit FieldLog(const client::Surface& surface);
+
+  void take(dds::ReaderView<dds::SurfaceDisplacement> reader) noexcept;
+
+  [[nodiscard]] FieldSummary summary() const;
+  /// The field in which the largest displacement so far was seen, 3 Ns, m; zero before the first.
+  [[nodiscard]] std::vector<float> peakField() const;
+
+ private:
+  [[nodiscard]] bool fits(const dds::SurfaceDisplacement& field) const noexcept;
+  void add(const dds::SurfaceDisplacement& field) noexcept;
+
+  const client::Surface& surface_;
+  mutable std::mutex mutex_;
+  client::GapCounter fields_;
+  std::uint64_t refused_{0};
+  NodeDisplacement largest_;
+  NodeDisplacement peak_;
+  std::vector<float> peak_field_;
+};
+
+}  // namespace palpate::watch

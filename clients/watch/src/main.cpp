@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-watch: a viewer without a screen; follows the displacement of an organ's surface.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+
+#include "field_log.h"
+#include "palpate/client/error.h"
+#include "palpate/client/pacer.h"
+#include "palpate/client/server_finder.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/report/program.h"
+#include "palpate/report/vtk_surface.h"
+
+namespace palpate::watch {
+namespace {
+
+struct Options {
+  double seconds{10.0};
+  std::uint32_t domain{0};
+  double wait_s{10.0};
+  bool json{false};
+  std::string vtk;
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  app.add_option("--seconds", options.seconds, "how long to watch, s")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
+  app.add_option("--wait", options.wait_s, "how long to wait for a server, s")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  app.add_option("--vtk", options.vtk,
+                 "write the surface at its largest displacement to this .vtu or .vtk file");
+  app.add_flag("--json", options.json, "print one JSON object on standard output");
+  app.set_version_flag("--version", PALPATE_VERSION);
+}
+
+void printLine(std::ostream& out, double t, double rate, const client::Surface& surface,
+               const NodeDisplacement& largest) {
+  const client::Point& X = surface.positions[largest.node];
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "%7.1f s  %7.1f fields/s  largest %8.4f mm at node %lld (%.4f, %.4f, %.4f) m\n", t, rate,
+                largest.size * 1e3, static_cast<long long>(surface.mesh_tags[largest.node]), X[0], X[1],
+                X[2]);
+  out << text.data() << std::flush;
+}
+
+// Prints a line a second until the time is over or the user stops. @return seconds watched
+double follow(const FieldLog& log, const client::Surface& surface, double seconds, std::ostream& out) {
+  const std::int64_t start_ns = client::nowNs();
+  const auto elapsed = [&] { return static_cast<double>(client::nowNs() - start_ns) * 1e-9; };
+  client::Pacer pacer(50'000'000);
+  double last_s = 0.0;
+  std::uint64_t last_count = 0;
+  while (elapsed() < seconds && !client::stopRequested()) {
+    pacer.wait();
+    const double now_s = elapsed();
+    if (now_s - last_s < std::min(1.0, seconds)) continue;
+    const FieldSummary summary = log.summary();
+    printLine(out, now_s, static_cast<double>(summary.received - last_count) / (now_s - last_s), surface,
+              summary.largest);
+    last_s = now_s;
+    last_count = summary.received;
+  }
+  return elapsed();
+}
+
+nlohmann::json jsonOf(const FieldSummary& summary, const client::Surface& surface, double seconds) {
+  const auto node = [&](const NodeDisplacement& at) -> nlohmann::json {
+    return {{"size", at.size},
+            {"displacement", at.u},
+            {"node", surface.mesh_tags[at.node]},
+            {"position", surface.positions[at.node]}};
+  };
+  return {
+      {"model_id", surface.model_id},          {"surface_nodes", surface.positions.size()},
+      {"triangles", surface.triangles.size()}, {"seconds", seconds},
+      {"received", summary.received},          {"rate_hz", static_cast<double>(summary.received) / seconds},
+      {"superseded", summary.superseded},      {"refused", summary.refused},
+      {"last", node(summary.largest)},         {"peak", node(summary.peak)}};
+}
+
+int body(int argc, char** argv) {
+  // 1. What to do.
+  CLI::App app("Follows the displacement of the organ that a palpate-server simulates.");
+  Options options;
+  addOptions(app, options);
+  CLI11_PARSE(app, argc, argv);
+  if (!options.vtk.empty()) report::checkSurfacePath(options.vtk);
+  client::catchStopSignals();
+
+  // 2. Find the server and its organ.
+  const dds::Participant participant(options.domain);
+  std::cerr << "waiting for a server on DDS domain " << options.domain << "\n";
+  const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
+  const client::Surface surface = client::ServerFinder(participant).wait(patience).surface;
+
+  // 3. Follow the field.
+  FieldLog log(surface);
+  const auto on_data = [](dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept {
+    static_cast<FieldLog*>(context)->take(reader);
+  };
+  const dds::Reader<dds::SurfaceDisplacement> reader(participant, on_data, &log);
+  const double seconds = follow(log, surface, options.seconds, options.json ? std::cerr : std::cout);
+
+  // 4. Tell.
+  const FieldSummary summary = log.summary();
+  if (options.json) report::printJson(jsonOf(summary, surface, seconds));
+  if (!options.vtk.empty()) report::writeSurface(options.vtk, surface, log.peakField());
+  if (summary.received == 0)
+    throw client::ClientError("no displacement field came within " + std::to_string(seconds) + " s");
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::watch
+
+int main(int argc, char** argv) {
+  return palpate::report::runProgram("palpate-watch", &palpate::watch::body, argc, argv);
+}

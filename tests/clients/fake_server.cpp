@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fake_server.h"
+
+#include <algorithm>
+
+#include "palpate/client/pacer.h"
+
+namespace palpate::testing {
+
+FakeServer::FakeServer(std::uint32_t domain, const FakeServerOptions& options)
+    : options_(options),
+      participant_(domain),
+      meshes_(participant_),
+      statuses_(participant_),
+      forces_(participant_),
+      fields_(participant_),
+      poses_(
+          participant_,
+          [](dds::ReaderView<dds::ToolPose> reader, void* context) noexcept {
+            static_cast<FakeServer*>(context)->onPose(reader);
+          },
+          this) {
+  announce();
+  thread_ = std::thread([this] { run(); });
+}
+
+FakeServer::~FakeServer() {
+  stop_ = true;
+  thread_.join();
+}
+
+void FakeServer::announce() {
+  (void)meshes_.write(surface_.message());
+  dds::ServerStatus status{};
+  dds::assignText(status.model_id, surface_.model_id);
+  status.state = dds::server_state::kRunning;
+  status.rate_hz = 1000.0;
+  status.tip_radius = options_.tip_radius;
+  (void)statuses_.write(status);
+}
+
+void FakeServer::onPose(dds::ReaderView<dds::ToolPose> reader) noexcept {
+  dds::ToolPose pose{};
+  while (reader.take({&pose, 1}) == 1) {
+    const std::lock_guard lock(mutex_);
+    if (!used_) ++superseded_;
+    pose_ = pose;
+    seen_ = true;
+    used_ = false;
+  }
+}
+
+void FakeServer::run() {
+  client::Pacer pacer(1'000'000);
+  std::uint64_t seq = 0;
+  while (!stop_) {
+    pacer.wait();
+    dds::ToolPose pose{};
+    {
+      const std::lock_guard lock(mutex_);
+      if (!seen_) continue;
+      pose = pose_;
+      used_ = true;
+    }
+    answer(pose, ++seq);
+  }
+}
+
+void FakeServer::answer(const dds::ToolPose& pose, std::uint64_t seq) {
+  const double depth = std::max(0.0, 0.05 + options_.tip_radius - pose.position[2]);
+  dds::ToolForce force{};
+  force.tool_id = pose.tool_id;
+  force.seq = seq;
+  force.pose_seq = pose.seq;
+  force.pose_stamp_ns = pose.stamp_ns;
+  force.force[2] = options_.stiffness * depth;
+  force.penetration = depth;
+  force.wakeup_ns = 50'000;
+  force.tick_ns = 70'000;
+  if (depth > 0.0) {
+    force.flags = dds::flag::kInContact;
+    force.state = dds::tool_state::kStick;
+  }
+  if (options_.leave_after > 0 && seq >= options_.leave_after) force.flags |= dds::flag::kShuttingDown;
+  const std::lock_guard lock(mutex_);
+  force.superseded = superseded_;
+  if (options_.drop_every == 0 || seq % options_.drop_every != 0) (void)forces_.write(force);
+  sendField(depth, seq);
+}
+
+void FakeServer::sendField(double depth, std::uint64_t seq) {
+  std::array<float, 15> u{};
+  u[14] = static_cast<float>(-depth);
+  dds::SurfaceDisplacement field{};
+  dds::assignText(field.model_id, surface_.model_id);
+  field.seq = seq;
+  field.displacement = {15, 15, u.data(), false};
+  (void)fields_.write(field);
+}
+
+}  // namespace palpate::testing

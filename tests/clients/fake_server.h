@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "palpate/idl/reader.h"
+#include "palpate/idl/writer.h"
+#include "small_surface.h"
+
+namespace palpate::testing {
+
+/// How a FakeServer behaves.
+struct FakeServerOptions {
+  double stiffness{500.0};       ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
+  double tip_radius{0.005};      ///< m
+  std::uint64_t drop_every{0};   ///< leaves out every n-th ToolForce, to be found as lost; 0: none
+  std::uint64_t leave_after{0};  ///< flags kShuttingDown from this ToolForce on; 0: never
+};
+
+/// Speaks the server's side of the wire, with a spring for an organ: the client programs can be judged
+/// against numbers known in closed form. One tool.
+class FakeServer {
+ public:
+  FakeServer(std::uint32_t domain, const FakeServerOptions& options);
+  ~FakeServer();
+  FakeServer(const FakeServer&) = delete;
+  FakeServer& operator=(const FakeServer&) = delete;
+
+ private:
+  void onPose(dds::ReaderView<dds::ToolPose> reader) noexcept;
+  void announce();
+  void run();
+  void answer(const dds::ToolPose& pose, std::uint64_t seq);
+  void sendField(double depth, std::uint64_t seq);
+
+  FakeServerOptions options_;
+  SmallSurface surface_;
+  dds::Participant participant_;
+  dds::Writer<dds::SurfaceMesh> meshes_;
+  dds::Writer<dds::ServerStatus> statuses_;
+  dds::Writer<dds::ToolForce> forces_;
+  dds::Writer<dds::SurfaceDisplacement> fields_;
+  std::mutex mutex_;
+  dds::ToolPose pose_{};
+  bool seen_{false};
+  std::uint64_t superseded_{0};
+  bool used_{true};
+  dds::Reader<dds::ToolPose> poses_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace palpate::testing

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field_log.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "palpate/idl/writer.h"
+#include "small_surface.h"
+#include "test_domain.h"
+
+namespace palpate::watch {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A writer and a log on one participant: data arrives on the writer's own thread.
+struct Wire {
+  palpate::testing::SmallSurface source;
+  client::Surface surface{client::checkedSurface(source.message())};
+  dds::Participant participant{palpate::testing::exclusiveDomain()};
+  FieldLog log{surface};
+  dds::Reader<dds::SurfaceDisplacement> reader{
+      participant,
+      [](dds::ReaderView<dds::SurfaceDisplacement> view, void* context) noexcept {
+        static_cast<FieldLog*>(context)->take(view);
+      },
+      &log};
+  dds::Writer<dds::SurfaceDisplacement> writer{participant};
+  std::vector<float> u = std::vector<float>(15, 0.0F);
+
+  void send(std::uint64_t seq, const std::string& model_id) {
+    dds::SurfaceDisplacement field{};
+    dds::assignText(field.model_id, model_id);
+    field.seq = seq;
+    const auto size = static_cast<std::uint32_t>(u.size());
+    field.displacement = {size, size, u.data(), false};
+    EXPECT_TRUE(writer.write(field));
+  }
+};
+
+TEST(FieldLog, KeepsTheLargestDisplacementAndWhereItWas) {
+  Wire wire;
+  ASSERT_TRUE(wire.writer.waitForReaders(1, 5s));
+  wire.u[3 * 2 + 1] = -0.004F;
+  wire.send(1, wire.source.model_id);
+  wire.u[3 * 2 + 1] = 0.001F;
+  wire.send(4, wire.source.model_id);
+  const FieldSummary summary = wire.log.summary();
+  EXPECT_EQ(summary.received, 2U);
+  EXPECT_EQ(summary.superseded, 2U);
+  EXPECT_EQ(summary.peak.node, 2U);
+  EXPECT_FLOAT_EQ(static_cast<float>(summary.peak.size), 0.004F);
+  EXPECT_FLOAT_EQ(static_cast<float>(summary.largest.size), 0.001F);
+  EXPECT_FLOAT_EQ(wire.log.peakField()[7], -0.004F);
+}
+
+TEST(FieldLog, RefusesFieldsThatDoNotBelongToTheSurface) {
+  Wire wire;
+  ASSERT_TRUE(wire.writer.waitForReaders(1, 5s));
+  wire.send(1, "another model");
+  wire.u.resize(12);
+  wire.send(2, wire.source.model_id);
+  wire.u.assign(15, std::nanf(""));
+  wire.send(3, wire.source.model_id);
+  EXPECT_EQ(wire.log.summary().refused, 3U);
+  EXPECT_EQ(wire.log.summary().received, 0U);
+}
+
+}  // namespace
+}  // namespace palpate::watch

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "latency_log.h"
+
+#include <gtest/gtest.h>
+
+namespace palpate::latency {
+namespace {
+
+constexpr std::int64_t kPeriod = 1'000'000;
+constexpr std::int64_t kPoseTime = 5'000'000'000;  // when pose 1 was stamped
+
+dds::ToolForce answer(std::uint64_t seq, std::uint64_t pose_seq) {
+  dds::ToolForce force{};
+  force.seq = seq;
+  force.pose_seq = pose_seq;
+  force.pose_stamp_ns = kPoseTime + static_cast<std::int64_t>(pose_seq - 1) * kPeriod;
+  force.wakeup_ns = 40'000;
+  force.tick_ns = 60'000;
+  return force;
+}
+
+std::int64_t received(const dds::ToolForce& force, std::int64_t after_ns) {
+  return force.pose_stamp_ns + after_ns;
+}
+
+TEST(LatencyLog, OnlyTheFirstAnswerToAPoseIsARoundTrip) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  const auto first = answer(1, 1);
+  log.add(first, received(first, 100'000));
+  const auto again = answer(2, 1);
+  log.add(again, received(again, 1'100'000));
+  const auto next = answer(3, 2);
+  log.add(next, received(next, 200'000));
+  EXPECT_EQ(log.poseToForce().count(), 2U);
+  EXPECT_EQ(log.poseToForce().max(), 200'000);
+  EXPECT_EQ(log.tick().count(), 3U);
+  EXPECT_EQ(log.wakeup().max(), 40'000);
+}
+
+TEST(LatencyLog, AnswersToPosesOlderThanTwoPeriodsAreLate) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  const auto first = answer(1, 1);
+  log.add(first, received(first, 2 * kPeriod));
+  EXPECT_EQ(log.late(), 0U);
+  log.add(answer(2, 1), received(first, 2 * kPeriod + 1));
+  EXPECT_EQ(log.late(), 1U);
+}
+
+TEST(LatencyLog, CountsOnlyWhatHappensDuringTheMeasurement) {
+  LatencyLog log(kPeriod);
+  auto before = answer(1, 1);
+  before.overruns = 5;
+  before.superseded = 10;
+  log.add(before, received(before, kPeriod));
+  log.record(true);
+  auto first = answer(4, 2);  // 2 and 3 were lost before the measurement began
+  first.overruns = 6;
+  first.superseded = 11;
+  log.add(first, received(first, 1));
+  auto last = answer(6, 3);
+  last.overruns = 8;
+  last.superseded = 15;
+  log.add(last, received(last, 1));
+  log.record(false);
+  auto after = answer(9, 4);
+  after.overruns = 100;
+  log.add(after, received(after, 1));
+  EXPECT_EQ(log.received(), 2U);
+  EXPECT_EQ(log.lost(), 1U);
+  EXPECT_EQ(log.overruns(), 2U);
+  EXPECT_EQ(log.superseded(), 4U);
+}
+
+TEST(LatencyLog, AServerThatStartsAnewDoesNotMakeCountersNegative) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  auto old_server = answer(500, 1);
+  old_server.overruns = 50;
+  log.add(old_server, received(old_server, 1));
+  const auto new_server = answer(1, 2);
+  log.add(new_server, received(new_server, 1));
+  EXPECT_EQ(log.overruns(), 0U);
+  EXPECT_EQ(log.restarts(), 1U);
+}
+
+TEST(LatencyLog, APoseWithoutAStampGivesNoRoundTrip) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  dds::ToolForce unknown{};
+  unknown.seq = 1;
+  log.add(unknown, kPoseTime);
+  EXPECT_EQ(log.poseToForce().count(), 0U);
+  EXPECT_EQ(log.late(), 0U);
+  EXPECT_EQ(log.received(), 1U);
+}
+
+}  // namespace
+}  // namespace palpate::latency

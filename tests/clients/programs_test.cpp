@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "fake_server.h"
+#include "run_program.h"
+#include "test_domain.h"
+#include "well_formed.h"
+
+namespace palpate::testing {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> onDomain(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--domain", std::to_string(exclusiveDomain())});
+  return arguments;
+}
+
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(Programs, HaveHelpAndAVersion) {
+  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-watch"}) {
+    const auto help = runProgram(program, {"--help"});
+    EXPECT_EQ(help.exit_code, 0) << program;
+    EXPECT_NE(help.out.find("--domain"), std::string::npos) << program;
+    EXPECT_EQ(runProgram(program, {"--version"}).exit_code, 0) << program;
+  }
+}
+
+TEST(Programs, SayWhatTheyWaitForWhenThereIsNoServer) {
+  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-watch"}) {
+    const auto result = runProgram(program, onDomain({"--wait", "0.3", "--json"}));
+    EXPECT_EQ(result.exit_code, 1) << program;
+    EXPECT_EQ(result.out, "") << program;
+    EXPECT_NE(result.err.find(std::string(program) + ": no server on DDS domain " +
+                              std::to_string(exclusiveDomain()) + " within 0.30 s"),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(lines(result.err), 2U) << result.err;  // what it waits for, and that it did not come
+  }
+}
+
+TEST(Programs, RefuseBadOptionsByName) {
+  const auto script = runProgram("palpate-tool", {"--script", "dance"});
+  EXPECT_NE(script.exit_code, 0);
+  EXPECT_NE(script.err.find("--script"), std::string::npos);
+  const auto depth = runProgram("palpate-tool", {"--depth", "5"});
+  EXPECT_EQ(depth.exit_code, 1);
+  EXPECT_EQ(depth.err, "palpate-tool: depth (m) is 5, expected above 0 and at most 0.05\n");
+  const auto at = runProgram("palpate-latency", {"--at", "1,2"});
+  EXPECT_EQ(at.exit_code, 1);
+  EXPECT_EQ(at.err, "palpate-latency: --at is '1,2', expected three finite numbers x,y,z\n");
+  const auto vtk = runProgram("palpate-watch", {"--vtk", "field.stl"});
+  EXPECT_EQ(vtk.exit_code, 1);
+  EXPECT_EQ(vtk.err, "palpate-watch: cannot write field.stl: expected a name that ends in .vtu or .vtk\n");
+}
+
+TEST(Tool, PressFeelsTheSpring) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .tip_radius = 0.004});
+  const auto svg = std::filesystem::temp_directory_path() / ("press-" + std::to_string(getpid()) + ".svg");
+  const auto result = runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "1.5", "--depth",
+                                                           "0.002", "--json", "--plot", svg}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["node"], 15);
+  EXPECT_EQ(report["tip_radius"], 0.004);  // the server's
+  const std::size_t count = report["t_s"].size();
+  EXPECT_GT(count, 100U);
+  for (const char* array : {"pose_m", "force_N", "flags", "penetration_m"})
+    EXPECT_EQ(report[array].size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double depth = std::max(0.0, 0.054 - report["pose_m"][i][2].get<double>());
+    EXPECT_NEAR(report["force_N"][i][2].get<double>(), 500.0 * depth, 1e-9)
+        << i;  // each force belongs to its pose
+  }
+  EXPECT_NEAR(report["summary"]["peak_force_N"].get<double>(), 1.0, 1e-6);
+  EXPECT_NEAR(report["summary"]["peak_depth_m"].get<double>(), 0.002, 1e-9);
+  EXPECT_EQ(report["summary"]["sent"].get<std::size_t>(),
+            count + report["summary"]["superseded"].get<std::size_t>());
+  std::ifstream plot(svg);
+  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(plot), {})), "");
+  std::filesystem::remove(svg);
+}
+
+TEST(Tool, TableGoesToStandardOutputWithoutJson) {
+  const FakeServer server(exclusiveDomain(), {});
+  const auto result =
+      runProgram("palpate-tool", onDomain({"--script", "poke", "--pokes", "2", "--seconds", "0.8"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("peak force 1.5"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("retreat"), std::string::npos);
+}
+
+TEST(Tool, StopsWhenTheServerLeaves) {
+  const FakeServer server(exclusiveDomain(), {.leave_after = 200});
+  const auto result =
+      runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "60", "--json"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(json::parse(result.out)["summary"]["server_left"]);
+}
+
+TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
+  const FakeServer server(exclusiveDomain(), {.drop_every = 100});
+  const auto svg = std::filesystem::temp_directory_path() / ("latency-" + std::to_string(getpid()) + ".svg");
+  const auto result = runProgram("palpate-latency", onDomain({"--seconds", "1.5", "--json", "--plot", svg}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  for (const char* key : {"pose_to_force_us", "wakeup_us", "tick_us"})
+    for (const char* value : {"p50", "p99", "p999", "max", "count"})
+      EXPECT_TRUE(report[key][value].is_number()) << key;
+  EXPECT_NEAR(report["wakeup_us"]["p50"].get<double>(), 50.0, 1.0);
+  EXPECT_NEAR(report["tick_us"]["max"].get<double>(), 70.0, 1e-9);
+  EXPECT_GT(report["pose_to_force_us"]["p50"].get<double>(), 0.0);
+  EXPECT_LE(report["pose_to_force_us"]["p50"].get<double>(),
+            report["pose_to_force_us"]["p999"].get<double>());
+  EXPECT_GE(report["lost"].get<double>(), report["received"].get<double>() / 99.0 - 2.0);
+  EXPECT_EQ(report["overruns"], 0);
+  EXPECT_NEAR(report["seconds"].get<double>(), 1.5, 0.5);
+  EXPECT_TRUE(report["late"].is_number_unsigned());
+  std::ifstream plot(svg);
+  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(plot), {})), "");
+  std::filesystem::remove(svg);
+}
+
+TEST(Watch, SeesTheOrganMove) {
+  const FakeServer server(exclusiveDomain(), {});
+  // The tool runs in the background of the watch: the fields flow only while poses come.
+  std::thread tool([] {
+    const auto pressed = runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "2"}));
+    EXPECT_EQ(pressed.exit_code, 0) << pressed.err;
+  });
+  const auto vtu = std::filesystem::temp_directory_path() / ("watch-" + std::to_string(getpid()) + ".vtu");
+  const auto result = runProgram("palpate-watch", onDomain({"--seconds", "2.5", "--json", "--vtk", vtu}));
+  tool.join();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["surface_nodes"], 5);
+  EXPECT_EQ(report["peak"]["node"], 15);
+  EXPECT_NEAR(report["peak"]["size"].get<double>(), 0.003, 1e-6);
+  EXPECT_NEAR(report["peak"]["displacement"][2].get<double>(), -0.003, 1e-6);
+  std::ifstream file(vtu);
+  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(file), {})), "");
+  std::filesystem::remove(vtu);
+}
+
+}  // namespace
+}  // namespace palpate::testing

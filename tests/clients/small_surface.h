@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palpate/idl/types.h"
+
+namespace palpate::testing {
+
+/// A pyramid on a square, 0.1 m wide and 0.05 m high, the apex (node 4) on top; every node but node 0 is
+/// accessible. Owns the memory that message() points into.
+struct SmallSurface {
+  std::vector<double> positions{0, 0, 0, 0.1, 0, 0, 0.1, 0.1, 0, 0, 0.1, 0, 0.05, 0.05, 0.05};
+  std::vector<std::uint32_t> triangles{0, 2, 1, 0, 3, 2, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+  std::vector<std::uint8_t> accessible{0, 1, 1, 1, 1};
+  std::vector<std::int64_t> mesh_tags{11, 12, 13, 14, 15};
+  std::string model_id{"0123456789abcdef"};
+
+  [[nodiscard]] dds::SurfaceMesh message() {
+    dds::SurfaceMesh mesh{};
+    dds::assignText(mesh.model_id, model_id);
+    const auto size = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
+    mesh.positions = {size(positions), size(positions), positions.data(), false};
+    mesh.triangles = {size(triangles), size(triangles), triangles.data(), false};
+    mesh.accessible = {size(accessible), size(accessible), accessible.data(), false};
+    mesh.mesh_tags = {size(mesh_tags), size(mesh_tags), mesh_tags.data(), false};
+    return mesh;
+  }
+};
+
+}  // namespace palpate::testing
