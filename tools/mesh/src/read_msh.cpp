@@ -20,6 +20,9 @@ void readFormat(ByteReader& in, MshFormat& format) {
   format.major = version.front() - '0';
   format.minor = is_41 ? 1 : 0;
   format.binary = in.textInteger("the file type") == 1;
+  // Gmsh 4.8 cannot write it either, so that we could not test it.
+  if (format.binary && version.starts_with("4") && !is_41)
+    in.fail("binary files of version 4.0 are not read; save as 4.1");
   const auto width = in.textInteger("the data size");
   if (width != 8) in.fail("the data size is " + std::to_string(width) + ", expected 8");
   if (!format.binary) return;

@@ -7,7 +7,6 @@
 namespace palpate::mesh {
 namespace {
 
-// Counts were `unsigned long` in 4.0 and are size_t in 4.1: both 8 bytes in the files of 64-bit machines.
 std::size_t count(ByteReader& in, std::size_t bytes_each, const char* what) {
   const auto number = in.integer64(what);
   return in.checkedCount(number, bytes_each, what);

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gmsh itself reads what we write and writes what we read.
+#include <gmsh.h>
+
+#include <csignal>
+#include <set>
+
+#include "helpers.h"
+#include "palpate/mesh/box_mesh.h"
+#include "palpate/mesh/checks.h"
+#include "palpate/mesh/gmsh_session.h"
+#include "palpate/mesh/read_mesh.h"
+#include "palpate/mesh/topology.h"
+#include "palpate/mesh/write_msh.h"
+
+namespace palpate::mesh::test {
+namespace {
+
+struct Format {
+  const char* name;
+  double version;
+  bool binary;
+};
+
+class GmshFormat : public testing::TestWithParam<Format> {};
+
+// A ball with its surface and one point as named groups.
+TetMesh saveBall(const GmshSession& session, const std::filesystem::path& file, const Format& format) {
+  TetMesh expected;
+  session.run("ball", [&] {
+    gmsh::model::add("ball");
+    const int ball = gmsh::model::occ::addSphere(0, 0, 0, 1);
+    gmsh::model::occ::synchronize();
+    gmsh::option::setNumber("Mesh.MeshSizeMin", 0.5);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+    gmsh::model::mesh::generate(3);
+    gmsh::vectorpair surfaces;
+    gmsh::model::getEntities(surfaces, 2);
+    const int skin = gmsh::model::addPhysicalGroup(2, {surfaces.at(0).second});
+    gmsh::model::setPhysicalName(2, skin, "skin");
+    gmsh::model::addPhysicalGroup(3, {ball}, 42);
+    gmsh::option::setNumber("Mesh.SaveElementTagType", 2);  // Medit's references: the physical groups
+    gmsh::option::setNumber("Mesh.MshFileVersion", format.version);
+    gmsh::option::setNumber("Mesh.Binary", format.binary ? 1 : 0);
+    gmsh::write(file.string());
+  });
+  return session.tetrahedra();
+}
+
+TEST_P(GmshFormat, IsRead) {
+  const Folder folder;
+  const GmshSession session;
+  const auto file = folder / GetParam().name;
+  const TetMesh expected = saveBall(session, file, GetParam());
+  const TetMesh mesh = readMesh(file);
+  EXPECT_NO_THROW(checkMesh(mesh));
+  EXPECT_EQ(mesh.nodes.size(), expected.nodes.size());
+  EXPECT_EQ(mesh.tetrahedra.size(), expected.tetrahedra.size());
+  double volume = 0;
+  double wanted = 0;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    volume += signedVolume(mesh, t);
+    wanted += signedVolume(expected, t);
+  }
+  EXPECT_NEAR(volume, wanted, 1e-6);
+  if (!mesh.groups.empty()) {  // VTK has none
+    const std::string skin = mesh.groups.contains("skin") ? "skin"
+                             : mesh.groups.contains("1")  ? "1"
+                                                          : "surface:1";
+    EXPECT_EQ(mesh.groups.at(skin), boundaryOf(mesh).nodes);
+    EXPECT_EQ(mesh.groups.at("42").size(), mesh.nodes.size());
+  }
+  EXPECT_EQ(mesh.groups.empty(), std::string(GetParam().name).ends_with(".vtk"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GmshFormat,
+                         testing::Values(Format{"1.msh", 1, false}, Format{"2.msh", 2.2, false},
+                                         Format{"2b.msh", 2.2, true}, Format{"40.msh", 4.0, false},
+                                         Format{"41.msh", 4.1, false}, Format{"41b.msh", 4.1, true},
+                                         Format{"a.vtk", 4.1, false}, Format{"b.vtk", 4.1, true},
+                                         Format{"a.mesh", 4.1, false}),
+                         [](const auto& format) {
+                           std::string name = format.param.name;
+                           name[name.find('.')] = '_';
+                           return name;
+                         });
+
+TEST(GmshAgrees, ReadsWhatWeWrite) {
+  const Folder folder;
+  TetMesh box = makeBox({1, 1, 1}, {4, 4, 4});
+  box.groups["mixed"] = {0, 1, 4, 5, 16, 42, 63};  // whole triangles, one inner and one single node
+  writeMsh(folder / "a.msh", box, boundaryOf(box));
+  const GmshSession session;
+  std::set<std::size_t> nodes;
+  session.run("open", [&] {
+    gmsh::open((folder / "a.msh").string());
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups);
+    for (const auto& [dimension, number] : groups) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, number, name);
+      if (name != "mixed") continue;
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, number, entities);
+      for (const int entity : entities) {
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> tags, corners;
+        gmsh::model::mesh::getElements(types, tags, corners, dimension, entity);
+        for (const auto& list : corners) nodes.insert(list.begin(), list.end());
+      }
+    }
+  });
+  EXPECT_EQ(nodes, (std::set<std::size_t>{1, 2, 5, 6, 17, 43, 64}));
+  const TetMesh back = session.tetrahedra();
+  EXPECT_EQ(back.nodes, box.nodes);
+  EXPECT_EQ(back.tetrahedra, box.tetrahedra);
+}
+
+TEST(GmshSession, LeavesSignalHandlersAlone) {
+  struct sigaction before {};
+  struct sigaction during {};
+  struct sigaction after {};
+  sigaction(SIGINT, nullptr, &before);
+  {
+    const GmshSession session;
+    sigaction(SIGINT, nullptr, &during);
+  }
+  sigaction(SIGINT, nullptr, &after);
+  EXPECT_EQ(before.sa_handler, during.sa_handler);
+  EXPECT_EQ(before.sa_handler, after.sa_handler);
+}
+
+TEST(GmshSession, TurnsWhatGmshThrowsIntoOneLine) {
+  const GmshSession session;
+  gmsh::vectorpair rounded;
+  EXPECT_REFUSED(session.run("boom", [&] { gmsh::model::occ::fillet({99}, {1}, {0.1}, rounded); }),
+                 "boom: ", "curve with tag 1");
+}
+
+}  // namespace
+}  // namespace palpate::mesh::test

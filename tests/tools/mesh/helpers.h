@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include "palpate/mesh/mesh_error.h"
+#include "palpate/mesh/tet_mesh.h"
+#include "palpate/mesh/triangle_surface.h"
+
+namespace palpate::mesh::test {
+
+/// A folder of this test alone, gone when it ends.
+class Folder {
+ public:
+  Folder() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::temp_directory_path() / ("palpate-" + std::string(info->test_suite_name()) +
+                                                      '-' + info->name() + '-' + std::to_string(getpid()));
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  std::filesystem::path write(const std::string& name, const std::string& content) const {
+    std::ofstream(path_ / name, std::ios::binary) << content;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The message of the MeshError that `work` throws; empty if it throws none.
+inline std::string errorOf(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Appends a number byte by byte, in big-endian order if asked.
+template <typename T>
+void append(std::string& bytes, T value, bool big_endian = false) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  for (std::size_t i = 0; i < sizeof(T); ++i) bytes += raw[big_endian ? sizeof(T) - 1 - i : i];
+}
+
+/// One tetrahedron with the numbers 11, 12, 13, 14; its own number is 7.
+inline TetMesh oneTetrahedron() {
+  TetMesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.node_tags = {11, 12, 13, 14};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  mesh.tetrahedron_tags = {7};
+  return mesh;
+}
+
+/// The unit cube's twelve triangles, outward.
+inline TriangleSurface cube() {
+  TriangleSurface surface;
+  for (int i = 0; i < 8; ++i) {
+    surface.vertices.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
+    surface.vertex_tags.push_back(i + 1);
+  }
+  surface.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (int i = 0; i < 12; ++i) surface.triangle_tags.push_back(i + 1);
+  return surface;
+}
+
+}  // namespace palpate::mesh::test
+
+// The names of the wrong entity and the reason must both be in the message.
+#define EXPECT_REFUSED(work, ...)                                                              \
+  do {                                                                                         \
+    const std::string palpate_message = ::palpate::mesh::test::errorOf([&] { (void)(work); }); \
+    EXPECT_FALSE(palpate_message.empty()) << "was not refused";                                \
+    EXPECT_EQ(palpate_message.find('\n'), std::string::npos) << palpate_message;               \
+    for (const char* palpate_part : {__VA_ARGS__}) {                                           \
+      EXPECT_NE(palpate_message.find(palpate_part), std::string::npos)                         \
+          << palpate_message << " lacks " << palpate_part;                                     \
+    }                                                                                          \
+  } while (false)
