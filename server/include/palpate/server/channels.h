@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "palpate/rt/semaphore.h"
+#include "palpate/rt/spsc_queue.h"
+#include "palpate/rt/triple_buffer.h"
+#include "palpate/server/records.h"
+
+namespace palpate::server {
+
+/// Everything that two threads of the server share, and nothing is shared but this. Each line names its one
+/// writer and one reader. Two more things never change while threads run: the model and the configuration.
+struct Channels {
+  /// Allocates; before the loop.
+  explicit Channels(std::size_t surface_floats)
+      : surface(SurfaceFrame{0, 0, std::vector<float>(surface_floats, 0.0F)}) {}
+
+  // Subscriber -> tick. Cyclone runs one callback of a reader at a time, so "the subscriber" is one writer
+  // even when poses come in on several receive threads.
+  std::array<rt::TripleBuffer<PoseSample>, kMaxTools> poses;
+
+  // Tick -> force-out: a ring, because every tick is answered. 512 records are 128 ms of four tools.
+  rt::SpscQueue<ForceRecord, 512> forces;
+  rt::Semaphore force_ready;
+
+  // Tick -> surface-out: latest wins.
+  rt::TripleBuffer<SurfaceFrame> surface;
+  rt::Semaphore surface_ready;
+
+  // Tick -> events, subscriber -> events. Polled: neither producer pays for waking it.
+  rt::SpscQueue<TickRecord, 1024> ticks;
+  rt::SpscQueue<UnknownTool, 64> unknown_tools;
+
+  // Force-out and surface-out -> events. Counters; relaxed, they order nothing.
+  std::atomic<std::uint64_t> failed_writes{0};
+
+  // Main -> tick: send zero force. Tick -> main: it was sent. Flag relaxed: it orders nothing, the semaphore
+  // does.
+  std::atomic<bool> shutting_down{false};
+  rt::Semaphore zero_force_sent;
+
+  // Main -> force-out, surface-out, events, once the tick has ended: finish what is queued, and return.
+  // SYNC STOP: stored with release before the thread's semaphore is posted, loaded with acquire after
+  // waiting.
+  std::atomic<bool> stopping{false};
+  rt::Semaphore events_ready;
+};
+
+}  // namespace palpate::server

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "palpate/server/channels.h"
+#include "palpate/server/health.h"
+#include "palpate/server/status_publisher.h"
+
+namespace palpate::server {
+
+/// Turns what the other threads leave in their rings into log lines and ServerStatus. The only thread that
+/// logs while the server runs. What a client can cause is logged at most once a second each, so that it
+/// cannot fill a disk.
+class Events {
+ public:
+  Events(Channels& channels, StatusPublisher& status) : channels_(channels), status_(status) {}
+
+  /// Body of the events thread. Publishes that the server is stopping, and returns, once it stops.
+  void run() noexcept;
+
+  /// Takes what lies in the rings. @param[in] now_ns  our monotonic clock
+  void drain(std::int64_t now_ns);
+
+  [[nodiscard]] const Health& health() const noexcept { return health_; }
+
+ private:
+  void noteTick(const TickRecord& record, std::int64_t now_ns);
+  void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
+  void warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns);
+  void info(const std::string& text);
+  void publishIfDue(std::int64_t now_ns);
+
+  Channels& channels_;
+  StatusPublisher& status_;
+  Health health_;
+  std::array<std::uint32_t, kMaxTools> last_flags_{};
+  std::map<std::uint64_t, std::int64_t> last_warned_ns_;  // by kind of event; a fixed, small set
+  bool changed_{true};                                    // since the last status
+  std::int64_t published_ns_{0};
+};
+
+}  // namespace palpate::server

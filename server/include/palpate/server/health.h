@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "palpate/rt/cycle_stats.h"
+#include "palpate/server/records.h"
+
+namespace palpate::server {
+
+/// How the server has been doing, gathered by the events thread, which alone reads and writes it.
+struct Health {
+  TickRecord last;        ///< newest record, with the totals
+  rt::CycleStats tick;    ///< compute time of ticks
+  rt::CycleStats wakeup;  ///< how late they woke
+  std::uint64_t unknown_tools{0};
+  std::uint64_t failed_writes{0};
+  std::uint32_t recent_flags{0};  ///< of all tools since the last status, or-ed
+  std::string message;            ///< newest event
+};
+
+}  // namespace palpate::server

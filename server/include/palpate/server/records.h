@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "palpate/core/step.h"
+
+namespace palpate::server {
+
+// What crosses from thread to thread: plain arrays, no DDS types. Units and frames as in palpate.idl.
+
+/// Subscriber to tick: the newest pose of one tool, and what happened to those before it.
+struct PoseSample {
+  std::uint64_t seq{0};                                   ///< sender's counter
+  std::int64_t stamp_ns{0};                               ///< sender's clock
+  std::int64_t arrival_ns{0};                             ///< our monotonic clock; decides about staleness
+  std::array<double, 3> position{};                       ///< p_WT, m
+  std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< q_WT, x y z w
+  std::uint64_t received{0};                              ///< poses of this tool so far, this one included
+  std::uint64_t unordered{0};                             ///< those of them whose seq or stamp went backwards
+};
+
+/// Tick to force-out: one answer.
+struct ForceRecord {
+  std::uint32_t tool_id{0};
+  std::uint64_t seq{0};              ///< this tool's gap-free counter
+  std::uint64_t pose_seq{0};         ///< echo
+  std::int64_t pose_stamp_ns{0};     ///< echo
+  std::int64_t stamp_ns{0};          ///< when the tick woke
+  std::int64_t wakeup_ns{0};         ///< how late it woke
+  std::int64_t previous_tick_ns{0};  ///< compute time of the tick before
+  std::uint64_t overruns{0};
+  std::uint64_t superseded{0};  ///< of this tool
+  ToolResult result;            ///< force on the tool
+};
+
+/// Tick to surface-out: a large slot, filled in place.
+struct SurfaceFrame {
+  std::uint64_t seq{0};
+  std::int64_t stamp_ns{0};         ///< when the tick woke
+  std::vector<float> displacement;  ///< [Ns][3] m, sized before the loop
+};
+
+/// Tick to events: how one tick went. Counters are totals since the start.
+struct TickRecord {
+  std::int64_t wakeup_ns{0};
+  std::int64_t previous_tick_ns{0};  ///< 0 in the first tick, which has none before it
+  std::uint64_t ticks{0};            ///< this one included
+  std::uint64_t overruns{0};
+  std::uint64_t superseded{0};
+  std::uint64_t rejected{0};  ///< non-finite or non-unit poses
+  std::uint64_t unordered{0};
+  std::uint64_t dropped{0};  ///< records lost because a ring was full
+  std::array<std::uint8_t, kMaxTools> seen{};
+  std::array<std::uint32_t, kMaxTools> flags{};
+};
+
+/// Subscriber to events: a pose with a tool_id that we do not serve.
+struct UnknownTool {
+  std::uint32_t tool_id{0};
+  std::uint64_t count{0};  ///< such poses so far, this one included
+};
+
+static_assert(std::is_trivially_copyable_v<PoseSample> && std::is_trivially_copyable_v<ForceRecord> &&
+              std::is_trivially_copyable_v<TickRecord>);
+
+}  // namespace palpate::server

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "palpate/core/step.h"
+#include "palpate/idl/participant.h"
+#include "palpate/rt/periodic_thread.h"
+#include "palpate/rt/scheduling.h"
+#include "palpate/rt/thread.h"
+#include "palpate/server/channels.h"
+#include "palpate/server/config.h"
+#include "palpate/server/events.h"
+#include "palpate/server/facts.h"
+#include "palpate/server/force_publisher.h"
+#include "palpate/server/pose_subscriber.h"
+#include "palpate/server/surface_publisher.h"
+#include "palpate/server/tick.h"
+
+namespace palpate::server {
+
+/// A running server: the threads of DESIGN 3.3 and what they work on, from construction to stop().
+class Server {
+ public:
+  /// Starts everything. `model` must outlive the server.
+  /// @throw dds::DdsError, rt::RealtimeError (policy require), std::invalid_argument (parameters of the
+  /// engine)
+  Server(const MetaModel& model, const ServerConfig& config);
+  ~Server() { stop(); }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Sends zero force, then ends all threads. The second call does nothing.
+  void stop();
+
+  [[nodiscard]] const Facts& facts() const noexcept { return facts_; }
+
+ private:
+  void settleRealtime(rt::RealtimePolicy policy);
+  void startThreads(const ServerConfig& config);
+  void sendZeroForce();
+
+  Facts facts_;
+  Workspace work_;
+  Channels channels_;
+  std::optional<rt::CpuLatencyHold> awake_;
+
+  // In the order of a pose's way: subscriber, tick, publishers.
+  dds::Participant participant_;
+  ForcePublisher force_out_;
+  SurfacePublisher surface_out_;
+  StatusPublisher status_out_;
+  Events events_;
+  Tick tick_;
+  PoseSubscriber poses_in_;
+
+  double ramp_time_;
+  std::unique_ptr<rt::Thread> force_thread_;
+  std::unique_ptr<rt::Thread> surface_thread_;
+  std::unique_ptr<rt::Thread> events_thread_;
+  std::unique_ptr<rt::PeriodicThread> tick_thread_;
+};
+
+}  // namespace palpate::server

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "palpate/core/step.h"
+#include "palpate/rt/periodic_thread.h"
+#include "palpate/server/channels.h"
+
+namespace palpate::server {
+
+/// One tick: newest poses in, one step of the engine, forces and surface out (DESIGN 3.1, 3.3).
+/// Takes no lock, allocates nothing, logs nothing, knows no DDS. What it keeps from tick to tick is
+/// bookkeeping only; the state of the contact lives in the Workspace. Threads: one, the tick thread.
+/// Real-time: yes.
+class Tick {
+ public:
+  /// @param[in] surface_every  ticks per surface field, >= 1
+  /// The three references must outlive the tick.
+  Tick(const MetaModel& model, Workspace& work, Channels& channels, std::uint64_t surface_every)
+      : model_(model), work_(work), channels_(channels), surface_every_(surface_every) {}
+
+  void run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+
+  /// run() for a PeriodicThread; context is the Tick.
+  static void onCycle(void* context, const rt::Cycle& cycle) noexcept {
+    static_cast<Tick*>(context)->run(cycle);
+  }
+
+ private:
+  // Books about one tool.
+  struct Ledger {
+    PoseSample pose;              // newest that a tick knew
+    std::uint64_t force_seq{0};   // forces sent
+    std::uint64_t superseded{0};  // poses that no tick ever knew
+  };
+
+  void readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
+  void countRejectedPoses() noexcept PALPATE_NONBLOCKING;
+  void writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void reportZeroForce() noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool seen(std::size_t tool) const noexcept { return ledgers_[tool].pose.received > 0; }
+
+  const MetaModel& model_;
+  Workspace& work_;
+  Channels& channels_;
+  std::uint64_t surface_every_;
+
+  StepInput input_;
+  StepResult result_;
+  std::array<Ledger, kMaxTools> ledgers_{};
+  std::array<bool, kMaxTools> fresh_{};      // a pose came in since the last tick
+  std::array<bool, kMaxTools> unordered_{};  // and one went backwards
+  std::int64_t last_woke_ns_{0};
+  std::uint64_t surface_seq_{0};
+  std::uint64_t rejected_{0};
+  std::uint64_t dropped_{0};
+  int zero_ticks_{0};  // in a row, while shutting down
+};
+
+}  // namespace palpate::server

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/config.h"
+
+#include <array>
+#include <sstream>
+
+namespace palpate::server {
+namespace {
+
+struct Range {
+  const char* key;
+  double value;
+  double low;
+  double high;
+  const char* unit;
+};
+
+std::string outOf(const Range& range) {
+  std::ostringstream text;
+  text.precision(10);
+  text << "is " << range.value << ", expected " << range.low << " to " << range.high << range.unit;
+  return text.str();
+}
+
+// The engine names the first bad field of its own parameters: "StepConfig.tip_radius is 0.2, expected 0 to
+// 0.05 m".
+std::optional<Complaint> firstToolComplaint(const StepConfig& step) {
+  try {
+    check(step);
+    return std::nullopt;
+  } catch (const std::invalid_argument& error) {
+    const std::string sentence = error.what();
+    const std::size_t dot = sentence.find('.');
+    const std::size_t space = sentence.find(' ');
+    if (dot == std::string::npos || space == std::string::npos || dot > space)
+      return Complaint{"tool", sentence};
+    return Complaint{"tool" + sentence.substr(dot, space - dot), sentence.substr(space + 1)};
+  }
+}
+
+}  // namespace
+
+std::optional<Complaint> firstComplaint(const ServerConfig& config) {
+  constexpr double kMaxId = 4294967295.0;
+  const std::array<Range, 5> ranges{{
+      {"domain", static_cast<double>(config.domain), 0, 230, ""},
+      {"rate", config.rate, 10, 10000, " Hz"},
+      {"server_id", static_cast<double>(config.server_id), 0, kMaxId, ""},
+      {"organ_id", static_cast<double>(config.organ_id), 0, kMaxId, ""},
+      {"surface_every", static_cast<double>(config.surface_every), 1, 1000, " ticks"},
+  }};
+  for (const Range& range : ranges) {
+    // Written so that NaN complains too.
+    if (!(range.value >= range.low && range.value <= range.high)) return Complaint{range.key, outOf(range)};
+  }
+  return firstToolComplaint(config.step);
+}
+
+rt::RealtimePolicy parsePolicy(const std::string& word) {
+  if (word == "require") return rt::RealtimePolicy::kRequire;
+  if (word == "prefer") return rt::RealtimePolicy::kPrefer;
+  if (word == "off") return rt::RealtimePolicy::kOff;
+  throw ConfigError("is \"" + word + "\", expected require, prefer or off");
+}
+
+}  // namespace palpate::server

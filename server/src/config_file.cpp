@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <toml++/toml.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "palpate/server/config.h"
+
+namespace palpate::server {
+namespace {
+
+// Asks a parsed file for keys, remembers which, and can then name those that nobody asked for.
+class KeyReader {
+ public:
+  KeyReader(const toml::table& root, std::string file) : root_(root), file_(std::move(file)) {}
+
+  void read(const std::string& key, std::string& out) {
+    readAs(key, "a string",
+           [&](const toml::node& node) { return assign(node.value_exact<std::string>(), out); });
+  }
+  void read(const std::string& key, std::int64_t& out) {
+    readAs(key, "an integer",
+           [&](const toml::node& node) { return assign(node.value_exact<std::int64_t>(), out); });
+  }
+  void read(const std::string& key, double& out) {
+    readAs(key, "a number",
+           [&](const toml::node& node) { return assign(node.value<double>(), out, node.is_number()); });
+  }
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& text) const {
+    const toml::node* node = root_.at_path(key).node();
+    const std::string line = node == nullptr ? "" : ":" + std::to_string(node->source().begin.line);
+    throw ConfigError(file_ + line + ": " + key + " " + text);
+  }
+
+  void refuseUnasked() const { refuseUnaskedIn(root_, ""); }
+
+ private:
+  template <class Assign>
+  void readAs(const std::string& key, const char* wanted, Assign take) {
+    asked_.insert(key);
+    const toml::node* node = root_.at_path(key).node();
+    if (node == nullptr || take(*node)) return;
+    std::ostringstream type;
+    type << node->type();
+    refuse(key, "is of type " + type.str() + ", expected " + wanted);
+  }
+
+  template <class T>
+  static bool assign(const std::optional<T>& value, T& out, bool fits = true) {
+    if (!value || !fits) return false;
+    out = *value;
+    return true;
+  }
+
+  // A key that was asked for, or a table that holds one.
+  bool leadsToAnAskedKey(const std::string& key) const {
+    const auto next = asked_.lower_bound(key + ".");
+    return next != asked_.end() && next->rfind(key + ".", 0) == 0;
+  }
+
+  void refuseUnaskedIn(const toml::table& table, const std::string& prefix) const {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix + std::string(name.str());
+      if (asked_.count(key) != 0) continue;
+      const bool section = leadsToAnAskedKey(key);
+      if (section && node.is_table()) {
+        refuseUnaskedIn(*node.as_table(), key + ".");
+        continue;
+      }
+      const std::string line = std::to_string(name.source().begin.line);
+      throw ConfigError(file_ + ":" + line + ": " +
+                        (section ? key + " is not a table" : "unknown key " + key));
+    }
+  }
+
+  const toml::table& root_;
+  std::string file_;
+  std::set<std::string> asked_;
+};
+
+toml::table parseToml(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  if (!std::filesystem::is_regular_file(path) || !(text << stream.rdbuf())) {
+    throw ConfigError(path.string() + ": cannot be read as a file");
+  }
+  try {
+    return toml::parse(text.str(), path.string());
+  } catch (const toml::parse_error& error) {
+    throw ConfigError(path.string() + ":" + std::to_string(error.source().begin.line) + ": " +
+                      std::string(error.description()));
+  }
+}
+
+void readTool(KeyReader& keys, StepConfig& step) {
+  keys.read("tool.tip_radius", step.tip_radius);
+  keys.read("tool.force_limit", step.force_limit);
+  keys.read("tool.stale_timeout", step.stale_timeout);
+  keys.read("tool.zero_after", step.zero_after);
+  keys.read("tool.ramp_time", step.ramp_time);
+  keys.read("tool.quaternion_tolerance", step.quaternion_tolerance);
+}
+
+}  // namespace
+
+void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
+  const toml::table root = parseToml(path);
+  KeyReader keys(root, path.string());
+  std::string model;
+  std::string realtime;
+  keys.read("model", model);
+  keys.read("domain", config.domain);
+  keys.read("rate", config.rate);
+  keys.read("realtime", realtime);
+  keys.read("server_id", config.server_id);
+  keys.read("organ_id", config.organ_id);
+  keys.read("surface_every", config.surface_every);
+  readTool(keys, config.step);
+  keys.refuseUnasked();
+  if (!model.empty()) config.model = path.parent_path() / model;
+  try {
+    if (!realtime.empty()) config.realtime = parsePolicy(realtime);
+  } catch (const ConfigError& error) {
+    keys.refuse("realtime", error.what());
+  }
+  if (const auto complaint = firstComplaint(config)) keys.refuse(complaint->key, complaint->text);
+}
+
+}  // namespace palpate::server

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/events.h"
+
+#include <spdlog/spdlog.h>
+
+#include "palpate/core/status_flags.h"
+#include "palpate/rt/clock.h"
+
+namespace palpate::server {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kPoll = 20 * kMs;
+constexpr std::int64_t kStatusPeriod = 1000 * kMs;
+constexpr std::int64_t kChangePeriod = 100 * kMs;  // a change is told at once, but not more often than this
+constexpr std::int64_t kWarnPeriod = 1000 * kMs;
+
+struct FlagText {
+  std::uint32_t flag;
+  const char* text;
+};
+
+// What is worth a line when it begins. Contact and ramps are not: they are what the server is for.
+constexpr FlagText kFlagTexts[] = {
+    {kNonFinitePose, "pose is not finite: treated as stale"},
+    {kNonUnitQuaternion, "orientation is not a unit quaternion: pose treated as stale"},
+    {kStalePose, "no good pose for the stale timeout: force ramps to zero"},
+    {kBeyondDomain, "pressed beyond the model's domain: answer clamped"},
+    {kForceLimited, "force cut to the limit"},
+    {kNotAccessible, "touches a part of the surface that has no answer"},
+    {kNonFiniteForce, "the model overflowed: treated as stale"},
+    {kPoseOutOfOrder, "pose number or stamp went backwards (sender restarted, or two senders)"},
+};
+
+// Kinds of warning, beyond one for each tool and flag (tool << 32 | flag).
+constexpr std::uint64_t kOverrunKind = 1ULL << 63;
+constexpr std::uint64_t kDropKind = kOverrunKind + 1;
+constexpr std::uint64_t kUnknownToolKind = kOverrunKind + 2;
+constexpr std::uint64_t kFailedWriteKind = kOverrunKind + 3;
+
+}  // namespace
+
+void Events::run() noexcept {
+  bool stopping = false;
+  while (!stopping) {
+    (void)channels_.events_ready.waitFor(kPoll);
+    stopping = channels_.stopping.load(std::memory_order_acquire);  // SYNC STOP
+    const std::int64_t now_ns = rt::monotonicNow();
+    drain(now_ns);
+    if (!stopping) publishIfDue(now_ns);
+  }
+  info("stopping: zero force was sent");
+  status_.publish(health_, dds::server_state::kStopping);
+}
+
+void Events::drain(std::int64_t now_ns) {
+  TickRecord record;
+  while (channels_.ticks.pop(record)) noteTick(record, now_ns);
+  UnknownTool unknown;
+  while (channels_.unknown_tools.pop(unknown)) {
+    health_.unknown_tools = unknown.count;
+    warn(kUnknownToolKind,
+         "pose of tool " + std::to_string(unknown.tool_id) + " ignored: tool ids are 0 to " +
+             std::to_string(kMaxTools - 1) + " (" + std::to_string(unknown.count) + " so far)",
+         now_ns);
+  }
+  const std::uint64_t failed = channels_.failed_writes.load(std::memory_order_relaxed);
+  if (failed > health_.failed_writes) {
+    warn(kFailedWriteKind, "DDS refused to send (" + std::to_string(failed) + " so far)", now_ns);
+  }
+  health_.failed_writes = failed;
+}
+
+void Events::noteTick(const TickRecord& record, std::int64_t now_ns) {
+  health_.wakeup.add(record.wakeup_ns);
+  if (record.ticks > 1) health_.tick.add(record.previous_tick_ns);
+  if (record.overruns > health_.last.overruns) {
+    warn(kOverrunKind, "ticks missed (" + std::to_string(record.overruns) + " so far)", now_ns);
+  }
+  if (record.dropped > health_.last.dropped) {
+    warn(kDropKind, "a ring was full (" + std::to_string(record.dropped) + " records lost so far)", now_ns);
+  }
+  for (std::size_t tool = 0; tool < record.flags.size(); ++tool) {
+    if (record.seen[tool] == 0) continue;
+    if (health_.last.seen[tool] == 0) info("tool " + std::to_string(tool) + ": first pose");
+    noteFlags(tool, record.flags[tool] & ~last_flags_[tool], now_ns);
+    last_flags_[tool] = record.flags[tool];
+    health_.recent_flags |= record.flags[tool];
+  }
+  health_.last = record;
+}
+
+void Events::noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns) {
+  for (const auto& [flag, text] : kFlagTexts) {
+    if ((rising & flag) == 0) continue;
+    warn((static_cast<std::uint64_t>(tool) << 32) | flag, "tool " + std::to_string(tool) + ": " + text,
+         now_ns);
+  }
+}
+
+void Events::warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns) {
+  const auto [entry, first] = last_warned_ns_.try_emplace(kind, now_ns);
+  if (!first && now_ns - entry->second < kWarnPeriod) return;
+  entry->second = now_ns;
+  spdlog::warn(text);
+  health_.message = text;
+  changed_ = true;
+}
+
+void Events::info(const std::string& text) {
+  spdlog::info(text);
+  health_.message = text;
+  changed_ = true;
+}
+
+void Events::publishIfDue(std::int64_t now_ns) {
+  const std::int64_t since = now_ns - published_ns_;
+  if (since < (changed_ ? kChangePeriod : kStatusPeriod)) return;
+  status_.publish(health_, dds::server_state::kRunning);
+  published_ns_ = now_ns;
+  changed_ = false;
+  health_.recent_flags = 0;
+}
+
+}  // namespace palpate::server

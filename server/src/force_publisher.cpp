@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/force_publisher.h"
+
+#include <algorithm>
+
+namespace palpate::server {
+namespace {
+
+template <std::size_t N>
+void copyTo(double (&field)[N], const std::array<double, N>& values) noexcept {
+  std::copy(values.begin(), values.end(), field);
+}
+
+}  // namespace
+
+dds::ToolForce toWire(const ForceRecord& record) noexcept {
+  dds::ToolForce force{};
+  force.tool_id = record.tool_id;
+  force.seq = record.seq;
+  force.pose_seq = record.pose_seq;
+  force.pose_stamp_ns = record.pose_stamp_ns;
+  force.stamp_ns = record.stamp_ns;
+  force.flags = record.result.flags;
+  force.state = record.result.state;
+  copyTo(force.force, record.result.force);
+  copyTo(force.stiffness, record.result.stiffness);
+  copyTo(force.anchor, record.result.anchor);
+  copyTo(force.proxy, record.result.proxy);
+  copyTo(force.displacement, record.result.displacement);
+  force.domain_radius = record.result.domain_radius;
+  force.penetration = record.result.penetration;
+  force.wakeup_ns = record.wakeup_ns;
+  force.tick_ns = record.previous_tick_ns;
+  force.overruns = record.overruns;
+  force.superseded = record.superseded;
+  return force;
+}
+
+void ForcePublisher::run() noexcept {
+  bool stopping = false;
+  while (!stopping) {
+    channels_.force_ready.wait();
+    stopping = channels_.stopping.load(std::memory_order_acquire);  // SYNC STOP
+    ForceRecord record;
+    while (channels_.forces.pop(record)) {
+      if (!writer_.write(toWire(record))) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
+    }
+  }
+}
+
+}  // namespace palpate::server

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+
+#include "command_line.h"
+#include "palpate/server/server.h"
+
+namespace palpate::server {
+namespace {
+
+// What ends the server. Blocked in every thread, so that only waitForSignal() ever sees one.
+sigset_t stopSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  return signals;
+}
+
+void prepareProcess() {
+  const sigset_t signals = stopSignals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);  // whoever reads our log may leave; the organ stays
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("palpate-server"));
+}
+
+int waitForSignal() {
+  const sigset_t signals = stopSignals();
+  int signal = 0;
+  while (sigwait(&signals, &signal) != 0) {
+  }
+  return signal;
+}
+
+void logModel(const MetaModel& model, const ServerConfig& config) {
+  const ModelView& view = model.view();
+  spdlog::info("model {}: {} surface nodes, {} contact positions, {} modes, order {}, {:.1f} MB, id {}",
+               config.model.string(), view.surfaceNodes(), view.positions(), view.modes(),
+               model.attributes().order, 1e-6 * static_cast<double>(model.bytes()),
+               model.attributes().model_id);
+}
+
+int serve(int argc, char** argv) {
+  // 1. What we are told.
+  const std::optional<ServerConfig> config = parseCommandLine(argc, argv);
+  if (!config) return 0;
+  // 2. Signals wait for us, before any thread exists.
+  prepareProcess();
+  // 3. The organ: immutable, checked, mapped.
+  const MetaModel model = MetaModel::load(config->model);
+  logModel(model, *config);
+  // 4. From here on poses are answered.
+  Server server(model, *config);
+  spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
+  // 5. Until somebody says stop,
+  const int signal = waitForSignal();
+  spdlog::info("signal {}: stopping", signal);
+  // 6. zero force first, then everything else.
+  server.stop();
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::server
+
+int main(int argc, char** argv) {
+  try {
+    return palpate::server::serve(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "palpate-server: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/server.h"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "palpate/rt/memory.h"
+
+namespace palpate::server {
+namespace {
+
+// DESIGN 3.3.
+constexpr int kTickPriority = 80;
+constexpr int kForcePriority = 75;
+constexpr int kReceivePriority = 70;
+constexpr int kSurfacePriority = 40;
+
+constexpr std::string_view kReceiveThreads[] = {"recv", "recvUC", "recvMC"};  // Cyclone DDS 0.10
+
+Facts factsOf(const MetaModel& model, const ServerConfig& config) {
+  Facts facts;
+  facts.model_id = model.attributes().model_id;
+  facts.server_id = static_cast<std::uint32_t>(config.server_id);
+  facts.organ_id = static_cast<std::uint32_t>(config.organ_id);
+  facts.rate_hz = config.rate;
+  facts.tip_radius = config.step.tip_radius;
+  facts.force_limit = config.step.force_limit;
+  return facts;
+}
+
+// Locks what exists by now. @return whether it and the model are locked
+bool lockAll(const MetaModel& model) {
+  const int refused = rt::lockMemory();
+  const bool locked = refused == 0 && model.locked();
+  if (locked) {
+    spdlog::info("memory: locked");
+  } else {
+    spdlog::warn("memory: not locked ({}), a tick may wait for a page; raise ulimit -l or grant CAP_IPC_LOCK",
+                 refused != 0 ? std::strerror(refused) : "the model is not");
+  }
+  return locked;
+}
+
+// What a tick's thread gets, tried once before any thread exists. @throw rt::RealtimeError under policy
+// require
+bool probeRealtime(rt::RealtimePolicy policy) {
+  const rt::Thread probe({"probe", kTickPriority, policy}, [] {});
+  return probe.realtime();
+}
+
+std::string describeRealtime(rt::RealtimePolicy policy, bool realtime) {
+  if (realtime) return "SCHED_FIFO, tick at priority " + std::to_string(kTickPriority);
+  if (policy == rt::RealtimePolicy::kOff) return "off, as asked";
+  return "not granted; run as root, grant CAP_SYS_NICE or raise ulimit -r to " +
+         std::to_string(kTickPriority);
+}
+
+}  // namespace
+
+Server::Server(const MetaModel& model, const ServerConfig& config)
+    : facts_(factsOf(model, config)),
+      work_(model, config.step),
+      channels_(3 * model.view().surfaceNodes()),
+      participant_(static_cast<std::uint32_t>(config.domain)),
+      force_out_(participant_, channels_),
+      surface_out_(participant_, channels_, facts_, model),
+      status_out_(participant_, facts_),
+      events_(channels_, status_out_),
+      tick_(model, work_, channels_, static_cast<std::uint64_t>(config.surface_every)),
+      poses_in_(participant_, channels_),
+      ramp_time_(config.step.ramp_time) {
+  facts_.memory_locked = lockAll(model);
+  settleRealtime(config.realtime);
+  try {
+    startThreads(config);
+  } catch (...) {
+    stop();
+    throw;
+  }
+}
+
+void Server::settleRealtime(rt::RealtimePolicy policy) {
+  facts_.realtime = probeRealtime(policy);
+  facts_.realtime_detail = describeRealtime(policy, facts_.realtime);
+  if (facts_.realtime || policy == rt::RealtimePolicy::kOff) {
+    spdlog::info("real time: {}", facts_.realtime_detail);
+  } else {
+    spdlog::warn("real time: {}", facts_.realtime_detail);
+  }
+  if (!facts_.realtime) return;
+  awake_.emplace();
+  if (!awake_->held()) spdlog::warn("real time: /dev/cpu_dma_latency cannot be held, wake-ups may be late");
+  if (rt::raiseThreadsNamed(kReceiveThreads, kReceivePriority) == 0) {
+    spdlog::warn("real time: no receive thread of DDS was found to raise");
+  }
+}
+
+void Server::startThreads(const ServerConfig& config) {
+  const rt::RealtimePolicy policy = config.realtime;
+  const auto start = [policy](const char* name, int priority, std::function<void()> body) {
+    return std::make_unique<rt::Thread>(rt::ThreadOptions{name, priority, policy}, std::move(body));
+  };
+  force_thread_ = start("force-out", kForcePriority, [this] { force_out_.run(); });
+  surface_thread_ = start("surface-out", kSurfacePriority, [this] { surface_out_.run(); });
+  events_thread_ = start("events", 0, [this] { events_.run(); });
+  tick_thread_ =
+      std::make_unique<rt::PeriodicThread>(rt::ThreadOptions{"tick", kTickPriority, policy},
+                                           std::llround(1e9 / config.rate), &Tick::onCycle, &tick_);
+}
+
+void Server::stop() {
+  if (tick_thread_) {
+    sendZeroForce();
+    tick_thread_->stop();
+    spdlog::info("page faults in ticks: {}", tick_thread_->pageFaults());
+  }
+  channels_.stopping.store(true, std::memory_order_release);  // SYNC STOP
+  channels_.force_ready.post();
+  channels_.surface_ready.post();
+  channels_.events_ready.post();
+  force_thread_.reset();  // joins
+  surface_thread_.reset();
+  events_thread_.reset();
+  tick_thread_.reset();
+}
+
+void Server::sendZeroForce() {
+  // The ramp, the zero ticks at the slowest rate, and a host that stalls.
+  const auto longest_ns = static_cast<std::int64_t>(1e9 * (ramp_time_ + 3.0));
+  channels_.shutting_down.store(true, std::memory_order_relaxed);
+  if (!channels_.zero_force_sent.waitFor(longest_ns)) spdlog::error("zero force could not be confirmed");
+}
+
+}  // namespace palpate::server

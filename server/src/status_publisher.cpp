@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/status_publisher.h"
+
+namespace palpate::server {
+namespace {
+
+dds::Percentiles percentiles(const rt::CycleStats& stats) {
+  constexpr double kUs = 1e-3;  // from ns
+  dds::Percentiles us{};
+  us.p50 = kUs * static_cast<double>(stats.quantile(0.5));
+  us.p99 = kUs * static_cast<double>(stats.quantile(0.99));
+  us.p999 = kUs * static_cast<double>(stats.quantile(0.999));
+  us.max = kUs * static_cast<double>(stats.max());
+  us.count = stats.count();
+  return us;
+}
+
+}  // namespace
+
+dds::ServerStatus toWire(const Facts& facts, const Health& health, std::uint32_t state) {
+  dds::ServerStatus status{};
+  status.server_id = facts.server_id;
+  dds::assignText(status.model_id, facts.model_id);
+  status.organ_id = facts.organ_id;
+  status.state = state;
+  status.rate_hz = facts.rate_hz;
+  status.tip_radius = facts.tip_radius;
+  status.force_limit = facts.force_limit;
+  status.memory_locked = facts.memory_locked;
+  status.realtime = facts.realtime;
+  dds::assignText(status.realtime_detail, facts.realtime_detail);
+  status.ticks = health.last.ticks;
+  status.overruns = health.last.overruns;
+  status.superseded = health.last.superseded;
+  status.rejected_poses = health.last.rejected;
+  status.unordered_poses = health.last.unordered;
+  status.unknown_tools = health.unknown_tools;
+  status.dropped = health.last.dropped + health.failed_writes;
+  status.flags = health.recent_flags;
+  status.tick_us = percentiles(health.tick);
+  status.wakeup_us = percentiles(health.wakeup);
+  dds::assignText(status.message, health.message);
+  return status;
+}
+
+}  // namespace palpate::server

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/tick.h"
+
+#include <algorithm>
+
+namespace palpate::server {
+namespace {
+
+// So many answers with zero force before the server goes: best effort may lose some of them.
+constexpr int kZeroTicks = 10;
+
+bool isZero(const std::array<double, 3>& force) noexcept {
+  return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
+}
+
+}  // namespace
+
+void Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  // 1. What the tools want: the newest pose of each, and its age by our clock.
+  readPoses(cycle);
+  // 2. What the organ answers.
+  (void)step(model_, work_, input_, result_);
+  countRejectedPoses();
+  // 3. Forces, one to each tool that was ever seen, and the thread that sends them wakes.
+  writeForces(cycle);
+  channels_.force_ready.post();
+  // 4. The surface, likewise.
+  writeSurface(cycle);
+  // 5. How it went, for whoever watches.
+  writeRecord(cycle);
+  // 6. At the end of the server: tell when nothing pushes any more.
+  reportZeroForce();
+}
+
+void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) readPose(tool, cycle.woke_ns);
+  input_.dt_ns = last_woke_ns_ == 0 ? 0 : cycle.woke_ns - last_woke_ns_;
+  input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
+  last_woke_ns_ = cycle.woke_ns;
+}
+
+void Tick::readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONBLOCKING {
+  Ledger& ledger = ledgers_[tool];
+  const std::uint64_t known = ledger.pose.received;
+  const std::uint64_t unordered = ledger.pose.unordered;
+  fresh_[tool] = channels_.poses[tool].read(ledger.pose);
+  if (fresh_[tool]) ledger.superseded += ledger.pose.received - known - 1;
+  unordered_[tool] = ledger.pose.unordered != unordered;
+  ToolInput& input = input_.tools[tool];
+  input.present = seen(tool) ? 1 : 0;
+  input.position = ledger.pose.position;
+  input.orientation = ledger.pose.orientation;
+  // A pose may arrive between the wake-up and here: it is new, not from the future.
+  input.age_ns = std::max<std::int64_t>(0, now_ns - ledger.pose.arrival_ns);
+}
+
+void Tick::countRejectedPoses() noexcept PALPATE_NONBLOCKING {
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
+    std::uint32_t& flags = result_.tools[tool].flags;
+    if (fresh_[tool] && (flags & (kNonFinitePose | kNonUnitQuaternion)) != 0) ++rejected_;
+    if (unordered_[tool]) flags |= kPoseOutOfOrder;
+  }
+}
+
+void Tick::writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
+    if (!seen(tool)) continue;
+    Ledger& ledger = ledgers_[tool];
+    ForceRecord record;
+    record.tool_id = static_cast<std::uint32_t>(tool);
+    record.seq = ++ledger.force_seq;
+    record.pose_seq = ledger.pose.seq;
+    record.pose_stamp_ns = ledger.pose.stamp_ns;
+    record.stamp_ns = cycle.woke_ns;
+    record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
+    record.previous_tick_ns = cycle.previous_ns;
+    record.overruns = cycle.overruns;
+    record.superseded = ledger.superseded;
+    record.result = result_.tools[tool];
+    // A full ring is a lost sample like any other: the receiver sees the gap in seq.
+    if (!channels_.forces.push(record)) ++dropped_;
+  }
+}
+
+void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  if (cycle.index % surface_every_ != 0) return;
+  SurfaceFrame& frame = channels_.surface.back();
+  frame.seq = ++surface_seq_;
+  frame.stamp_ns = cycle.woke_ns;
+  const std::span<const float> field = work_.displacement();
+  std::copy(field.begin(), field.end(), frame.displacement.begin());
+  channels_.surface.publish();
+  channels_.surface_ready.post();
+}
+
+void Tick::writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  TickRecord record;
+  record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
+  record.previous_tick_ns = cycle.previous_ns;
+  record.ticks = cycle.index + 1;
+  record.overruns = cycle.overruns;
+  record.rejected = rejected_;
+  record.dropped = dropped_;
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
+    record.superseded += ledgers_[tool].superseded;
+    record.unordered += ledgers_[tool].pose.unordered;
+    record.seen[tool] = seen(tool) ? 1 : 0;
+    record.flags[tool] = result_.tools[tool].flags;
+  }
+  if (!channels_.ticks.push(record)) ++dropped_;
+}
+
+void Tick::reportZeroForce() noexcept PALPATE_NONBLOCKING {
+  if (input_.shutting_down == 0) return;
+  const bool zero = std::all_of(result_.tools.begin(), result_.tools.end(),
+                                [](const ToolResult& tool) { return isZero(tool.force); });
+  zero_ticks_ = zero ? zero_ticks_ + 1 : 0;
+  if (zero_ticks_ == kZeroTicks) channels_.zero_force_sent.post();
+}
+
+}  // namespace palpate::server

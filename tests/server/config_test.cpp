@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/config.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace palpate::server {
+namespace {
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  ~ConfigFile() override { std::filesystem::remove(path_); }
+
+  ServerConfig read(const std::string& text) {
+    std::ofstream(path_) << text;
+    ServerConfig config;
+    readConfigFile(path_, config);
+    return config;
+  }
+
+  // What the refusal says, without the path.
+  std::string refusal(const std::string& text) {
+    try {
+      (void)read(text);
+    } catch (const ConfigError& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.find(path_.string()), 0U) << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+      return line.substr(path_.string().size());
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("palpate-config-" + std::to_string(getpid()) + ".toml");
+};
+
+TEST_F(ConfigFile, SetsWhatItNamesAndLeavesTheRest) {
+  const ServerConfig config = read(
+      "model = \"organ.h5\"\ndomain = 7\nrate = 500\nrealtime = \"off\"\nsurface_every = 4\n"
+      "[tool]\nforce_limit = 2.5\n");
+  EXPECT_EQ(config.model, path_.parent_path() / "organ.h5") << "relative to the file";
+  EXPECT_EQ(config.domain, 7);
+  EXPECT_EQ(config.rate, 500.0) << "an integer is a number too";
+  EXPECT_EQ(config.realtime, rt::RealtimePolicy::kOff);
+  EXPECT_EQ(config.surface_every, 4);
+  EXPECT_EQ(config.step.force_limit, 2.5);
+  EXPECT_EQ(config.step.tip_radius, StepConfig{}.tip_radius);
+}
+
+TEST_F(ConfigFile, AnAbsoluteModelPathStaysAsItIs) {
+  EXPECT_EQ(read("model = \"/data/organ.h5\"").model, "/data/organ.h5");
+}
+
+TEST_F(ConfigFile, TheSampleHoldsTheDefaults) {
+  ServerConfig sample;
+  readConfigFile(PALPATE_SAMPLE_CONFIG, sample);
+  const ServerConfig defaults;
+  EXPECT_EQ(sample.domain, defaults.domain);
+  EXPECT_EQ(sample.rate, defaults.rate);
+  EXPECT_EQ(sample.realtime, defaults.realtime);
+  EXPECT_EQ(sample.surface_every, defaults.surface_every);
+  EXPECT_EQ(sample.step.tip_radius, defaults.step.tip_radius);
+  EXPECT_EQ(sample.step.force_limit, defaults.step.force_limit);
+  EXPECT_EQ(sample.step.stale_timeout, defaults.step.stale_timeout);
+  EXPECT_EQ(sample.step.zero_after, defaults.step.zero_after);
+  EXPECT_EQ(sample.step.ramp_time, defaults.step.ramp_time);
+  EXPECT_EQ(sample.step.quaternion_tolerance, defaults.step.quaternion_tolerance);
+}
+
+TEST_F(ConfigFile, RefusesAnUnknownKeyByNameAndLine) {
+  EXPECT_EQ(refusal("domain = 1\n\nrat = 1000\n"), ":3: unknown key rat");
+  EXPECT_EQ(refusal("[tool]\ntip_radios = 0.01\n"), ":2: unknown key tool.tip_radios");
+  EXPECT_EQ(refusal("domain = 1\n[tol]\ntip_radius = 0.01\n"), ":2: unknown key tol");
+}
+
+TEST_F(ConfigFile, RefusesAWrongTypeByNameAndLine) {
+  EXPECT_EQ(refusal("rate = \"fast\""), ":1: rate is of type string, expected a number");
+  EXPECT_EQ(refusal("\ndomain = 1.5"), ":2: domain is of type floating-point, expected an integer");
+  EXPECT_EQ(refusal("rate = true"), ":1: rate is of type boolean, expected a number");
+  EXPECT_EQ(refusal("model = 3"), ":1: model is of type integer, expected a string");
+  EXPECT_EQ(refusal("tool = 3"), ":1: tool is not a table");
+}
+
+TEST_F(ConfigFile, RefusesANumberOutOfRangeByNameAndLine) {
+  EXPECT_EQ(refusal("domain = 231"), ":1: domain is 231, expected 0 to 230");
+  EXPECT_EQ(refusal("\nrate = 9.5"), ":2: rate is 9.5, expected 10 to 10000 Hz");
+  EXPECT_EQ(refusal("rate = nan"), ":1: rate is nan, expected 10 to 10000 Hz");
+  EXPECT_EQ(refusal("surface_every = 0"), ":1: surface_every is 0, expected 1 to 1000 ticks");
+  EXPECT_EQ(refusal("organ_id = -1"), ":1: organ_id is -1, expected 0 to 4294967295");
+  EXPECT_EQ(refusal("server_id = 4294967296"), ":1: server_id is 4294967296, expected 0 to 4294967295");
+}
+
+TEST_F(ConfigFile, RefusesAParameterOfTheEngineByNameAndLine) {
+  EXPECT_EQ(refusal("domain = 1\n[tool]\ntip_radius = 0.2").find(":3: tool.tip_radius "), 0U)
+      << refusal("domain = 1\n[tool]\ntip_radius = 0.2");
+  EXPECT_EQ(refusal("[tool]\nforce_limit = -1.0").find(":2: tool.force_limit "), 0U);
+  EXPECT_EQ(refusal("[tool]\nstale_timeout = inf").find(":2: tool.stale_timeout "), 0U);
+}
+
+TEST_F(ConfigFile, RefusesAnUnknownPolicyByNameAndLine) {
+  EXPECT_EQ(refusal("realtime = \"maybe\""), ":1: realtime is \"maybe\", expected require, prefer or off");
+}
+
+TEST_F(ConfigFile, RefusesASyntaxErrorByLine) {
+  EXPECT_EQ(refusal("domain = 1\nrate = = 2").find(":2: "), 0U);
+  EXPECT_EQ(refusal("rate = 100\nrate = 200").find(":2: "), 0U) << "a key twice";
+}
+
+TEST_F(ConfigFile, RefusesAFolderAndAMissingFile) {
+  ServerConfig config;
+  for (const std::string path : {"/tmp", "/nonexistent/server.toml"}) {
+    try {
+      readConfigFile(path, config);
+      FAIL() << "accepted " << path;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.what(), path + ": cannot be read as a file");
+    }
+  }
+}
+
+TEST(FirstComplaint, IsAbsentForTheDefaults) {
+  EXPECT_FALSE(firstComplaint(ServerConfig{}).has_value());
+}
+
+}  // namespace
+}  // namespace palpate::server

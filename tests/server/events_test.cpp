@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/events.h"
+
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <sstream>
+
+#include "../idl/test_domain.h"
+
+namespace palpate::server {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+class EventsTest : public ::testing::Test {
+ protected:
+  EventsTest() {
+    auto sink = std::make_shared<spdlog::sinks::ostream_sink_st>(log_);
+    sink->set_pattern("%v");
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", std::move(sink)));
+  }
+  ~EventsTest() override { spdlog::set_default_logger(std::make_shared<spdlog::logger>("none")); }
+
+  std::string takeLog() {
+    const std::string text = log_.str();
+    log_.str("");
+    return text;
+  }
+
+  std::ostringstream log_;
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3);
+  Facts facts_;
+  dds::Participant participant_{palpate::testing::exclusiveDomain()};
+  StatusPublisher status_{participant_, facts_};
+  Events events_{*channels_, status_};
+};
+
+TEST_F(EventsTest, GathersTheTimesOfEveryTick) {
+  for (std::uint64_t tick = 1; tick <= 100; ++tick) {
+    TickRecord record;
+    record.ticks = tick;
+    record.wakeup_ns = 10;
+    record.previous_tick_ns = tick == 1 ? 0 : 50;
+    ASSERT_TRUE(channels_->ticks.push(record));
+  }
+  events_.drain(0);
+  EXPECT_EQ(events_.health().wakeup.count(), 100U);
+  EXPECT_EQ(events_.health().tick.count(), 99U) << "the first tick has none before it";
+  EXPECT_EQ(events_.health().tick.quantile(0.0), 50);
+  EXPECT_EQ(events_.health().last.ticks, 100U);
+}
+
+TEST_F(EventsTest, AFlagIsLoggedWhenItBeginsAndAtMostOnceASecond) {
+  TickRecord record;
+  record.seen[1] = 1;
+  const auto flick = [&](std::int64_t now_ns) {
+    record.flags[1] = kBeyondDomain | kInContact;
+    ASSERT_TRUE(channels_->ticks.push(record));
+    record.flags[1] = 0;
+    ASSERT_TRUE(channels_->ticks.push(record));
+    events_.drain(now_ns);
+  };
+  const std::string warning = "tool 1: pressed beyond the model's domain: answer clamped\n";
+  flick(kSecond);
+  EXPECT_EQ(takeLog(), "tool 1: first pose\n" + warning);
+  flick(kSecond + 1);
+  EXPECT_EQ(takeLog(), "");
+  flick(3 * kSecond);
+  EXPECT_EQ(takeLog(), warning);
+  EXPECT_EQ(events_.health().recent_flags, kBeyondDomain | kInContact);
+}
+
+TEST_F(EventsTest, MissedTicksLostRecordsAndUnknownToolsAreLogged) {
+  TickRecord record;
+  record.overruns = 3;
+  record.dropped = 2;
+  ASSERT_TRUE(channels_->ticks.push(record));
+  ASSERT_TRUE(channels_->unknown_tools.push({9, 1}));
+  channels_->failed_writes = 4;
+  events_.drain(kSecond);
+  EXPECT_EQ(takeLog(),
+            "ticks missed (3 so far)\n"
+            "a ring was full (2 records lost so far)\n"
+            "pose of tool 9 ignored: tool ids are 0 to 3 (1 so far)\n"
+            "DDS refused to send (4 so far)\n");
+  EXPECT_EQ(events_.health().unknown_tools, 1U);
+  EXPECT_EQ(events_.health().failed_writes, 4U);
+}
+
+}  // namespace
+}  // namespace palpate::server

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-server as a user runs it: its own process, poses and answers over DDS.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "../idl/test_domain.h"
+#include "palpate/testing/synthetic_model.h"
+#include "server_process.h"
+#include "test_client.h"
+
+namespace palpate::server::testing {
+namespace {
+
+constexpr double kTipRadius = 0.005;
+constexpr std::int64_t kMs = 1'000'000;
+
+void pause(int milliseconds) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+double sizeOf(const double (&v)[3]) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+bool isFinite(const dds::ToolForce& force) {
+  return std::isfinite(sizeOf(force.force)) &&
+         std::all_of(std::begin(force.stiffness), std::end(force.stiffness),
+                     [](double k) { return std::isfinite(k); });
+}
+
+std::uint64_t gaps(const std::vector<dds::ToolForce>& forces) {
+  return forces.back().seq - forces.front().seq + 1 - forces.size();
+}
+
+class ServerEndToEnd : public ::testing::Test {
+ protected:
+  ServerEndToEnd() { palpate::testing::writeSyntheticModel(model_); }
+  ~ServerEndToEnd() override {
+    client_.reset();
+    server_.reset();
+    std::filesystem::remove(model_);
+  }
+
+  // Server, one client that has found it, and a place to touch.
+  void start(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"--model", model_.string(), "--domain", std::to_string(domain_)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    server_ = std::make_unique<ServerProcess>(arguments);
+    client_ = std::make_unique<TestClient>(domain_, 0);
+    ASSERT_TRUE(client_->connect()) << server_->log();
+    const auto target = client_->findTarget();
+    ASSERT_TRUE(target.has_value()) << server_->log();
+    target_ = *target;
+  }
+
+  // Centre of the tip at a depth below the surface; negative is above it.
+  [[nodiscard]] Point atDepth(double depth) const {
+    return along(target_.position, target_.normal, kTipRadius - depth);
+  }
+
+  // From above the surface down to `depth`, and held there until the force has settled.
+  void press(double depth) {
+    client_->startSending(atDepth(-0.002));
+    pause(20);
+    client_->moveTo(atDepth(depth), 150);
+    pause(150);
+    client_->forget();
+    pause(50);
+    ASSERT_FALSE(client_->forces().empty()) << server_->log();
+  }
+
+  std::uint32_t domain_ = palpate::testing::exclusiveDomain();
+  std::filesystem::path model_ =
+      std::filesystem::temp_directory_path() / ("palpate-e2e-" + std::to_string(getpid()) + ".h5");
+  std::unique_ptr<ServerProcess> server_;
+  std::unique_ptr<TestClient> client_;
+  Target target_;
+};
+
+TEST_F(ServerEndToEnd, PushesBackAndEchoesThePose) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  const dds::ToolForce force = client_->forces().back();
+  const Point& n = target_.normal;
+  EXPECT_GT(dot(n, force.force), 0.0) << "the force on the tool points outward";
+  double stiffness_n[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) stiffness_n[i] += force.stiffness[3 * i + j] * n[j];
+  }
+  EXPECT_LT(dot(n, stiffness_n), 0.0) << "deeper pushes back harder";
+  EXPECT_EQ(force.state, dds::tool_state::kStick);
+  EXPECT_EQ(force.flags, dds::flag::kInContact);
+  EXPECT_GT(force.pose_seq, 0U);
+  EXPECT_GT(force.pose_stamp_ns, 0);
+  EXPECT_NEAR(force.penetration, 0.001, 1e-4);
+  EXPECT_EQ(client_->waitForDisplacement(1e-4), 3 * target_.nodes);
+}
+
+TEST_F(ServerEndToEnd, EveryTickIsAnsweredOnceAndInOrder) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  client_->startSending(atDepth(0.001));
+  ASSERT_TRUE(client_->waitFor([](const dds::ToolForce& f) { return f.seq > 0; }).has_value());
+  // Best effort may lose samples while the machine stands still; a server that skips loses them every time.
+  std::uint64_t lost = 1;
+  for (int attempt = 0; attempt < 5 && lost > 0; ++attempt) {
+    client_->forget();
+    pause(500);
+    const auto forces = client_->forces();
+    ASSERT_GT(forces.size(), 10U);
+    for (std::size_t i = 1; i < forces.size(); ++i) {
+      ASSERT_GT(forces[i].seq, forces[i - 1].seq);
+      ASSERT_GT(forces[i].stamp_ns, forces[i - 1].stamp_ns);
+      ASSERT_GE(forces[i].pose_seq, forces[i - 1].pose_seq);
+    }
+    lost = gaps(forces);
+  }
+  EXPECT_EQ(lost, 0U);
+}
+
+TEST_F(ServerEndToEnd, ForceFallsSteadilyToZeroWhenPosesStop) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  const double held = sizeOf(client_->forces().back().force);
+  client_->stopSending();
+  client_->forget();
+  pause(200);
+  const auto forces = client_->forces();
+  ASSERT_GT(forces.size(), 20U);
+  // The stale_timeout is 20 ms and zero comes after 50 ms: the steepest fall is held / 30 ms.
+  for (std::size_t i = 1; i < forces.size(); ++i) {
+    const double ms = static_cast<double>(forces[i].stamp_ns - forces[i - 1].stamp_ns) / kMs;
+    const double fall = sizeOf(forces[i - 1].force) - sizeOf(forces[i].force);
+    EXPECT_GE(fall, -1e-9) << "rises without a pose";
+    EXPECT_LE(fall, held * (0.05 + 0.05 * ms)) << "falls abruptly";
+  }
+  EXPECT_EQ(sizeOf(forces.back().force), 0.0);
+  EXPECT_NE(forces.back().flags & dds::flag::kStalePose, 0U);
+  const auto zero =
+      std::find_if(forces.begin(), forces.end(), [](const auto& f) { return sizeOf(f.force) == 0.0; });
+  // 51 ms after the last pose; one period more for the pose that came after forget(), some for the tick's own
+  // grid.
+  EXPECT_LE(zero->stamp_ns - forces.front().stamp_ns, 55 * kMs + static_cast<std::int64_t>(zero->wakeup_ns));
+}
+
+TEST_F(ServerEndToEnd, SurvivesPosesThatAreNoPoses) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  client_->stopSending();
+  dds::ToolPose bad = client_->poseAt(atDepth(0.001));
+  bad.position[1] = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 5; ++i, pause(2)) client_->send(bad);
+  EXPECT_TRUE(
+      client_->waitFor([](const auto& f) { return (f.flags & dds::flag::kNonFinitePose) != 0; }).has_value());
+  bad = client_->poseAt(atDepth(0.001));
+  bad.orientation[3] = 2.0;
+  for (int i = 0; i < 5; ++i, pause(2)) client_->send(bad);
+  EXPECT_TRUE(client_->waitFor([](const auto& f) { return (f.flags & dds::flag::kNonUnitQuaternion) != 0; })
+                  .has_value());
+  bad = client_->poseAt({1e300, -1e300, 1e308});
+  for (int i = 0; i < 5; ++i, pause(2)) client_->send(bad);
+  for (const dds::ToolForce& force : client_->forces()) ASSERT_TRUE(isFinite(force));
+  EXPECT_TRUE(client_->waitForStatus([](const auto& s) { return s.rejected_poses >= 2; }).has_value());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  EXPECT_GT(dot(target_.normal, client_->forces().back().force), 0.0) << "a good pose is answered again";
+}
+
+TEST_F(ServerEndToEnd, ClampsAndFlagsWhatLiesBeyondTheDomain) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.02));
+  const dds::ToolForce force = client_->forces().back();
+  EXPECT_NE(force.flags & dds::flag::kBeyondDomain, 0U);
+  EXPECT_LE(sizeOf(force.displacement), force.domain_radius * (1.0 + 1e-9));
+  EXPECT_GT(force.penetration, force.domain_radius);
+  EXPECT_LE(sizeOf(force.force), 3.3 * (1.0 + 1e-9));
+}
+
+TEST_F(ServerEndToEnd, CutsTheForceToTheLimit) {
+  ASSERT_NO_FATAL_FAILURE(start({"--force-limit", "0.01"}));
+  ASSERT_NO_FATAL_FAILURE(press(0.002));
+  const dds::ToolForce force = client_->forces().back();
+  EXPECT_NE(force.flags & dds::flag::kForceLimited, 0U);
+  EXPECT_NEAR(sizeOf(force.force), 0.01, 1e-6);
+}
+
+TEST_F(ServerEndToEnd, AnswersTwoToolsEachWithItsOwnCounter) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  TestClient second(domain_, 3);
+  ASSERT_TRUE(second.connect());
+  second.startSending(along(target_.position, target_.normal, 0.5));
+  const auto answer = second.waitFor([](const dds::ToolForce& f) { return f.seq >= 20; });
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(answer->tool_id, 3U);
+  EXPECT_EQ(sizeOf(answer->force), 0.0) << "far away";
+  EXPECT_GT(client_->forces().back().seq, answer->seq);
+  EXPECT_GT(dot(target_.normal, client_->forces().back().force), 0.0) << "the first tool still presses";
+}
+
+TEST_F(ServerEndToEnd, IgnoresAndCountsUnknownTools) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  dds::ToolPose pose = client_->poseAt(atDepth(0.001));
+  pose.tool_id = 4;
+  for (int i = 0; i < 20; ++i, pause(2)) client_->send(pose);
+  EXPECT_TRUE(client_->waitForStatus([](const auto& s) { return s.unknown_tools > 0; }).has_value());
+  EXPECT_TRUE(client_->forces().empty());
+  EXPECT_TRUE(client_->forcesOfOtherTools().empty());
+}
+
+TEST_F(ServerEndToEnd, CountsPosesThatWereSupersededOrOutOfOrder) {
+  ASSERT_NO_FATAL_FAILURE(start({"--rate", "50"}));
+  for (int i = 0; i < 50; ++i) client_->send(client_->poseAt(atDepth(-0.01)));
+  EXPECT_TRUE(client_->waitFor([](const auto& f) { return f.superseded > 0; }).has_value());
+  pause(60);
+  dds::ToolPose early = client_->poseAt(atDepth(-0.01));
+  early.seq = 1;
+  client_->send(early);
+  EXPECT_TRUE(client_->waitFor([](const auto& f) { return (f.flags & dds::flag::kPoseOutOfOrder) != 0; })
+                  .has_value());
+  EXPECT_TRUE(client_->waitForStatus([](const auto& s) { return s.superseded > 0 && s.unordered_poses > 0; })
+                  .has_value());
+}
+
+TEST_F(ServerEndToEnd, TellsItsStateAboutOnceASecond) {
+  ASSERT_NO_FATAL_FAILURE(
+      start({"--tip-radius", "0.004", "--organ-id", "5", "--server-id", "6", "--realtime", "off"}));
+  const auto status = client_->waitForStatus([](const auto& s) { return s.ticks > 100; });
+  ASSERT_TRUE(status.has_value());
+  EXPECT_EQ(status->server_id, 6U);
+  EXPECT_EQ(status->organ_id, 5U);
+  EXPECT_EQ(status->state, dds::server_state::kRunning);
+  EXPECT_EQ(status->tip_radius, 0.004);
+  EXPECT_EQ(status->rate_hz, 1000.0);
+  EXPECT_FALSE(status->realtime);
+  EXPECT_GT(status->tick_us.p50, 0.0);
+  EXPECT_GE(status->tick_us.count, 100U);
+  const auto later = client_->waitForStatus([&](const auto& s) { return s.ticks > status->ticks; });
+  EXPECT_TRUE(later.has_value());
+}
+
+class ServerStops : public ServerEndToEnd, public ::testing::WithParamInterface<int> {};
+
+TEST_P(ServerStops, WithZeroForceLastAndExitCodeZero) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  ASSERT_GT(sizeOf(client_->forces().back().force), 0.0);
+  client_->forget();
+  server_->signal(GetParam());
+  EXPECT_EQ(server_->waitForExit(), 0) << server_->log();
+  pause(50);
+  const auto forces = client_->forces();
+  ASSERT_GE(forces.size(), 5U);
+  for (auto last = forces.end() - 5; last != forces.end(); ++last) {
+    EXPECT_EQ(sizeOf(last->force), 0.0);
+    EXPECT_NE(last->flags & dds::flag::kShuttingDown, 0U);
+  }
+  EXPECT_TRUE(client_->waitForStatus([](const auto& s) { return s.state == dds::server_state::kStopping; })
+                  .has_value());
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, ServerStops, ::testing::Values(SIGINT, SIGTERM));
+
+}  // namespace
+}  // namespace palpate::server::testing

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace palpate::server::testing {
+
+/// palpate-server as its own process, its standard error in a file. Killed by the destructor if it still
+/// runs.
+class ServerProcess {
+ public:
+  explicit ServerProcess(const std::vector<std::string>& arguments);
+  ~ServerProcess();
+  ServerProcess(const ServerProcess&) = delete;
+  ServerProcess& operator=(const ServerProcess&) = delete;
+
+  void signal(int number) const;
+
+  /// @return exit code; 128 + n when signal n ended it; -1 when it still runs after the timeout
+  [[nodiscard]] int waitForExit(std::chrono::seconds timeout = std::chrono::seconds(30));
+
+  /// What it wrote to standard error so far.
+  [[nodiscard]] std::string log() const;
+
+  [[nodiscard]] bool running();
+
+ private:
+  pid_t pid_{-1};
+  int exit_code_{-1};
+  std::string log_path_;
+};
+
+}  // namespace palpate::server::testing

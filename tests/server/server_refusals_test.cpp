@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// What palpate-server does with what it cannot use: one line on standard error, exit code 1.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "../idl/test_domain.h"
+#include "palpate/testing/synthetic_model.h"
+#include "server_process.h"
+
+namespace palpate::server::testing {
+namespace {
+
+class ServerRefuses : public ::testing::Test {
+ protected:
+  ServerRefuses() { palpate::testing::useLoopback(); }
+  ~ServerRefuses() override { std::filesystem::remove(file_); }
+
+  // The line, without the program's name.
+  std::string refusal(const std::vector<std::string>& arguments) {
+    ServerProcess server(arguments);
+    EXPECT_EQ(server.waitForExit(), 1);
+    const std::string log = server.log();
+    const std::string name = "palpate-server: ";
+    EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1) << log;
+    EXPECT_EQ(log.find(name), 0U) << log;
+    return log.size() > name.size() ? log.substr(name.size(), log.size() - name.size() - 1) : log;
+  }
+
+  std::filesystem::path file_ =
+      std::filesystem::temp_directory_path() / ("palpate-refused-" + std::to_string(getpid()) + ".h5");
+};
+
+TEST_F(ServerRefuses, ATruncatedModel) {
+  palpate::testing::writeSyntheticModel(file_);
+  std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
+  EXPECT_NE(refusal({"--model", file_.string()}).find(file_.string()), std::string::npos);
+}
+
+TEST_F(ServerRefuses, AFileThatIsNoModel) {
+  std::ofstream(file_) << "not a model";
+  EXPECT_NE(refusal({"--model", file_.string()}).find(file_.string()), std::string::npos);
+}
+
+TEST_F(ServerRefuses, AMissingModel) {
+  EXPECT_NE(refusal({"--model", "/nonexistent.h5"}).find("/nonexistent.h5"), std::string::npos);
+  EXPECT_EQ(refusal({}), "--model is missing: name a model file here or in --config");
+}
+
+TEST_F(ServerRefuses, OptionsOutOfRangeByName) {
+  EXPECT_EQ(refusal({"--model", "m.h5", "--rate", "0"}), "--rate is 0, expected 10 to 10000 Hz");
+  EXPECT_EQ(refusal({"--model", "m.h5", "--domain", "231"}), "--domain is 231, expected 0 to 230");
+  EXPECT_EQ(refusal({"--model", "m.h5", "--tip-radius", "1"}).find("--tip-radius is 1"), 0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--realtime", "maybe"}),
+            "--realtime is \"maybe\", expected require, prefer or off");
+}
+
+TEST_F(ServerRefuses, WhatItDoesNotKnow) {
+  EXPECT_NE(refusal({"--modle", "m.h5"}).find("--modle"), std::string::npos);
+  EXPECT_NE(refusal({"--rate", "fast"}).find("rate"), std::string::npos);
+}
+
+TEST_F(ServerRefuses, AConfigurationByFileAndLine) {
+  std::ofstream(file_) << "domain = 1\nspeed = 3\n";
+  EXPECT_EQ(refusal({"--config", file_.string()}), file_.string() + ":2: unknown key speed");
+}
+
+TEST_F(ServerRefuses, ADdsConfigurationThatCannotWork) {
+  palpate::testing::writeSyntheticModel(file_);
+  const std::string before = getenv("CYCLONEDDS_URI");
+  setenv("CYCLONEDDS_URI",
+         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"nosuch0\"/>"
+         "</Interfaces></General></Domain></CycloneDDS>",
+         1);
+  ServerProcess server({"--model", file_.string(), "--domain", "3"});
+  EXPECT_EQ(server.waitForExit(), 1);
+  EXPECT_NE(server.log().find("palpate-server: cannot create a DDS participant on domain 3"), std::string::npos)
+      << server.log();
+  setenv("CYCLONEDDS_URI", before.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace palpate::server::testing

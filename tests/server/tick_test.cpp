@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tick without its thread: the test keeps the time.
+#include "palpate/server/tick.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "palpate/server/pose_subscriber.h"
+#include "palpate/testing/allocation_guard.h"
+#include "palpate/testing/synthetic_model.h"
+
+namespace palpate::server::testing {
+namespace {
+
+constexpr std::int64_t kPeriod = 1'000'000;
+
+MetaModel loadSynthetic() {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("palpate-tick-" + std::to_string(getpid()) + ".h5");
+  palpate::testing::writeSyntheticModel(path);
+  MetaModel model = MetaModel::load(path);
+  std::filesystem::remove(path);
+  return model;
+}
+
+class TickTest : public ::testing::Test {
+ protected:
+  // An accessible node and the normal there.
+  TickTest() {
+    const ModelView& view = model_.view();
+    std::size_t position = 0;
+    while (view.contact_accessible[position] == 0) ++position;
+    const int node = view.contact_node[position];
+    const ContactPoint s = model_.surface().atNode(node);
+    place_ = model_.surface().position(s);
+    normal_ = model_.surface().nodeNormal(node);
+  }
+
+  [[nodiscard]] dds::ToolPose poseAtDepth(std::uint32_t tool, double depth) {
+    dds::ToolPose pose{};
+    pose.tool_id = tool;
+    pose.seq = ++pose_seq_;
+    pose.stamp_ns = now_ns_;
+    const Vec3 centre = place_ + (StepConfig{}.tip_radius - depth) * normal_;
+    for (int k = 0; k < 3; ++k) pose.position[k] = centre[k];
+    pose.orientation[3] = 1.0;
+    return pose;
+  }
+
+  void send(const dds::ToolPose& pose) noexcept { intake_.accept(pose, now_ns_); }
+
+  void runOneTick() noexcept {
+    now_ns_ += kPeriod;
+    cycle_.deadline_ns = now_ns_;
+    cycle_.woke_ns = now_ns_ + 7;
+    tick_.run(cycle_);
+    ++cycle_.index;
+    cycle_.previous_ns = 50'000;
+  }
+
+  // All forces that lie in the ring.
+  std::vector<ForceRecord> takeForces() {
+    std::vector<ForceRecord> records;
+    ForceRecord record;
+    while (channels_->forces.pop(record)) records.push_back(record);
+    return records;
+  }
+
+  TickRecord takeLastRecord() {
+    TickRecord record;
+    while (channels_->ticks.pop(record)) {
+    }
+    return record;
+  }
+
+  MetaModel model_ = loadSynthetic();
+  Workspace work_{model_, StepConfig{}};
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3 * model_.view().surfaceNodes());
+  PoseIntake intake_{*channels_};
+  Tick tick_{model_, work_, *channels_, 1};
+  rt::Cycle cycle_;
+  std::int64_t now_ns_{1'000'000'000};
+  std::uint64_t pose_seq_{0};
+  Vec3 place_;
+  Vec3 normal_;
+};
+
+TEST_F(TickTest, AnswersNobodyBeforeTheFirstPose) {
+  runOneTick();
+  EXPECT_TRUE(takeForces().empty());
+  EXPECT_TRUE(channels_->force_ready.tryWait());
+  EXPECT_TRUE(channels_->surface.update()) << "the surface is there all the same";
+}
+
+TEST_F(TickTest, AnswersEveryToolThatWasSeenOnceATick) {
+  send(poseAtDepth(2, 0.001));
+  for (int i = 0; i < 5; ++i) runOneTick();
+  send(poseAtDepth(0, -0.01));
+  for (int i = 0; i < 3; ++i) runOneTick();
+  std::uint64_t seq_of_0 = 0;
+  std::uint64_t seq_of_2 = 0;
+  for (const ForceRecord& record : takeForces()) {
+    ASSERT_TRUE(record.tool_id == 0 || record.tool_id == 2);
+    EXPECT_EQ(record.seq, record.tool_id == 0 ? ++seq_of_0 : ++seq_of_2);
+    EXPECT_EQ(record.pose_seq, record.tool_id == 0 ? 2U : 1U);
+    EXPECT_EQ(record.wakeup_ns, 7);
+  }
+  EXPECT_EQ(seq_of_0, 3U);
+  EXPECT_EQ(seq_of_2, 8U);
+}
+
+TEST_F(TickTest, PushesBackAndMovesTheSurface) {
+  for (int i = 0; i < 100; ++i) {
+    send(poseAtDepth(0, 0.00001 * i));
+    runOneTick();
+  }
+  const ToolResult result = takeForces().back().result;
+  EXPECT_GT(Eigen::Map<const Vec3>(result.force.data()).dot(normal_), 0.0);
+  EXPECT_EQ(result.flags, kInContact);
+  ASSERT_TRUE(channels_->surface.update());
+  const SurfaceFrame& frame = channels_->surface.front();
+  EXPECT_EQ(frame.seq, 100U);
+  EXPECT_EQ(frame.stamp_ns, now_ns_ + 7);
+  const std::span<const float> field = work_.displacement();
+  EXPECT_EQ(frame.displacement, std::vector<float>(field.begin(), field.end()));
+  EXPECT_NE(frame.displacement, std::vector<float>(field.size(), 0.0F));
+}
+
+TEST_F(TickTest, CountsPosesThatNoTickEverKnew) {
+  send(poseAtDepth(0, -0.01));
+  runOneTick();
+  for (int i = 0; i < 4; ++i) send(poseAtDepth(0, -0.01));
+  runOneTick();
+  runOneTick();
+  const auto forces = takeForces();
+  EXPECT_EQ(forces[0].superseded, 0U);
+  EXPECT_EQ(forces[1].superseded, 3U);
+  EXPECT_EQ(forces[1].pose_seq, 5U);
+  EXPECT_EQ(forces[2].superseded, 3U);
+  EXPECT_EQ(takeLastRecord().superseded, 3U);
+}
+
+TEST_F(TickTest, CountsARejectedPoseOnceAndNotOnceATick) {
+  dds::ToolPose pose = poseAtDepth(0, 0.001);
+  pose.position[0] = std::numeric_limits<double>::quiet_NaN();
+  send(pose);
+  for (int i = 0; i < 5; ++i) runOneTick();
+  EXPECT_EQ(takeLastRecord().rejected, 1U);
+  EXPECT_NE(takeForces().front().result.flags & kNonFinitePose, 0U);
+}
+
+TEST_F(TickTest, FlagsAPoseThatWentBackwardsInTheTickThatUsesIt) {
+  send(poseAtDepth(0, -0.01));
+  dds::ToolPose early = poseAtDepth(0, -0.01);
+  early.seq = 0;
+  runOneTick();
+  send(early);
+  runOneTick();
+  runOneTick();
+  const auto forces = takeForces();
+  EXPECT_EQ(forces[0].result.flags & kPoseOutOfOrder, 0U);
+  EXPECT_NE(forces[1].result.flags & kPoseOutOfOrder, 0U);
+  EXPECT_EQ(forces[2].result.flags & kPoseOutOfOrder, 0U);
+  EXPECT_EQ(takeLastRecord().unordered, 1U);
+}
+
+TEST_F(TickTest, AFullRingCostsTheNewestRecordAndTheCounterShowsIt) {
+  send(poseAtDepth(0, -0.01));
+  const std::size_t capacity = channels_->forces.capacity();
+  for (std::size_t i = 0; i < capacity + 3; ++i) runOneTick();
+  EXPECT_EQ(takeForces().back().seq, capacity);
+  EXPECT_EQ(takeLastRecord().dropped, 3U);
+  runOneTick();
+  EXPECT_EQ(takeForces().back().seq, capacity + 4) << "the receiver sees a gap of three";
+}
+
+TEST_F(TickTest, WritesTheSurfaceOnlyAsOftenAsAsked) {
+  Tick seldom(model_, work_, *channels_, 10);
+  for (cycle_.index = 0; cycle_.index < 30; ++cycle_.index) seldom.run(cycle_);
+  ASSERT_TRUE(channels_->surface.update());
+  EXPECT_EQ(channels_->surface.front().seq, 3U);
+}
+
+TEST_F(TickTest, TellsWhenZeroForceWasSent) {
+  for (int i = 0; i < 100; ++i) {
+    send(poseAtDepth(0, 0.001));
+    runOneTick();
+  }
+  (void)takeForces();
+  channels_->shutting_down = true;
+  int ticks = 0;
+  while (!channels_->zero_force_sent.tryWait() && ticks < 1000) {
+    send(poseAtDepth(0, 0.001));
+    runOneTick();
+    ++ticks;
+  }
+  EXPECT_LE(ticks, 50) << "30 ms of ramp and ten ticks of zero";
+  const auto forces = takeForces();
+  ASSERT_GE(forces.size(), 10U);
+  for (auto last = forces.end() - 10; last != forces.end(); ++last) {
+    EXPECT_EQ(last->result.force, (std::array<double, 3>{}));
+    EXPECT_NE(last->result.flags & kShuttingDown, 0U);
+  }
+}
+
+TEST_F(TickTest, AllocatesNothingWhateverComes) {
+  dds::ToolPose bad = poseAtDepth(1, 0.001);
+  bad.position[2] = std::numeric_limits<double>::infinity();
+  std::vector<dds::ToolPose> poses;
+  for (int i = 0; i < 100; ++i)
+    poses.push_back(poseAtDepth(static_cast<std::uint32_t>(i % 6), 0.0003 * (i - 10)));
+  const palpate::testing::AllocationGuard guard;
+  for (const dds::ToolPose& pose :
+       poses) {  // approach, contact of four tools, beyond the domain, unknown tools
+    send(pose);
+    runOneTick();
+  }
+  send(bad);
+  for (int i = 0; i < 100; ++i) runOneTick();  // not finite, then stale
+  for (int i = 99; i >= 0; --i) {              // and out again, backwards in order
+    send(poses[static_cast<std::size_t>(i)]);
+    runOneTick();
+  }
+  channels_->shutting_down = true;
+  for (int i = 0; i < 500; ++i) runOneTick();  // until every ring is full
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+}  // namespace
+}  // namespace palpate::server::testing

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "palpate/server/force_publisher.h"
+#include "palpate/server/status_publisher.h"
+
+namespace palpate::server {
+namespace {
+
+TEST(ForceOnTheWire, SaysWhatTheRecordSays) {
+  ForceRecord record;
+  record.tool_id = 2;
+  record.seq = 11;
+  record.pose_seq = 12;
+  record.pose_stamp_ns = 13;
+  record.stamp_ns = 14;
+  record.wakeup_ns = 15;
+  record.previous_tick_ns = 16;
+  record.overruns = 17;
+  record.superseded = 18;
+  record.result.flags = kInContact | kForceLimited;
+  record.result.state = static_cast<std::uint32_t>(ContactState::kStick);
+  record.result.force = {1, 2, 3};
+  record.result.stiffness = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  record.result.anchor = {4, 5, 6};
+  record.result.proxy = {7, 8, 9};
+  record.result.displacement = {10, 11, 12};
+  record.result.domain_radius = 0.004;
+  record.result.penetration = 0.002;
+  const dds::ToolForce force = toWire(record);
+  EXPECT_EQ(force.tool_id, 2U);
+  EXPECT_EQ(force.seq, 11U);
+  EXPECT_EQ(force.pose_seq, 12U);
+  EXPECT_EQ(force.pose_stamp_ns, 13);
+  EXPECT_EQ(force.stamp_ns, 14);
+  EXPECT_EQ(force.wakeup_ns, 15);
+  EXPECT_EQ(force.tick_ns, 16);
+  EXPECT_EQ(force.overruns, 17U);
+  EXPECT_EQ(force.superseded, 18U);
+  EXPECT_EQ(force.flags, dds::flag::kInContact | dds::flag::kForceLimited);
+  EXPECT_EQ(force.state, dds::tool_state::kStick);
+  EXPECT_EQ(force.force[2], 3.0);
+  EXPECT_EQ(force.torque[0], 0.0);
+  EXPECT_EQ(force.stiffness[8], 9.0);
+  EXPECT_EQ(force.anchor[0], 4.0);
+  EXPECT_EQ(force.proxy[1], 8.0);
+  EXPECT_EQ(force.displacement[2], 12.0);
+  EXPECT_EQ(force.domain_radius, 0.004);
+  EXPECT_EQ(force.penetration, 0.002);
+}
+
+TEST(StatusOnTheWire, SaysTimesInMicrosecondsAndCutsLongTexts) {
+  Facts facts;
+  facts.server_id = 3;
+  facts.tip_radius = 0.004;
+  facts.model_id = std::string(500, 'x');
+  Health health;
+  health.tick.add(2'000);
+  health.last.dropped = 2;
+  health.failed_writes = 3;
+  const dds::ServerStatus status = toWire(facts, health, dds::server_state::kRunning);
+  EXPECT_EQ(status.server_id, 3U);
+  EXPECT_EQ(status.tip_radius, 0.004);
+  EXPECT_EQ(status.tick_us.p50, 2.0);
+  EXPECT_EQ(status.tick_us.max, 2.0);
+  EXPECT_EQ(status.tick_us.count, 1U);
+  EXPECT_EQ(status.dropped, 5U);
+  EXPECT_EQ(std::string(status.model_id), std::string(sizeof status.model_id - 1, 'x'));
+}
+
+}  // namespace
+}  // namespace palpate::server
