@@ -2,6 +2,7 @@
 #include "palpate/mesh/fill_surface.h"
 
 #include "helpers.h"
+#include "palpate/mesh/box_mesh.h"
 #include "palpate/mesh/checks.h"
 #include "palpate/mesh/topology.h"
 
@@ -29,6 +30,19 @@ TEST(FillSurface, RemeshesACubeAtTheGivenSize) {
   EXPECT_NO_THROW(checkMesh(fine));
   EXPECT_NEAR(volumeOf(fine), 1, 1e-9);
   EXPECT_GT(boundaryOf(fine).triangles.size(), 4 * boundaryOf(coarse).triangles.size());
+}
+
+TEST(FillSurface, MakesAFineSurfaceCoarser) {
+  const TetMesh box = makeBox({1, 1, 1}, {13, 13, 13});
+  const BoundarySurface boundary = boundaryOf(box);
+  TriangleSurface surface;
+  for (const auto node : boundary.nodes)
+    surface.vertices.push_back(box.nodes[static_cast<std::size_t>(node)]);
+  surface.triangles = boundary.triangles;
+  const TetMesh mesh = fillSurface(surface, 0.3);
+  EXPECT_NO_THROW(checkMesh(mesh));
+  EXPECT_NEAR(volumeOf(mesh), 1, 1e-9);
+  EXPECT_LT(boundaryOf(mesh).triangles.size(), surface.triangles.size() / 4);
 }
 
 TEST(FillSurface, RefusesASizeThatIsNone) {

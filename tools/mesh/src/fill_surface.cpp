@@ -4,7 +4,9 @@
 #include <gmsh.h>
 
 #include <cmath>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
 #include "palpate/mesh/gmsh_session.h"
@@ -37,6 +39,13 @@ void prepareRemeshing(double element_size) {
   gmsh::option::setNumber("Mesh.MeshSizeMin", element_size);
   gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
+  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+  // Without a field Gmsh falls back on the edges of the surface that is being replaced.
+  std::ostringstream size;
+  size << std::setprecision(17) << element_size;
+  const int field = gmsh::model::mesh::field::add("MathEval");
+  gmsh::model::mesh::field::setString(field, "F", size.str());
+  gmsh::model::mesh::field::setAsBackgroundMesh(field);
 }
 
 void addVolume() {

@@ -3,8 +3,6 @@
 
 #include <gmsh.h>
 
-#include <array>
-#include <csignal>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -13,26 +11,16 @@
 
 #include "palpate/mesh/mesh_error.h"
 
+#if defined(__SANITIZE_ADDRESS__)
+// Gmsh and OpenCASCADE leave memory behind when they finish; LeakSanitizer is to watch our code.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libgmsh\nleak:libTK\n";
+}
+#endif
+
 namespace palpate::mesh {
 namespace {
-
-constexpr std::array kSignals{SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGHUP, SIGPIPE};
-
-// Gmsh takes over signals when it starts; palpate's programs end on them as any other does.
-class KeepSignals {
- public:
-  KeepSignals() {
-    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &saved_[i]);
-  }
-  ~KeepSignals() {
-    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &saved_[i], nullptr);
-  }
-  KeepSignals(const KeepSignals&) = delete;
-  KeepSignals& operator=(const KeepSignals&) = delete;
-
- private:
-  std::array<struct sigaction, kSignals.size()> saved_{};
-};
 
 [[noreturn]] void fail(const std::string& what, std::string reason) {
   for (auto& c : reason) c = c == '\n' ? ' ' : c;
@@ -48,14 +36,12 @@ std::string lastError() {
 }  // namespace
 
 GmshSession::GmshSession() {
-  const KeepSignals keep;
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);
   gmsh::option::setNumber("General.NumThreads", 1);  // the same mesh on every machine
 }
 
 GmshSession::~GmshSession() {
-  const KeepSignals keep;
   gmsh::finalize();
 }
 

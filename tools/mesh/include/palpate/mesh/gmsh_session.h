@@ -8,7 +8,7 @@
 
 namespace palpate::mesh {
 
-/// Owns the one Gmsh of the process: silent, no configuration files, the process's signal handlers kept.
+/// Owns the one Gmsh of the process: silent, without the user's configuration files.
 /// Gmsh is global state: one session at a time, one thread.
 class GmshSession {
  public:
