@@ -21,11 +21,14 @@ std::uint32_t checkedId(std::uint32_t tool_id) {
 ToolClient::ToolClient(const dds::Participant& participant, std::uint32_t tool_id, ForceCallback callback,
                        void* context)
     : tool_id_(checkedId(tool_id)),
+      first_seq_(static_cast<std::uint64_t>(nowNs())),
+      last_seq_(first_seq_ - 1),
       callback_(callback),
       context_(context),
       poses_(participant),
       forces_(participant, &ToolClient::onData, this) {
   pose_.tool_id = tool_id_;
+  pose_.seq = first_seq_ - 1;
 }
 
 std::uint64_t ToolClient::publish(const Point& position, const std::array<double, 4>& orientation,
@@ -35,7 +38,13 @@ std::uint64_t ToolClient::publish(const Point& position, const std::array<double
   std::copy(orientation.begin(), orientation.end(), pose_.orientation);
   pose_.buttons = buttons;
   pose_.stamp_ns = nowNs();
+  last_seq_.store(pose_.seq, std::memory_order_relaxed);  // before the pose is out: its answer comes later
   return poses_.write(pose_) ? pose_.seq : 0;
+}
+
+bool ToolClient::answersUs(const dds::ToolForce& force) const noexcept {
+  return force.tool_id == tool_id_ && force.pose_seq >= first_seq_ &&
+         force.pose_seq <= last_seq_.load(std::memory_order_relaxed);
 }
 
 bool ToolClient::waitForServer(std::chrono::milliseconds timeout) const noexcept {
@@ -52,7 +61,7 @@ void ToolClient::onData(dds::ReaderView<dds::ToolForce> reader, void* context) n
   std::array<dds::ToolForce, dds::kMaxTake> forces;
   const std::size_t count = reader.take(forces);
   for (std::size_t i = 0; i < count; ++i) {
-    if (forces[i].tool_id != self.tool_id_) continue;
+    if (!self.answersUs(forces[i])) continue;
     self.latest_.store(forces[i]);
     if (self.callback_ != nullptr) self.callback_(forces[i], received_ns, self.context_);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "palpate/client/latest_value.h"
@@ -31,7 +32,9 @@ class ToolClient {
   /// Sends the next pose, stamped now.
   /// @param[in] position     p_WT, m
   /// @param[in] orientation  q_WT, x y z w, unit length
-  /// @return its seq, from 1; 0 when DDS refused it
+  /// @return its seq, which starts at the clock so that a restarted client does not fall behind its past; 0
+  /// when DDS
+  ///         refused it
   /// No allocation of ours (Cyclone's own: DESIGN 3.3). Threads: one.
   std::uint64_t publish(const Point& position, const std::array<double, 4>& orientation = {0, 0, 0, 1},
                         std::uint32_t buttons = 0) noexcept;
@@ -44,9 +47,13 @@ class ToolClient {
 
  private:
   static void onData(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept;
+  [[nodiscard]] bool answersUs(const dds::ToolForce& force) const noexcept;
 
   std::uint32_t tool_id_;
+  std::uint64_t first_seq_;
   dds::ToolPose pose_{};  // publish()'s only
+  std::atomic<std::uint64_t>
+      last_seq_;  // written by publish(), read by the receive thread; a number on its own
   ForceCallback callback_;
   void* context_;
   LatestValue<dds::ToolForce> latest_;  // written by the receive thread, read by latest()'s caller

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/client/tool_client.h"
+
+#include <gtest/gtest.h>
+
+#include "palpate/client/error.h"
+#include "test_domain.h"
+
+namespace palpate::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A server's two ends on the client's own participant: samples arrive before write() returns.
+struct Ends {
+  dds::Participant participant{palpate::testing::exclusiveDomain()};
+  ToolClient tool{participant, 2};
+  dds::Reader<dds::ToolPose> poses{participant};
+  dds::Writer<dds::ToolForce> forces{participant};
+
+  [[nodiscard]] bool hears(std::uint32_t tool_id, std::uint64_t pose_seq) {
+    dds::ToolForce force{};
+    force.tool_id = tool_id;
+    force.pose_seq = pose_seq;
+    EXPECT_TRUE(forces.write(force));
+    dds::ToolForce got{};
+    return tool.latest(got) && got.pose_seq == pose_seq;
+  }
+};
+
+TEST(ToolClient, SendsWhatItIsGiven) {
+  Ends ends;
+  ASSERT_TRUE(ends.tool.waitForServer(5s));
+  const std::uint64_t first = ends.tool.publish({0.1, 0.2, 0.3});
+  const std::uint64_t second = ends.tool.publish({1, 2, 3}, {0, 1, 0, 0}, 5);
+  EXPECT_EQ(second, first + 1);
+  dds::ToolPose pose{};
+  ASSERT_EQ(ends.poses.take({&pose, 1}), 1U);
+  EXPECT_EQ(pose.tool_id, 2U);
+  EXPECT_EQ(pose.seq, second);
+  EXPECT_GT(pose.stamp_ns, 0);
+  EXPECT_EQ(pose.position[2], 3.0);
+  EXPECT_EQ(pose.orientation[1], 1.0);
+  EXPECT_EQ(pose.buttons, 5U);
+}
+
+TEST(ToolClient, HearsAnswersToItsOwnPosesOnly) {
+  Ends ends;
+  ASSERT_TRUE(ends.tool.waitForServer(5s));
+  const std::uint64_t first = ends.tool.publish({0, 0, 0});
+  const std::uint64_t last = ends.tool.publish({0, 0, 0});
+  EXPECT_TRUE(ends.hears(2, first));
+  EXPECT_TRUE(ends.hears(2, last));
+  EXPECT_FALSE(ends.hears(2, first - 1)) << "an answer to a former sender";
+  EXPECT_FALSE(ends.hears(2, last + 1)) << "an answer to another sender";
+  EXPECT_FALSE(ends.hears(1, last)) << "an answer to another tool";
+}
+
+TEST(ToolClient, ARestartedClientDoesNotFallBehindItsPast) {
+  const dds::Participant participant(palpate::testing::exclusiveDomain());
+  std::uint64_t before = 0;
+  {
+    ToolClient tool(participant, 0);
+    for (int i = 0; i < 10; ++i) before = tool.publish({0, 0, 0});
+  }
+  EXPECT_GT(ToolClient(participant, 0).publish({0, 0, 0}), before);
+}
+
+TEST(ToolClient, RejectsAToolThatServersDoNotKnow) {
+  const dds::Participant participant(palpate::testing::exclusiveDomain());
+  try {
+    const ToolClient tool(participant, 4);
+    FAIL() << "tool id 4 was accepted";
+  } catch (const ClientError& error) {
+    EXPECT_STREQ(error.what(), "tool id is 4, expected 0 to 3");
+  }
+}
+
+}  // namespace
+}  // namespace palpate::client
