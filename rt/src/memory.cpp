@@ -13,7 +13,7 @@
 namespace palpate::rt {
 namespace {
 
-constexpr std::size_t kStackBytes = 256 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 constexpr std::size_t kPage = 4096;
 
 bool lockingIsUnlimited() noexcept {

@@ -50,7 +50,7 @@ bool lockAll(const MetaModel& model) {
 // What a tick's thread gets, tried once before any thread exists. @throw rt::RealtimeError under policy
 // require
 bool probeRealtime(rt::RealtimePolicy policy) {
-  const rt::Thread probe({"probe", kTickPriority, policy}, [] {});
+  const rt::Thread probe({"tick", kTickPriority, policy}, [] {});
   return probe.realtime();
 }
 

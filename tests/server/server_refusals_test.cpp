@@ -77,7 +77,8 @@ TEST_F(ServerRefuses, ADdsConfigurationThatCannotWork) {
          1);
   ServerProcess server({"--model", file_.string(), "--domain", "3"});
   EXPECT_EQ(server.waitForExit(), 1);
-  EXPECT_NE(server.log().find("palpate-server: cannot create a DDS participant on domain 3"), std::string::npos)
+  EXPECT_NE(server.log().find("palpate-server: cannot create a DDS participant on domain 3"),
+            std::string::npos)
       << server.log();
   setenv("CYCLONEDDS_URI", before.c_str(), 1);
 }
