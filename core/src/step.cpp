@@ -40,7 +40,8 @@ void store(const Vector& from, std::array<double, N>& to) noexcept {
 
 bool isFinite(std::span<const float> values) noexcept {
   int bad = 0;  // counted without a branch, so that the loop runs in vectors
-  for (const float value : values) bad |= static_cast<int>(!(std::abs(value) <= std::numeric_limits<float>::max()));
+  for (const float value : values)
+    bad |= static_cast<int>(!(std::abs(value) <= std::numeric_limits<float>::max()));
   return bad == 0;
 }
 

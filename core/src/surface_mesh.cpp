@@ -87,12 +87,12 @@ void SurfaceMesh::buildNormals() {
 /// Also the proof that the surface is closed: each directed edge once, and its reverse once.
 void SurfaceMesh::buildEdgeNormals() {
   const std::vector<Edge> edges = sortedEdges(triangles_);
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (!(edges[i - 1] < edges[i]))
+      refuse(edges[i].triangle,
+             "repeats the edge from node " + name(edges[i]) + ", expected a consistently oriented surface");
   edge_normals_.resize(face_normals_.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Edge& edge = edges[i];
-    if (i > 0 && !(edges[i - 1] < edge))
-      refuse(edge.triangle,
-             "repeats the edge from node " + name(edge) + ", expected a consistently oriented surface");
+  for (const Edge& edge : edges) {
     const auto twin = std::lower_bound(edges.begin(), edges.end(), Edge{edge.to, edge.from, 0, 0});
     if (twin == edges.end() || twin->from != edge.to || twin->to != edge.from)
       refuse(edge.triangle,

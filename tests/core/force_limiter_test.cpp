@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/force_limiter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace palpate {
+
+namespace {
+
+LimiterInput pushing(const Vec3& force) {
+  LimiterInput in;
+  in.force = force;
+  in.dt = 0.001;
+  return in;
+}
+
+std::string complaint(const StepConfig& config) {
+  try {
+    check(config);
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST(ForceLimiter, PassesSmallForcesUnchanged) {
+  const ForceLimiter limiter(StepConfig{});
+  Rendering memory;
+  const LimitedForce out = limiter.limit(pushing(Vec3(0.1, 0.2, 3.0)), memory);
+  EXPECT_EQ(out.force, Vec3(0.1, 0.2, 3.0));
+  EXPECT_EQ(out.flags, 0U);
+}
+
+TEST(ForceLimiter, CutsLongForcesAndTheirStiffness) {
+  const ForceLimiter limiter(StepConfig{});
+  Rendering memory;
+  LimiterInput in = pushing(Vec3(0.0, 0.0, 10.0));
+  in.stiffness = -500.0 * Mat3::Identity();
+  const LimitedForce out = limiter.limit(in, memory);
+  EXPECT_NEAR(out.force.norm(), 3.3, 1e-12);
+  EXPECT_EQ(out.flags & kForceLimited, kForceLimited);
+  EXPECT_NEAR(out.stiffness(2, 2), 0.0, 1e-12) << "pressing harder changes nothing";
+  EXPECT_NEAR(out.stiffness(0, 0), -165.0, 1e-9);
+}
+
+TEST(ForceLimiter, BlendsAJumpConvexly) {
+  const ForceLimiter limiter(StepConfig{});
+  Rendering memory;
+  (void)limiter.limit(pushing(Vec3(0.0, 0.0, 2.0)), memory);
+  LimiterInput in = pushing(Vec3(0.0, 0.0, 0.5));
+  in.jumped = true;
+  double last = 2.0;
+  for (int ms = 0; ms < 40; ++ms) {
+    const double now = limiter.limit(in, memory).force.z();
+    EXPECT_LE(now, last);
+    EXPECT_GE(now, last - 0.06);
+    EXPECT_GE(now, 0.5);
+    last = now;
+    in.jumped = false;
+  }
+  EXPECT_EQ(last, 0.5);
+}
+
+TEST(ForceLimiter, HeldForceHasNoStiffness) {
+  const ForceLimiter limiter(StepConfig{});
+  Rendering memory;
+  (void)limiter.limit(pushing(Vec3(0.0, 0.0, 2.0)), memory);
+  LimiterInput in = pushing(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  in.stiffness.setConstant(1e6);
+  in.held = true;
+  in.age = 0.01;
+  const LimitedForce out = limiter.limit(in, memory);
+  EXPECT_EQ(out.force, Vec3(0.0, 0.0, 2.0));
+  EXPECT_EQ(out.stiffness, Mat3::Zero());
+}
+
+TEST(StepConfig, DefaultsAreInRange) {
+  EXPECT_EQ(complaint({}), "");
+}
+
+TEST(StepConfig, NamesTheFirstBadField) {
+  EXPECT_EQ(complaint({.tip_radius = 0.06}), "StepConfig.tip_radius is 0.06, expected 0 to 0.05 m");
+  EXPECT_EQ(complaint({.tip_radius = std::nan("")}), "StepConfig.tip_radius is nan, expected 0 to 0.05 m");
+  EXPECT_EQ(complaint({.force_limit = 0.0}), "StepConfig.force_limit is 0, expected 0.01 to 50 N");
+  EXPECT_EQ(complaint({.stale_timeout = 0.06}),
+            "StepConfig.stale_timeout is 0.06, expected 0.001 to 0.045 s");
+  EXPECT_EQ(complaint({.zero_after = 0.2}), "StepConfig.zero_after is 0.2, expected 0.021 to 0.05 s");
+  EXPECT_EQ(complaint({.ramp_time = 0.0}), "StepConfig.ramp_time is 0, expected 0.001 to 1 s");
+  EXPECT_EQ(complaint({.quaternion_tolerance = 1.0}),
+            "StepConfig.quaternion_tolerance is 1, expected 1e-09 to 0.1 (no unit)");
+}
+
+}  // namespace palpate

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-inspect as its own process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "palpate/testing/synthetic_model.h"
+
+namespace palpate::testing {
+
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int code{-1};
+  std::string output;
+};
+
+/// Runs palpate-inspect; `redirect` chooses the stream that is caught.
+Outcome inspect(const std::string& arguments, const std::string& redirect = "2>/dev/null") {
+  const std::string command = std::string(PALPATE_BIN_DIR) + "/palpate-inspect " + arguments + " " + redirect;
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  Outcome run;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) run.output += static_cast<char>(c);
+  run.code = WEXITSTATUS(::pclose(pipe));
+  return run;
+}
+
+constexpr const char* kErrorsOnly = "2>&1 >/dev/null";
+
+}  // namespace
+
+TEST(Inspect, JsonHoldsWhatTheFileHolds) {
+  const TemporaryFile file("inspect.h5");
+  writeSyntheticModel(file.path(), {.subdivisions = 2, .modes = 4});
+  const Outcome run = inspect("--json " + file.path().string());
+  ASSERT_EQ(run.code, 0);
+  const auto json = nlohmann::json::parse(run.output);
+  EXPECT_EQ(json["nodes"], 163);
+  EXPECT_EQ(json["tetrahedra"], 320);
+  EXPECT_EQ(json["surface_nodes"], 162);
+  EXPECT_LT(json["accessible_nodes"], json["contact_positions"]);
+  EXPECT_EQ(json["modes"], 4);
+  EXPECT_EQ(json["order"], 3);
+  EXPECT_EQ(json["coefficients"], 19);
+  EXPECT_DOUBLE_EQ(json["near_radius"], 0.02);
+  EXPECT_DOUBLE_EQ(json["patch_radius"], 0.008);
+  EXPECT_EQ(json["file_bytes"], std::filesystem::file_size(file.path()));
+  EXPECT_EQ(json["material"]["law"], "stvk");
+  EXPECT_DOUBLE_EQ(json["material"]["E"], 160e3);
+  EXPECT_DOUBLE_EQ(json["material"]["nu"], 0.48);
+  EXPECT_EQ(json["provenance"]["program"], "synthetic");
+  EXPECT_DOUBLE_EQ(json["domain_radius"]["p05"], 0.008);
+  EXPECT_EQ(json["bytes"]["far_field"],
+            4U * (4U * 3U * 162U + json["contact_positions"].get<unsigned>() * 19U * 4U));
+}
+
+TEST(Inspect, TableIsForPeople) {
+  const TemporaryFile file("inspect-table.h5");
+  writeSyntheticModel(file.path(), {.subdivisions = 1});
+  const Outcome run = inspect(file.path().string());
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.output, HasSubstr("surface_nodes             42\n"));
+  EXPECT_THAT(run.output, HasSubstr("material.law              stvk\n"));
+}
+
+TEST(Inspect, TruncatedModelGivesOneClearLineAndFails) {
+  const TemporaryFile file("inspect-truncated.h5");
+  writeSyntheticModel(file.path(), {.subdivisions = 1});
+  std::filesystem::resize_file(file.path(), 5000);
+  const Outcome run = inspect("--json " + file.path().string(), kErrorsOnly);
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.output,
+              HasSubstr("palpate-inspect: " + file.path().string() + ": HDF5 cannot open its 5000 bytes"));
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1);
+  EXPECT_EQ(inspect("--json " + file.path().string()).output, "") << "nothing on standard output";
+}
+
+TEST(Inspect, NeedsAModel) {
+  EXPECT_NE(inspect("").code, 0);
+  EXPECT_EQ(inspect("--help").code, 0);
+}
+
+}  // namespace palpate::testing

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "describe.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <vector>
+
+namespace palpate::inspect {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename... T>
+std::size_t bytesOf(std::span<const T>... parts) {
+  return (parts.size_bytes() + ...);
+}
+
+Json bytesOfParts(const ModelView& v) {
+  Json bytes;
+  bytes["surface"] =
+      bytesOf(v.surface_positions, v.surface_triangles, v.surface_mesh_tag, v.position_of_node);
+  bytes["contact_response"] =
+      bytesOf(v.contact_node, v.contact_accessible, v.contact_force, v.contact_domain_radius);
+  bytes["far_field"] = bytesOf(v.modes_X, v.modes_Y);
+  bytes["near_field"] = bytesOf(v.near_offset, v.near_node, v.near_field);
+  bytes["mesh"] = bytesOf(v.mesh_nodes, v.mesh_tetrahedra, v.mesh_node_tag, v.mesh_tetrahedron_tag,
+                          v.mesh_fixed, v.mesh_surface_node);
+  return bytes;
+}
+
+/// Smallest value that at least the part q of the sorted values does not exceed.
+double quantile(const std::vector<double>& sorted, double q) {
+  const double rank = q * static_cast<double>(sorted.size() - 1);
+  return sorted[static_cast<std::size_t>(rank + 0.5)];
+}
+
+Json domainRadii(const ModelView& v) {
+  std::vector<double> radii;
+  for (std::size_t m = 0; m < v.positions(); ++m)
+    if (v.contact_accessible[m] != 0) radii.push_back(v.contact_domain_radius[m]);
+  if (radii.empty()) return nullptr;
+  std::sort(radii.begin(), radii.end());
+  return {{"min", radii.front()},
+          {"p05", quantile(radii, 0.05)},
+          {"median", quantile(radii, 0.5)},
+          {"max", radii.back()}};
+}
+
+Json provenanceOf(const std::string& text) {
+  Json parsed = Json::parse(text, nullptr, false);
+  if (parsed.is_object()) return parsed;
+  return {{"text", text}};
+}
+
+std::string valueText(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+Json describe(const MetaModel& model) {
+  const ModelView& v = model.view();
+  const ModelAttributes& a = model.attributes();
+  Json out;
+  out["model_id"] = a.model_id;
+  out["nodes"] = v.mesh_node_tag.size();
+  out["tetrahedra"] = v.mesh_tetrahedron_tag.size();
+  out["surface_nodes"] = v.surfaceNodes();
+  out["surface_triangles"] = v.triangles();
+  out["accessible_nodes"] = std::count(v.contact_accessible.begin(), v.contact_accessible.end(), 1);
+  out["contact_positions"] = v.positions();
+  out["modes"] = v.modes();
+  out["order"] = a.order;
+  out["coefficients"] = model.basis().size();
+  out["patch_radius"] = a.patch_radius;
+  out["near_radius"] = a.near_radius;
+  out["near_nodes_mean"] = static_cast<double>(v.near_node.size()) / static_cast<double>(v.positions());
+  out["reference_displacement"] = a.reference_displacement;
+  out["domain_radius"] = domainRadii(v);
+  out["material"] = {{"law", a.law}, {"E", a.E}, {"nu", a.nu}};
+  out["file_bytes"] = model.bytes();
+  out["bytes"] = bytesOfParts(v);
+  out["provenance"] = provenanceOf(a.provenance);
+  return out;
+}
+
+std::string table(const Json& description) {
+  std::ostringstream out;
+  for (const auto& [key, value] : description.items()) {
+    if (!value.is_object()) {
+      out << std::left << std::setw(26) << key << valueText(value) << '\n';
+      continue;
+    }
+    for (const auto& [inner, number] : value.items())
+      out << std::left << std::setw(26) << (key + "." + inner) << valueText(number) << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace palpate::inspect

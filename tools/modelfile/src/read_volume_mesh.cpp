@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/meta_model.h"
+#include "palpate/modelfile/model_file.h"
+
+namespace palpate::modelfile {
+
+namespace {
+
+template <typename T>
+std::vector<T> copy(std::span<const T> values) {
+  return {values.begin(), values.end()};
+}
+
+}  // namespace
+
+VolumeMesh readVolumeMesh(const std::filesystem::path& model) {
+  const MetaModel loaded = MetaModel::load(model);
+  const ModelView& v = loaded.view();
+  return {copy(v.mesh_nodes),           copy(v.mesh_tetrahedra), copy(v.mesh_node_tag),
+          copy(v.mesh_tetrahedron_tag), copy(v.mesh_fixed),      copy(v.mesh_surface_node)};
+}
+
+}  // namespace palpate::modelfile

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "palpate/core/meta_model.h"
+#include "palpate/modelfile/model_file.h"
+
+namespace palpate::modelfile {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// A reference to a whole dataset of the model file.
+std::string dataItem(const std::string& file, const char* dataset, const std::string& shape, const char* type,
+                     int bytes) {
+  return "<DataItem Format=\"HDF\" Dimensions=\"" + shape + "\" NumberType=\"" + type + "\" Precision=\"" +
+         std::to_string(bytes) + "\">" + file + ":/" + dataset + "</DataItem>";
+}
+
+/// Mode k is row k of /modes/X, read as one vector for each surface node.
+std::string mode(const std::string& file, std::size_t k, std::size_t modes, std::size_t nodes) {
+  const std::string row = std::to_string(3 * nodes);
+  std::ostringstream out;
+  out << "      <Attribute Name=\"mode " << k << "\" AttributeType=\"Vector\" Center=\"Node\">\n"
+      << "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"" << nodes << " 3\">\n"
+      << "          <DataItem Format=\"XML\" Dimensions=\"3 2\">" << k << " 0  1 1  1 " << row
+      << "</DataItem>\n"
+      << "          " << dataItem(file, "modes/X", std::to_string(modes) + " " + row, "Float", 4) << "\n"
+      << "        </DataItem>\n"
+      << "      </Attribute>\n";
+  return out.str();
+}
+
+void writeGrid(std::ostream& out, const std::string& file, const ModelView& v) {
+  const std::size_t nodes = v.surfaceNodes(), triangles = v.triangles();
+  out << "    <Grid Name=\"rest surface\" GridType=\"Uniform\">\n"
+      << "      <Topology TopologyType=\"Triangle\" NumberOfElements=\"" << triangles << "\">\n        "
+      << dataItem(file, "surface/triangles", std::to_string(triangles) + " 3", "Int", 4)
+      << "\n      </Topology>\n"
+      << "      <Geometry GeometryType=\"XYZ\">\n        "
+      << dataItem(file, "surface/positions", std::to_string(nodes) + " 3", "Float", 8)
+      << "\n      </Geometry>\n"
+      << "      <Attribute Name=\"mesh tag\" AttributeType=\"Scalar\" Center=\"Node\">\n        "
+      << dataItem(file, "surface/mesh_tag", std::to_string(nodes), "Int", 8) << "\n      </Attribute>\n"
+      << "      <Attribute Name=\"contact position\" AttributeType=\"Scalar\" Center=\"Node\">\n        "
+      << dataItem(file, "surface/position_of_node", std::to_string(nodes), "Int", 4)
+      << "\n      </Attribute>\n";
+  for (std::size_t k = 0; k < v.modes(); ++k) out << mode(file, k, v.modes(), nodes);
+  out << "    </Grid>\n";
+}
+
+}  // namespace
+
+std::filesystem::path writeXdmf(const std::filesystem::path& model) {
+  const MetaModel loaded = MetaModel::load(model);
+  std::filesystem::path path = model;
+  path.replace_extension(".xdmf");
+  std::ofstream out(path);
+  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
+  writeGrid(out, escaped(model.filename().string()), loaded.view());
+  out << "  </Domain>\n</Xdmf>\n";
+  out.close();
+  if (!out) throw ModelFileError(path.string() + " cannot be written");
+  return path;
+}
+
+}  // namespace palpate::modelfile
