@@ -8,7 +8,7 @@ namespace palpate {
 ContactResponse::ContactResponse(const ModelView& view, const ModelAttributes& attributes)
     : force_(view.contact_force),
       domain_radius_(view.contact_domain_radius),
-      basis_(attributes.order),
+      basis_(attributes.force_order),
       reference_displacement_(attributes.reference_displacement) {}
 
 Vec3 ContactResponse::coefficient(const PositionMix& mix, int k) const noexcept PALPATE_NONBLOCKING {

@@ -104,6 +104,9 @@ void checkAttributes(const ModelAttributes& a, const std::string& name) {
   check.require(a.order >= 1 && a.order <= MonomialBasis::kMaxOrder,
                 "attribute order is " + std::to_string(a.order),
                 "1 to " + std::to_string(MonomialBasis::kMaxOrder));
+  check.require(a.force_order >= a.order && a.force_order <= MonomialBasis::kMaxOrder,
+                "attribute force_order is " + std::to_string(a.force_order),
+                std::to_string(a.order) + " to " + std::to_string(MonomialBasis::kMaxOrder));
   range("E", a.E, a.E > 0.0, "more than 0 Pa");
   range("nu", a.nu, a.nu > -1.0 && a.nu < 0.5, "more than -1 and less than 0.5");
   range("patch_radius", a.patch_radius, a.patch_radius > 0.0, "more than 0 m");

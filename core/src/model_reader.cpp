@@ -124,7 +124,7 @@ class Reader {
       : image_(image), name_(std::move(name)), file_(openImage()) {}
 
   [[nodiscard]] ModelAttributes attributes() const;
-  [[nodiscard]] ModelView view(int order) const;
+  [[nodiscard]] ModelView view(int order, int force_order) const;
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw LoadError(name_ + ": " + what); }
@@ -230,6 +230,7 @@ ModelAttributes Reader::attributes() const {
   a.E = number("E");
   a.nu = number("nu");
   a.order = integer("order");
+  a.force_order = integer("force_order");
   a.patch_radius = number("patch_radius");
   a.near_radius = number("near_radius");
   a.reference_displacement = number("reference_displacement");
@@ -329,9 +330,10 @@ std::span<const T> Reader::dataset(const std::string& path, std::initializer_lis
           static_cast<std::size_t>(count)};
 }
 
-ModelView Reader::view(int order) const {
+ModelView Reader::view(int order, int force_order) const {
   Length Ns("Ns"), T("T"), M("M"), n("n"), near("sum K"), N("N"), V("V"), fixed("F"), three(3), four(4);
   Length C(static_cast<std::uint64_t>(MonomialBasis::size(order)));
+  Length Cf(static_cast<std::uint64_t>(MonomialBasis::size(force_order)));
   ModelView v;
   v.surface_positions = dataset<double>("surface/positions", {&Ns, &three});
   v.surface_triangles = dataset<std::int32_t>("surface/triangles", {&T, &three});
@@ -339,7 +341,7 @@ ModelView Reader::view(int order) const {
   v.position_of_node = dataset<std::int32_t>("surface/position_of_node", {&Ns});
   v.contact_node = dataset<std::int32_t>("contact/node", {&M});
   v.contact_accessible = dataset<std::uint8_t>("contact/accessible", {&M});
-  v.contact_force = dataset<double>("contact/force", {&M, &C, &three});
+  v.contact_force = dataset<double>("contact/force", {&M, &Cf, &three});
   v.contact_domain_radius = dataset<double>("contact/domain_radius", {&M});
   Length components(3 * Ns.value), offsets(M.value + 1);
   v.modes_X = dataset<float>("modes/X", {&n, &components});
@@ -365,7 +367,7 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
   ModelContents contents;
   contents.attributes = reader.attributes();
   checkAttributes(contents.attributes, name);
-  contents.view = reader.view(contents.attributes.order);
+  contents.view = reader.view(contents.attributes.order, contents.attributes.force_order);
   return contents;
 }
 

@@ -64,7 +64,7 @@ void checkSizes(const ModelData& data) {
   if (Ns == 0) throw ModelFileError("/surface/mesh_tag is empty, expected a surface");
   if (M == 0) throw ModelFileError("/contact/node is empty, expected contact positions");
   checkSurface(data, Ns);
-  checkContact(data, M, C);
+  checkContact(data, M, coefficients(forceOrder(data.attributes)));
   checkFields(data, Ns, M, C);
   checkMesh(data);
 }

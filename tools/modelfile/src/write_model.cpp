@@ -117,6 +117,7 @@ void writeAttributes(const Hdf5Handle& file, const ModelAttributes& a) {
   writeNumber(file, "E", a.E);
   writeNumber(file, "nu", a.nu);
   writeNumber(file, "order", std::int32_t{a.order});
+  writeNumber(file, "force_order", std::int32_t{forceOrder(a)});
   writeNumber(file, "patch_radius", a.patch_radius);
   writeNumber(file, "near_radius", a.near_radius);
   writeNumber(file, "reference_displacement", a.reference_displacement);
@@ -126,6 +127,7 @@ void writeAttributes(const Hdf5Handle& file, const ModelAttributes& a) {
 void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
   const hsize_t Ns = d.surface_mesh_tag.size(), M = d.contact_node.size();
   const hsize_t C = static_cast<hsize_t>(MonomialBasis::size(d.attributes.order));
+  const hsize_t Cf = static_cast<hsize_t>(MonomialBasis::size(forceOrder(d.attributes)));
   const hsize_t n = d.modes_X.size() / (3 * Ns);
   writeDataset(file, "surface/positions", d.surface_positions, {Ns, 3});
   writeDataset(file, "surface/triangles", d.surface_triangles, {d.surface_triangles.size() / 3, 3});
@@ -133,7 +135,7 @@ void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
   writeDataset(file, "surface/position_of_node", d.position_of_node, {Ns});
   writeDataset(file, "contact/node", d.contact_node, {M});
   writeDataset(file, "contact/accessible", d.contact_accessible, {M});
-  writeDataset(file, "contact/force", d.contact_force, {M, C, 3});
+  writeDataset(file, "contact/force", d.contact_force, {M, Cf, 3});
   writeDataset(file, "contact/domain_radius", d.contact_domain_radius, {M});
   writeDataset(file, "modes/X", d.modes_X, {n, 3 * Ns});
   writeDataset(file, "modes/Y", d.modes_Y, {M, C, n});

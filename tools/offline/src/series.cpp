@@ -37,9 +37,17 @@ std::vector<KernelElement> kernelElements(const FeModel& model) {
 
 struct SeriesSolver::State {
   State(const FeModel& fe, const Cholesky& factor, int order)
-      : model(fe), basis(order), product(basis), elements(kernelElements(fe)), solver(factor) {
+      : model(fe),
+        basis(order),
+        force_basis(forceOrder(order)),
+        energy_basis(std::min(forceOrder(order) + 1, MonomialBasis::kMaxOrder)),
+        product(basis, order),
+        strain_product(force_basis, order),
+        energy_product(energy_basis, forceOrder(order)),
+        elements(kernelElements(fe)),
+        solver(factor) {
     U.resize(static_cast<std::size_t>(model.nodeCount()) * coefficients() * 3);
-    force.resize(coefficients() * 3);
+    force.resize(static_cast<std::size_t>(force_basis.size()) * 3);
   }
 
   [[nodiscard]] std::size_t coefficients() const { return static_cast<std::size_t>(basis.size()); }
@@ -53,12 +61,17 @@ struct SeriesSolver::State {
 
   void firstDegree();
   void nextDegree(int degree);
+  void forceFromEnergy();
   void takeColumns(int first, int last, double sign);
   [[nodiscard]] Vec3 average(int lane, int k);
 
   const FeModel& model;
   MonomialBasis basis;
-  CauchyProduct product;
+  MonomialBasis force_basis;
+  MonomialBasis energy_basis;
+  CauchyProduct product;         // of fields, for fields
+  CauchyProduct strain_product;  // of fields, for strains to the degree of the force
+  CauchyProduct energy_product;  // of strains, for the energy
   std::vector<KernelElement> elements;
   Cholesky::Solver solver;
   std::span<const Patch> patches;
@@ -162,6 +175,22 @@ void SeriesSolver::State::nextDegree(int degree) {
   }
 }
 
+/// f_alpha,i = (alpha_i + 1) W_(alpha + e_i) for p < |alpha| <= forceOrder(p).
+void SeriesSolver::State::forceFromEnergy() {
+  if (force_basis.order() == basis.order()) return;
+  const int first = energy_basis.begin(basis.order() + 2);
+  LaneVector W(static_cast<std::size_t>(energy_basis.size() - first), Lanes{});
+  energyCoefficients(input(), strain_product, energy_product, first, energy_basis.size(), W.data());
+  for (int k = basis.size(); k < force_basis.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      MultiIndex gamma = force_basis[k];
+      ++gamma[i];
+      force[static_cast<std::size_t>(3 * k) + i] =
+          static_cast<double>(gamma[i]) * W[static_cast<std::size_t>(energy_basis.find(gamma) - first)];
+    }
+  }
+}
+
 SeriesSolver::SeriesSolver(const FeModel& model, const Cholesky& factor, int order)
     : state_(std::make_unique<State>(model, factor, order)) {}
 SeriesSolver::~SeriesSolver() = default;
@@ -173,14 +202,18 @@ void SeriesSolver::solve(std::span<const Patch> patches) {
   state_->patches = patches;
   state_->firstDegree();
   for (int degree = 2; degree <= state_->basis.order(); ++degree) state_->nextDegree(degree);
+  state_->forceFromEnergy();
   for (std::size_t lane = 0; lane < patches.size(); ++lane)
-    for (int k = 0; k < state_->basis.size(); ++k)
+    for (int k = 0; k < state_->force_basis.size(); ++k)
       if (!force(static_cast<int>(lane), k).allFinite())
         throw std::runtime_error("the series of a contact position is not finite");
 }
 
 const MonomialBasis& SeriesSolver::basis() const noexcept {
   return state_->basis;
+}
+const MonomialBasis& SeriesSolver::forceBasis() const noexcept {
+  return state_->force_basis;
 }
 
 Vec3 SeriesSolver::force(int lane, int k) const {
@@ -197,8 +230,9 @@ std::vector<double> SeriesSolver::domainRadii(const DomainCriteria& criteria) co
   std::vector<double> radii(state_->patches.size());
   for (std::size_t lane = 0; lane < radii.size(); ++lane) {
     std::vector<Vec3> coefficients;
-    for (int k = 0; k < state_->basis.size(); ++k) coefficients.push_back(force(static_cast<int>(lane), k));
-    radii[lane] = forceRadius(state_->basis, coefficients, criteria);
+    for (int k = 0; k < state_->force_basis.size(); ++k)
+      coefficients.push_back(force(static_cast<int>(lane), k));
+    radii[lane] = forceRadius(state_->force_basis, coefficients, criteria);
   }
   limitByDetF(state_->basis, state_->input(), criteria, radii);
   return radii;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::offline {
@@ -101,13 +102,14 @@ PALPATE_INLINE void scatter(const KernelElement& e, const Tensor& P, int count, 
 
 }  // namespace
 
-CauchyProduct::CauchyProduct(const MonomialBasis& basis) {
+CauchyProduct::CauchyProduct(const MonomialBasis& basis, int factor_order) {
+  const int factors = std::min(basis.size(), MonomialBasis::size(factor_order));
   begin.push_back(0);
   for (int k = 0; k < basis.size(); ++k) {
-    for (int b = 0; b < basis.size(); ++b) {
+    for (int b = 0; b < factors; ++b) {
       const int c =
           basis.find({basis[k][0] - basis[b][0], basis[k][1] - basis[b][1], basis[k][2] - basis[b][2]});
-      if (c >= b) pairs.push_back({b, c});
+      if (c >= b && c < factors) pairs.push_back({b, c});
     }
     begin.push_back(static_cast<int>(pairs.size()));
   }
@@ -141,6 +143,42 @@ void assembleDegree(const KernelInput& input, const CauchyProduct& product, int 
         if (b != c) addTimes(H[static_cast<std::size_t>(c)], S[static_cast<std::size_t>(b)], P);
       }
       scatter(e, P, last - first, k - first, r);
+    }
+  }
+}
+
+PALPATE_MULTIVERSION
+void energyCoefficients(const KernelInput& input, const CauchyProduct& strain, const CauchyProduct& energy,
+                        int first, int last, Lanes* W) {
+  std::array<Tensor, kMost> H;
+  std::array<Symmetric, kMost> E;
+  std::array<Symmetric, kMost> S;  // shear doubled: E : S is then a sum of six
+  const int strains = static_cast<int>(strain.begin.size()) - 1;
+  for (int n = 0; n < input.element_count; ++n) {
+    const KernelElement& e = input.elements[n];
+    for (int k = 0; k < input.coefficients; ++k)
+      gradientOf(e, input.U, input.coefficients, k, H[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < strains; ++k) {
+      Symmetric& t = E[static_cast<std::size_t>(k)];
+      quadraticStrain(strain, k, H.data(), t);
+      if (k < input.coefficients) addSym(H[static_cast<std::size_t>(k)], t);
+      Symmetric& stress = S[static_cast<std::size_t>(k)];
+      stress = t;
+      stressOf(stress, input.lambda, input.mu);
+      for (int shear = 3; shear < 6; ++shear) stress.v[shear] *= 2.0;
+    }
+    for (int k = first; k < last; ++k) {
+      Lanes sum{};
+      const int begin = energy.begin[static_cast<std::size_t>(k)],
+                end = energy.begin[static_cast<std::size_t>(k) + 1];
+      for (int p = begin; p < end; ++p) {
+        const auto [b, c] = energy.pairs[static_cast<std::size_t>(p)];
+        const Symmetric &left = E[static_cast<std::size_t>(b)], &right = S[static_cast<std::size_t>(c)];
+        Lanes product = left.v[0] * right.v[0];
+        for (int i = 1; i < 6; ++i) product += left.v[i] * right.v[i];
+        sum += b == c ? 0.5 * product : product;
+      }
+      W[k - first] += e.volume * sum;
     }
   }
 }

@@ -11,13 +11,14 @@
 
 namespace palpate::offline {
 
-/// The unordered pairs {b, c}, b + c = alpha, both of degree >= 1, that make up each coefficient.
+/// The unordered pairs {b, c}, b + c = alpha, both of degree 1 to factor_order, that make up each coefficient
+/// of a basis.
 struct CauchyProduct {
   struct Pair {
     int b;
     int c;
   };
-  explicit CauchyProduct(const MonomialBasis& basis);
+  CauchyProduct(const MonomialBasis& basis, int factor_order);
   std::vector<Pair> pairs;
   std::vector<int> begin;  ///< coefficients + 1, offsets into pairs
 };
@@ -43,6 +44,13 @@ struct KernelInput {
 ///   S'_alpha = C : sum H_b^T H_c / 2,  r_alpha = int (S'_alpha + sum H_b S_c) : grad delta     DESIGN 2.2
 /// The coefficients below `first` must be in U.
 void assembleDegree(const KernelInput& input, const CauchyProduct& product, int first, int last, Lanes* r);
+
+/// W[k - first] += the energy coefficients first <= k < last, J m^-|gamma|, of the fields that U holds:
+///   E_beta = sym H_beta + sum H_b^T H_c / 2,  W_gamma = int sum E_beta : C : E_beta' / 2,  beta + beta' =
+///   gamma
+/// @param strain  pairs for E_beta, beta up to the degree that W needs  @param energy  pairs for W_gamma
+void energyCoefficients(const KernelInput& input, const CauchyProduct& strain, const CauchyProduct& energy,
+                        int first, int last, Lanes* W);
 
 /// det F of one element: F = I + sum x^alpha H_alpha.
 /// @param monomials  [k] lanes: x^alpha of each lane's sample  @param[out] det  det F, one a lane

@@ -15,15 +15,16 @@ struct ModelAttributes {
   std::string provenance;              ///< text of a JSON object: who made it, from what, how well it fits
   double E{0.0};                       ///< Young's modulus, Pa, > 0
   double nu{0.0};                      ///< Poisson's ratio, in (-1, 0.5)
-  int order{0};                        ///< p, highest degree of the series, 1 to MonomialBasis::kMaxOrder
+  int order{0};                        ///< p, highest degree of the fields, 1 to MonomialBasis::kMaxOrder
   double patch_radius{0.0};            ///< a, m, > 0
   double near_radius{0.0};             ///< rho, m, >= 0
   double reference_displacement{0.0};  ///< d_ref, m, > 0: every polynomial is one in d / d_ref
+  int force_order{0};                  ///< highest degree of the force, p to kMaxOrder; writers take 0 for p
 };
 
 /// The numbers of a model file where they lie in memory. Shapes are row-major; Ns surface nodes, T triangles,
-/// M contact positions, C coefficients, n modes, N volume nodes, V tetrahedra. Borrowed: valid as long as the
-/// model.
+/// M contact positions, C = size(order) coefficients, Cf = size(force_order), n modes, N volume nodes, V
+/// tetrahedra. Borrowed: valid as long as the model.
 struct ModelView {
   std::span<const double> surface_positions;        ///< [Ns][3] m
   std::span<const std::int32_t> surface_triangles;  ///< [T][3] counter-clockwise from outside
@@ -32,7 +33,7 @@ struct ModelView {
   std::span<const std::int32_t> contact_node;       ///< [M] surface node of a contact position
   std::span<const std::uint8_t>
       contact_accessible;                 ///< [M] 1: accessible; 0: helper for interpolation beside it
-  std::span<const double> contact_force;  ///< [M][C][3] f_alpha d_ref^|alpha|, N
+  std::span<const double> contact_force;  ///< [M][Cf][3] f_alpha d_ref^|alpha|, N
   std::span<const double> contact_domain_radius;       ///< [M] d_max, m
   std::span<const float> modes_X;                      ///< [n][Ns][3] dimensionless
   std::span<const float> modes_Y;                      ///< [M][C][n] scaled, m

@@ -8,6 +8,11 @@
 
 namespace palpate::modelfile {
 
+/// Degree of the force in the file: as given, or that of the fields.
+[[nodiscard]] inline int forceOrder(const ModelAttributes& a) {
+  return a.force_order == 0 ? a.order : a.force_order;
+}
+
 /// Everything that a model file holds, as vectors. Shapes are row-major as in core/README.md "The model
 /// file"; Ns surface nodes, T triangles, M contact positions, C = MonomialBasis::size(order) coefficients, n
 /// modes, N volume nodes, V tetrahedra. Stored coefficient = true coefficient * d_ref^|alpha|. Indices are
@@ -21,7 +26,7 @@ struct ModelData {
   std::vector<std::int32_t> position_of_node;      ///< [Ns] or -1
   std::vector<std::int32_t> contact_node;          ///< [M]
   std::vector<std::uint8_t> contact_accessible;    ///< [M] 0 or 1
-  std::vector<double> contact_force;               ///< [M][C][3] N
+  std::vector<double> contact_force;               ///< [M][Cf][3] N, Cf = size(force_order)
   std::vector<double> contact_domain_radius;       ///< [M] m
   std::vector<float> modes_X;                      ///< [n][3 Ns]
   std::vector<float> modes_Y;                      ///< [M][C][n] m

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,9 +15,9 @@ namespace palpate::offline {
 
 /// Sampling and limits of the domain radius d_max(s).                                          DESIGN 2.2
 struct DomainCriteria {
-  double last_order_share{0.01};  ///< the terms of degree p stay below this share of the force
-  double min_det_f{0.3};          ///< over all elements
-  double cap{0.05};               ///< m, largest radius ever stated
+  double force_error{0.01};  ///< last terms of the force, and estimated remainder, relative to the force
+  double min_det_f{0.3};     ///< over all elements
+  double cap{0.05};          ///< m, largest radius ever stated
 };
 
 /// The displacement-driven series of up to kLanes contact positions at once.                   DESIGN 2.2
@@ -33,8 +34,17 @@ class SeriesSolver {
   /// @throw std::runtime_error when a patch cannot be moved (C_s singular) or a result is not finite
   void solve(std::span<const Patch> patches);
 
+  /// Degree of the force for fields of degree p: 2p, as far as the energy (one degree more) stays in a
+  /// MonomialBasis.
+  [[nodiscard]] static constexpr int forceOrder(int order) noexcept {
+    return std::max(order, std::min(2 * order, MonomialBasis::kMaxOrder - 1));
+  }
+
+  /// The monomials of the fields, degree p.
   [[nodiscard]] const MonomialBasis& basis() const noexcept;
-  /// f_alpha of the position in a lane, alpha = basis()[k]; N m^-|alpha|.
+  /// The monomials of the force, degree forceOrder(p).
+  [[nodiscard]] const MonomialBasis& forceBasis() const noexcept;
+  /// f_alpha of the position in a lane, alpha = forceBasis()[k]; N m^-|alpha|.
   [[nodiscard]] Vec3 force(int lane, int k) const;
   /// U_alpha of the position in a lane at a volume node; m^(1-|alpha|).
   [[nodiscard]] Vec3 displacement(int lane, int k, int node) const;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palpate/modelfile/model_data.h"
+#include "palpate/offline/build_model.h"
+#include "palpate/offline/case_file.h"
+
+namespace palpate::solve {
+
+/// Fills in model_id, a hash of everything that the model says, and provenance: program, time, case, mesh
+/// with its hash, timings, error of the fit after each sweep.
+void addProvenance(modelfile::ModelData& data, const offline::Case& c, const offline::BuildReport& report);
+
+}  // namespace palpate::solve
