@@ -13,7 +13,7 @@ namespace palpate::testing {
 namespace {
 
 const SyntheticOptions& options() {
-  static const SyntheticOptions instance{.subdivisions = 2, .order = 4};
+  static const SyntheticOptions instance{.subdivisions = 2, .order = 3, .force_order = 5};
   return instance;
 }
 

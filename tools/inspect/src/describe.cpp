@@ -73,6 +73,7 @@ Json describe(const MetaModel& model) {
   out["contact_positions"] = v.positions();
   out["modes"] = v.modes();
   out["order"] = a.order;
+  out["force_order"] = a.force_order;
   out["coefficients"] = model.basis().size();
   out["patch_radius"] = a.patch_radius;
   out["near_radius"] = a.near_radius;

@@ -34,6 +34,10 @@ double energyCoefficient(const SyntheticOptions& o, const Vec3& X, const MultiIn
   return axis[0] == axis[1] ? 0.5 * scale * (1.0 + mixed) : scale * mixed;
 }
 
+int forceOrder(const SyntheticOptions& o) {
+  return o.force_order == 0 ? o.order : o.force_order;
+}
+
 double window(double r, double radius) {
   const double x = r / radius;
   return x < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0;
@@ -126,7 +130,7 @@ void fillMesh(const Icosphere& sphere, ModelData& data) {
 
 ModelData syntheticModel(const SyntheticOptions& o) {
   const Icosphere sphere = icosphere(o.subdivisions);
-  const MonomialBasis basis(o.order);
+  const MonomialBasis basis(o.order), force_basis(forceOrder(o));
   ModelData data;
   data.attributes = {"0123456789abcdef",
                      "stvk",
@@ -137,9 +141,10 @@ ModelData syntheticModel(const SyntheticOptions& o) {
                      0.008,
                      o.near_radius,
                      o.reference_displacement};
+  data.attributes.force_order = force_basis.order();
   fillSurface(o, sphere, data);
   for (const std::int32_t node : data.contact_node)
-    fillForce(o, o.radius * sphere.nodes[static_cast<std::size_t>(node)], basis, data);
+    fillForce(o, o.radius * sphere.nodes[static_cast<std::size_t>(node)], force_basis, data);
   fillModes(o, sphere, basis, data);
   fillNear(o, sphere, basis, data);
   fillMesh(sphere, data);
@@ -151,7 +156,7 @@ void writeSyntheticModel(const std::filesystem::path& path, const SyntheticOptio
 }
 
 double syntheticEnergy(const SyntheticOptions& o, const Vec3& X, const Vec3& d) {
-  const MonomialBasis basis(o.order + 1);
+  const MonomialBasis basis(forceOrder(o) + 1);
   std::vector<double> monomial(static_cast<std::size_t>(basis.size()));
   basis.evaluate(d / o.reference_displacement, monomial);
   double energy = 0.0;
