@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palpate/core/meta_model.h"
+#include "palpate/modelfile/model_file.h"
+#include "palpate/offline/fe_model.h"
+#include "palpate/offline/newton.h"
+#include "palpate/offline/patch.h"
+#include "palpate/query/answer.h"
+
+namespace palpate::query {
+
+/// The organ of a model file as the full problem that the model was made from.
+struct Organ {
+  offline::FeModel body;
+  offline::ContactSurface surface;  ///< numbered like the model's own surface
+  modelfile::VolumeMesh mesh;
+};
+
+/// @param mesh  of the same file as `model`  @throw QueryError when a tetrahedron has no volume
+[[nodiscard]] Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh);
+
+/// The truth about one touch: f_int(u) = G_s f, G_s^T u = d, the patch centred at s itself.  DESIGN 2.2
+struct FullSolution {
+  offline::Patch patch;         ///< volume nodes and their w_i
+  offline::NewtonResult state;  ///< u of all volume nodes, m; f, N
+  double min_det_f{1.0};        ///< over all tetrahedra; <= 0 where one is inside out
+
+  /// u at a surface node, m.
+  [[nodiscard]] Vec3 displacement(const Organ& organ, int surface_node) const {
+    return state.u.segment<3>(3 * organ.surface.nodes[static_cast<std::size_t>(surface_node)]);
+  }
+};
+
+/// @param d  m, as asked for, not clamped to the model's domain  @param steps  load steps, >= 1
+/// @throw QueryError when the patch at s is all clamped, or Newton does not converge. Seconds.
+[[nodiscard]] FullSolution solveFully(const Organ& organ, const Anchor& anchor, double patch_radius,
+                                      const Vec3& d, int steps);
+
+/// How far the model is off.
+struct Errors {
+  double force{0.0};      ///< |f - f_Newton| / |f_Newton|
+  double field_max{0.0};  ///< largest |u - u_Newton| over the surface nodes / |d|
+  double field_l2{0.0};   ///< area-weighted L2 of u - u_Newton over the surface / that of u_Newton
+};
+
+/// @param d  as asked for, m. All errors are 0 where model and truth are both at rest.
+[[nodiscard]] Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ,
+                              const Vec3& d);
+
+}  // namespace palpate::query

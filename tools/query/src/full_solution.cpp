@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/query/full_solution.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "palpate/query/query_error.h"
+
+namespace palpate::query {
+
+namespace {
+
+template <std::size_t K>
+std::vector<std::array<std::int32_t, K>> tuples(std::span<const std::int32_t> flat) {
+  std::vector<std::array<std::int32_t, K>> list(flat.size() / K);
+  for (std::size_t i = 0; i < flat.size(); ++i) list[i / K][i % K] = flat[i];
+  return list;
+}
+
+std::vector<Vec3> points(std::span<const double> flat) {
+  std::vector<Vec3> list;
+  for (std::size_t i = 0; i + 2 < flat.size(); i += 3) list.emplace_back(flat[i], flat[i + 1], flat[i + 2]);
+  return list;
+}
+
+offline::FeModel bodyOf(const ModelAttributes& a, const modelfile::VolumeMesh& mesh) {
+  try {
+    return offline::FeModel(points(mesh.nodes), tuples<4>(mesh.tetrahedra), mesh.fixed, {a.E, a.nu});
+  } catch (const std::invalid_argument& error) {
+    throw QueryError(std::string("the mesh in the model file: ") + error.what());
+  }
+}
+
+std::string text(const Vec3& v) {
+  return std::to_string(v[0]) + "," + std::to_string(v[1]) + "," + std::to_string(v[2]);
+}
+
+double ratio(double error, double reference) {
+  return error == 0.0 ? 0.0 : error / reference;
+}
+
+}  // namespace
+
+Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh) {
+  offline::FeModel body = bodyOf(model.attributes(), mesh);
+  offline::ContactSurface surface(body, mesh.surface_node, tuples<3>(model.view().surface_triangles));
+  return {std::move(body), std::move(surface), std::move(mesh)};
+}
+
+FullSolution solveFully(const Organ& organ, const Anchor& anchor, double patch_radius, const Vec3& d,
+                        int steps) {
+  FullSolution solution;
+  solution.patch =
+      offline::makePatch(organ.body, organ.surface, {anchor.s.triangle, anchor.s.barycentric}, patch_radius);
+  if (solution.patch.nodes.empty())
+    throw QueryError("the contact patch at " + text(anchor.position) +
+                     " lies on clamped nodes only: nothing to solve");
+  offline::NewtonOptions options;
+  options.steps = steps;
+  try {
+    solution.state = offline::NewtonSolver(organ.body).solvePatch(solution.patch, d, options);
+  } catch (const std::runtime_error& error) {
+    throw QueryError("displacement " + text(d) + " m: " + error.what());
+  }
+  solution.min_det_f = organ.body.minDetF(solution.state.u);
+  return solution;
+}
+
+Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ, const Vec3& d) {
+  double largest = 0.0, error2 = 0.0, truth2 = 0.0;
+  for (std::size_t i = 0; i < organ.surface.nodes.size(); ++i) {
+    const Vec3 u = Eigen::Map<const Eigen::Vector3f>(answer.field.data() + 3 * i).cast<double>();
+    const Vec3 u_full = truth.displacement(organ, static_cast<int>(i));
+    largest = std::max(largest, (u - u_full).norm());
+    error2 += organ.surface.areas[i] * (u - u_full).squaredNorm();
+    truth2 += organ.surface.areas[i] * u_full.squaredNorm();
+  }
+  const Vec3& f = truth.state.force;
+  return {ratio((answer.response.force - f).norm(), f.norm()), ratio(largest, d.norm()),
+          std::sqrt(ratio(error2, truth2))};
+}
+
+}  // namespace palpate::query

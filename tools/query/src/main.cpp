@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-query: asks a model what one touch would feel like, and checks it against the full solution.
+//
+// Sample runs:  palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002
+//               palpate-query liver.h5 --at 0.05,0.01,0.06 --displacement -0.001,0,-0.002 --newton --json
+//               palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002 --ccx deck.inp --field touch.vtu
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <optional>
+#include <span>
+
+#include "palpate/query/arguments.h"
+#include "palpate/query/ccx_deck.h"
+#include "palpate/query/field_file.h"
+#include "report.h"
+
+namespace {
+
+using namespace palpate;
+
+struct Options {
+  std::string model, at, displacement;
+  std::optional<std::int64_t> node;
+  std::string deck, field;
+  int steps{1};
+  bool newton{false};
+  bool json{false};
+};
+
+void describe(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", PALPATE_VERSION);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("palpate-query: ") + error.what() + " (--help tells more)\n";
+  });
+  app.add_option("model", options.model, "model file (.h5)")->required();
+  CLI::Option_group* const where = app.add_option_group("where");
+  where->add_option("--node", options.node, "touch this surface node, by its number in the mesh file");
+  where->add_option("--at", options.at, "touch the surface point nearest to x,y,z, m");
+  where->require_option(1);
+  app.add_option("--displacement", options.displacement, "displacement dx,dy,dz of the contact patch, m")
+      ->required();
+  app.add_flag("--newton", options.newton, "solve the full problem too, and tell how far the model is off");
+  app.add_option("--steps", options.steps, "load steps of the full solution to begin with")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--ccx", options.deck, "write the full problem as a CalculiX deck (implies --newton)");
+  app.add_option("--field", options.field, "write the surface displacement as VTK (.vtu)");
+  app.add_flag("--json", options.json, "print one JSON object on standard output");
+}
+
+/// The command line without the program's name, last word first as CLI11 takes it.
+std::vector<std::string> reversedWords(int argc, char** argv) {
+  static constexpr std::array<const char*, 2> kVectors{"--at", "--displacement"};
+  const std::vector<const char*> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> joined = query::joinVectors(words, kVectors);
+  std::reverse(joined.begin(), joined.end());
+  return joined;
+}
+
+query::Anchor anchorOf(const MetaModel& model, const Options& options) {
+  return options.node ? query::anchorAtNode(model, *options.node)
+                      : query::anchorNear(model, query::parseVector("--at", options.at));
+}
+
+void warn(const query::Findings& found) {
+  if (found.answer.status == ResponseStatus::kNoAnswer)
+    std::cerr << "palpate-query: the point is not accessible: the model has no answer there\n";
+  if (found.truth != nullptr && !(found.truth->min_det_f > 0.0))
+    std::cerr << "palpate-query: Newton's solution turns elements inside out (min det F "
+              << found.truth->min_det_f << "): not a state of the organ\n";
+}
+
+void writeFiles(const Options& options, const query::Findings& found) {
+  if (!options.field.empty())
+    query::writeText(options.field, query::fieldVtu(found.model, found.answer, found.organ, found.truth));
+  if (!options.deck.empty())
+    query::writeText(options.deck,
+                     query::ccxDeck(*found.organ, *found.truth,
+                                    "patch displacement " + options.displacement + " m", options.steps));
+}
+
+void run(const Options& options) {
+  // 1. The question.
+  const Vec3 d = query::parseVector("--displacement", options.displacement);
+  const MetaModel model = MetaModel::load(options.model);
+  const query::Anchor anchor = anchorOf(model, options);
+  // 2. The model's answer.
+  const query::Answer answer = query::ask(model, anchor, d);
+  // 3. The truth.
+  std::optional<query::Organ> organ;
+  std::optional<query::FullSolution> truth;
+  if (options.newton || !options.deck.empty()) {
+    organ.emplace(query::organOf(model, modelfile::readVolumeMesh(options.model)));
+    truth = query::solveFully(*organ, anchor, model.attributes().patch_radius, d, options.steps);
+  }
+  // 4. Files, then the report.
+  const query::Findings found{model, anchor, d, answer, organ ? &*organ : nullptr, truth ? &*truth : nullptr};
+  writeFiles(options, found);
+  warn(found);
+  std::cout << (options.json ? query::toJson(found).dump(2) + "\n" : query::toText(found));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Asks a model for the answer to one touch: force, stiffness, surface displacement.",
+               "palpate-query");
+  Options options;
+  describe(app, options);
+  try {
+    app.parse(reversedWords(argc, argv));
+    run(options);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::exception& error) {
+    std::cerr << "palpate-query: " << error.what() << '\n';
+    return 1;
+  }
+  return std::cout.flush() ? 0 : 1;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "palpate/query/answer.h"
+#include "palpate/query/full_solution.h"
+
+namespace palpate::query {
+
+/// All that came out of one query; borrowed.
+struct Findings {
+  const MetaModel& model;
+  const Anchor& anchor;
+  const Vec3& d;  ///< as asked for, m
+  const Answer& answer;
+  const Organ* organ;         ///< with truth, else null
+  const FullSolution* truth;  ///< null: not asked for
+};
+
+/// The object of --json; keys in README.md.
+[[nodiscard]] nlohmann::ordered_json toJson(const Findings& found);
+
+/// The same for a person to read, several lines.
+[[nodiscard]] std::string toText(const Findings& found);
+
+}  // namespace palpate::query
