@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -67,7 +68,9 @@ void adoptGroups(offline::Case& c, const mesh::TetMesh& organ) {
 
 nlohmann::json summary(const Options& options, const modelfile::ModelData& data,
                        const offline::BuildReport& report, double total_seconds, double write_seconds) {
-  std::vector<double> radii = data.contact_domain_radius;
+  std::vector<double> radii;  // of what a tool may touch, helpers left out
+  for (std::size_t i = 0; i < data.contact_domain_radius.size(); ++i)
+    if (data.contact_accessible[i] != 0) radii.push_back(data.contact_domain_radius[i]);
   std::sort(radii.begin(), radii.end());
   const auto quantile = [&](double q) {
     return radii[static_cast<std::size_t>(q * static_cast<double>(radii.size() - 1))];
@@ -128,6 +131,7 @@ void run(Options options) {
   solve::addProvenance(data, c, report);
   const auto write_start = Clock::now();
   modelfile::writeModel(options.output, data);
+  modelfile::writeXdmf(options.output);
   // 5. What came out.
   const nlohmann::json s = summary(options, data, report, secondsSince(start), secondsSince(write_start));
   print(s);

@@ -78,12 +78,16 @@ TEST(Liver, IsHeldAtTheBackByOnePatch) {
   EXPECT_EQ(reached, wanted);
 }
 
-TEST(Liver, AccessibleIsTheRestOfTheSurface) {
-  auto all = liver().groups.at("fixed");
+TEST(Liver, AccessibleIsTheSurfaceAwayFromTheClamp) {
   const auto& accessible = liver().groups.at("accessible");
-  all.insert(all.end(), accessible.begin(), accessible.end());
-  std::sort(all.begin(), all.end());
-  EXPECT_EQ(all, mesh::boundaryOf(liver()).nodes);
+  for (const auto node : mesh::boundaryOf(liver()).nodes) {
+    double distance = 1.0;
+    for (const auto held : liver().groups.at("fixed"))
+      distance = std::min(distance, (liver().nodes[static_cast<std::size_t>(node)] -
+                                     liver().nodes[static_cast<std::size_t>(held)])
+                                        .norm());
+    EXPECT_EQ(std::binary_search(accessible.begin(), accessible.end(), node), distance >= 0.015) << node;
+  }
 }
 
 TEST(Liver, ComesOutTheSameEveryTime) {

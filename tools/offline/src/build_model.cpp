@@ -145,7 +145,10 @@ void Builder::solveSeries(const Cholesky& factor, FieldTable& table) {
 }
 
 void Builder::fit(const FieldTable& table) {
-  const FitProblem problem{table, basis_, surface_.areas, near_, data_.contact_domain_radius, d_ref_};
+  std::vector<FitWeights> weights;
+  for (const std::int32_t node : positions_.nodes)
+    weights.push_back(fitWeights(surface_, surface_.positions[at(node)], case_.near_radius));
+  const FitProblem problem{table, basis_, surface_.areas, weights, data_.contact_domain_radius, d_ref_};
   FitOptions options;
   options.modes = case_.modes;
   options.sweeps = case_.sweeps;

@@ -62,6 +62,11 @@ class Fit {
   [[nodiscard]] MatrixXf whitening(std::size_t position) const;
   void sketch();
   void sweep(bool last);
+  struct Listed {
+    MatrixXf X, weighted_X, A;
+    Eigen::VectorXf weight;  // change times area
+  };
+  [[nodiscard]] Listed listedRows(const Eigen::Ref<const MatrixXf>& A, const FitWeights& weights) const;
   void solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker);
   void feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker);
   void solveX(const MatrixXd& rhs);
@@ -75,15 +80,9 @@ class Fit {
   MatrixXd moment_factor_;  // C x C
   VectorXd row_area_;       // 3 Ns, sums to 3
   FarField result_;
-  std::vector<std::vector<std::pair<std::int32_t, float>>>
-      positions_near_;  // node -> (position, 1 - (1 - window)^2)
+  std::vector<std::vector<std::pair<std::int32_t, float>>> positions_near_;  // node -> (position, weight - 1)
   std::vector<Worker> workers_;
 };
-
-/// Weight that the near field takes away from a node.
-float covered(float window) {
-  return 1.0F - (1.0F - window) * (1.0F - window);
-}
 
 Fit::Fit(const FitProblem& problem, const FitOptions& options)
     : problem_(problem),
@@ -102,9 +101,9 @@ Fit::Fit(const FitProblem& problem, const FitOptions& options)
     row_area_[row] = problem.areas[static_cast<std::size_t>(row / 3)] / total;
   positions_near_.resize(problem.areas.size());
   for (std::size_t s = 0; s < positions_; ++s)
-    for (std::size_t j = 0; j < problem.near[s].nodes.size(); ++j)
-      positions_near_[static_cast<std::size_t>(problem.near[s].nodes[j])].emplace_back(
-          static_cast<std::int32_t>(s), covered(problem.near[s].window[j]));
+    for (std::size_t j = 0; j < problem.weights[s].nodes.size(); ++j)
+      positions_near_[static_cast<std::size_t>(problem.weights[s].nodes[j])].emplace_back(
+          static_cast<std::int32_t>(s), problem.weights[s].change[j]);
   result_.Y = MatrixXf::Zero(modes_, static_cast<Eigen::Index>(positions_) * coefficients_);
 }
 
@@ -163,45 +162,52 @@ void Fit::orthonormalize(MatrixXd X) {
   result_.X = X.cast<float>();
 }
 
-/// Y-step: for each position n x n normal equations with the covered nodes taken out; shared by its
-/// coefficients.
+/// Y-step: for each position n x n normal equations, those of the areas changed at the nodes that count
+/// otherwise; shared by its coefficients.
 void Fit::solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker) {
   const MatrixXf weighted = row_area_.cast<float>().asDiagonal() * result_.X;
-  MatrixXf rhs = weighted.transpose() * A;
+  const MatrixXf rhs = weighted.transpose() * A;
   const MatrixXd gram = (weighted.transpose() * result_.X).cast<double>();
   for (std::size_t i = 0; i < count; ++i) {
-    const NearNodes& near = problem_.near[first + i];
     const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
-    const auto K = static_cast<Eigen::Index>(near.nodes.size());
-    MatrixXf Xn(3 * K, modes_), An(3 * K, coefficients_);
-    for (Eigen::Index j = 0; j < K; ++j) {
-      const Eigen::Index row = 3 * near.nodes[static_cast<std::size_t>(j)];
-      const auto root = static_cast<float>(
-          std::sqrt(double{covered(near.window[static_cast<std::size_t>(j)])} * row_area_[row]));
-      Xn.middleRows<3>(3 * j) = root * result_.X.middleRows<3>(row);
-      An.middleRows<3>(3 * j) = root * A.block(row, column, 3, coefficients_);
-    }
-    const MatrixXf near_gram = Xn.transpose() * Xn;
-    MatrixXd normal = gram - near_gram.cast<double>();
-    normal.diagonal().array() += 1e-6;  // X is orthonormal: against what only covered nodes would see
-    const MatrixXf near_rhs = Xn.transpose() * An;
-    const MatrixXd b = (rhs.middleCols(column, coefficients_) - near_rhs).cast<double>();
+    const Listed listed = listedRows(A.middleCols(column, coefficients_), problem_.weights[first + i]);
+    const MatrixXf near_gram = listed.X.transpose() * listed.weighted_X;
+    MatrixXd normal = gram + near_gram.cast<double>();
+    normal.diagonal().array() += 1e-6;  // X is orthonormal: against what only free entries would see
+    const MatrixXf near_rhs = listed.weighted_X.transpose() * listed.A;
+    const MatrixXd b = (rhs.middleCols(column, coefficients_) + near_rhs).cast<double>();
     const MatrixXd Y = normal.llt().solve(b);
     result_.Y.middleCols(static_cast<Eigen::Index>(first) * coefficients_ + column, coefficients_) =
         Y.cast<float>();
     // |A - X Y|^2 in the weights, from the normal equations: |A|^2 - Y : b.
     const MatrixXf W = whitening(first + i);
-    const MatrixXf AW = A.middleCols(column, coefficients_) * W;
-    const MatrixXf AnW = An * W;
-    const double all = (row_area_.cast<float>().cwiseSqrt().asDiagonal() * AW).cast<double>().squaredNorm();
-    const double outside = all - AnW.cast<double>().squaredNorm();
+    const MatrixXf AW =
+        row_area_.cast<float>().cwiseSqrt().asDiagonal() * (A.middleCols(column, coefficients_) * W);
+    const MatrixXf AnW = listed.A * W;
+    const MatrixXf changed = listed.weight.asDiagonal() * AnW;
+    const double energy = AW.cast<double>().squaredNorm() + changed.cwiseProduct(AnW).cast<double>().sum();
     const MatrixXd Wd = W.cast<double>();
-    worker.energy += all;
-    worker.error += std::max(0.0, outside - (Y * Wd).cwiseProduct(b * Wd).sum());
+    worker.energy += energy;
+    worker.error += std::max(0.0, energy - (Y * Wd).cwiseProduct(b * Wd).sum());
   }
 }
 
-/// Right-hand side of the X-step: A W W^T Y^T with the covered share of each near row taken out.
+/// The rows of the nodes that count otherwise than by their area.
+Fit::Listed Fit::listedRows(const Eigen::Ref<const MatrixXf>& A, const FitWeights& weights) const {
+  const auto K = static_cast<Eigen::Index>(weights.nodes.size());
+  Listed listed{MatrixXf(3 * K, modes_), MatrixXf(), MatrixXf(3 * K, coefficients_), Eigen::VectorXf(3 * K)};
+  for (Eigen::Index j = 0; j < K; ++j) {
+    const Eigen::Index row = 3 * weights.nodes[static_cast<std::size_t>(j)];
+    listed.X.middleRows<3>(3 * j) = result_.X.middleRows<3>(row);
+    listed.A.middleRows<3>(3 * j) = A.middleRows<3>(row);
+    listed.weight.segment<3>(3 * j).setConstant(weights.change[static_cast<std::size_t>(j)] *
+                                                static_cast<float>(row_area_[row]));
+  }
+  listed.weighted_X = listed.weight.asDiagonal() * listed.X;
+  return listed;
+}
+
+/// Right-hand side of the X-step: A W W^T Y^T, changed at the nodes that count otherwise.
 void Fit::feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker) {
   MatrixXf V(A.cols(), modes_);
   for (std::size_t i = 0; i < count; ++i) {
@@ -210,21 +216,22 @@ void Fit::feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t co
     const auto Y =
         result_.Y.middleCols(static_cast<Eigen::Index>(first) * coefficients_ + column, coefficients_);
     V.middleRows(column, coefficients_) = W * (W.transpose() * Y.transpose());
-    const NearNodes& near = problem_.near[first + i];
-    MatrixXf An(static_cast<Eigen::Index>(3 * near.nodes.size()), coefficients_);
-    for (std::size_t j = 0; j < near.nodes.size(); ++j)
+    const FitWeights& weights = problem_.weights[first + i];
+    MatrixXf An(static_cast<Eigen::Index>(3 * weights.nodes.size()), coefficients_);
+    for (std::size_t j = 0; j < weights.nodes.size(); ++j)
       An.middleRows<3>(static_cast<Eigen::Index>(3 * j)) =
-          covered(near.window[j]) * A.block(3 * near.nodes[j], column, 3, coefficients_);
+          weights.change[j] * A.block(3 * weights.nodes[j], column, 3, coefficients_);
     const MatrixXf near_part = An * V.middleRows(column, coefficients_);
-    for (std::size_t j = 0; j < near.nodes.size(); ++j)
-      worker.row_rhs.middleRows<3>(3 * near.nodes[j]) -=
+    for (std::size_t j = 0; j < weights.nodes.size(); ++j)
+      worker.row_rhs.middleRows<3>(3 * weights.nodes[j]) +=
           near_part.middleRows<3>(static_cast<Eigen::Index>(3 * j)).cast<double>();
   }
   const MatrixXf product = A * V;
   worker.row_rhs += product.cast<double>();
 }
 
-/// X-step: one n x n system a node, from all positions but the covered share of those near it.
+/// X-step: one n x n system a node, that of all positions changed at those for which the node counts
+/// otherwise.
 void Fit::solveX(const MatrixXd& rhs) {
   MatrixXf Z(result_.Y.rows(), result_.Y.cols());
   for (std::size_t s = 0; s < positions_; ++s) {
@@ -238,11 +245,14 @@ void Fit::solveX(const MatrixXd& rhs) {
   parallelFor(options_.workers, problem_.areas.size(), [&](int, std::size_t node) {
     const auto& near = positions_near_[node];
     MatrixXf Zn(modes_, static_cast<Eigen::Index>(near.size()) * coefficients_);
-    for (std::size_t j = 0; j < near.size(); ++j)
-      Zn.middleCols(static_cast<Eigen::Index>(j) * coefficients_, coefficients_) =
-          std::sqrt(near[j].second) * Z.middleCols(near[j].first * coefficients_, coefficients_);
-    const MatrixXf taken = Zn * Zn.transpose();
-    MatrixXd normal = all - taken.cast<double>();
+    MatrixXf weighted(Zn.rows(), Zn.cols());
+    for (std::size_t j = 0; j < near.size(); ++j) {
+      const auto column = static_cast<Eigen::Index>(j) * coefficients_;
+      Zn.middleCols(column, coefficients_) = Z.middleCols(near[j].first * coefficients_, coefficients_);
+      weighted.middleCols(column, coefficients_) = near[j].second * Zn.middleCols(column, coefficients_);
+    }
+    const MatrixXf change = weighted * Zn.transpose();
+    MatrixXd normal = all + change.cast<double>();
     normal.diagonal().array() += ridge;
     const auto row = static_cast<Eigen::Index>(3 * node);
     X.middleRows<3>(row) = normal.llt().solve(rhs.middleRows<3>(row).transpose()).transpose();
@@ -307,8 +317,10 @@ FarField Fit::run() {
 }  // namespace
 
 double nearWindow(double r, double rho) noexcept {
-  const double t = std::clamp(2.0 * r / rho - 1.0, 0.0, 1.0);
-  return 1.0 - t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+  constexpr double kFlat =
+      0.7;  // of rho: the fit is left alone with what is far, the transition spans an element
+  const double t = std::clamp((r / rho - kFlat) / (1.0 - kFlat), 0.0, 1.0);
+  return std::max(0.0, 1.0 - t * t * t * (10.0 + t * (-15.0 + 6.0 * t)));
 }
 
 NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho) {
@@ -320,6 +332,19 @@ NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho) {
     near.window.push_back(static_cast<float>(nearWindow(r, rho)));
   }
   return near;
+}
+
+FitWeights fitWeights(const ContactSurface& surface, const Vec3& x, double rho) {
+  FitWeights weights;
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const double r = (surface.positions[i] - x).norm();
+    if (r >= 3.0 * rho) continue;
+    const double far = 1.0 - nearWindow(r, rho);
+    const double emphasis = far > 0.0 ? std::pow(3.0 * rho / r, 2.5) : 0.0;
+    weights.nodes.push_back(static_cast<std::int32_t>(i));
+    weights.change.push_back(static_cast<float>(far * far * emphasis - 1.0));
+  }
+  return weights;
 }
 
 FarField fitFarField(const FitProblem& problem, const FitOptions& options) {

@@ -21,6 +21,7 @@ namespace {
 namespace occ = gmsh::model::occ;
 constexpr double kRounding = 0.020;      // radius of the rounded creases, m; OpenCASCADE gives up at 0.022
 constexpr double kFixedFraction = 0.10;  // of the surface nodes
+constexpr double kRimWidth = 0.015;      // m; a contact patch nearer to the clamp would lie half on it
 
 struct Ellipsoid {
   Eigen::Vector3d centre, radii;
@@ -114,9 +115,14 @@ void addGroups(mesh::TetMesh& mesh) {
   std::vector<std::int32_t> fixed = byDistance(mesh, boundary, rearmost);
   fixed.resize(static_cast<std::size_t>(kFixedFraction * static_cast<double>(fixed.size())));
   std::sort(fixed.begin(), fixed.end());
-  auto& accessible = mesh.groups["accessible"];
-  std::set_difference(boundary.nodes.begin(), boundary.nodes.end(), fixed.begin(), fixed.end(),
-                      std::back_inserter(accessible));
+  const auto isClear = [&](std::int32_t node) {
+    return std::none_of(fixed.begin(), fixed.end(), [&](std::int32_t held) {
+      return (mesh.nodes[static_cast<std::size_t>(node)] - mesh.nodes[static_cast<std::size_t>(held)])
+                 .norm() < kRimWidth;
+    });
+  };
+  std::copy_if(boundary.nodes.begin(), boundary.nodes.end(), std::back_inserter(mesh.groups["accessible"]),
+               isClear);
   mesh.groups["fixed"] = std::move(fixed);
 }
 

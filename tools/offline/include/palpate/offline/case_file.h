@@ -25,9 +25,9 @@ struct Case {
   double nu{0.48};          ///< (-1, 0.4999]
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges
   int order{3};                        ///< p, 1 to 7
-  int modes{100};                      ///< n, 1 to 2000
+  int modes{120};                      ///< n, 1 to 2000
   double near_radius{0.025};           ///< rho, m, [0, 1]
-  int sweeps{12};                      ///< of the far-field fit, 1 to 1000
+  int sweeps{6};                      ///< of the far-field fit, 1 to 1000
   std::string text;                    ///< the case file as read, for the provenance
 };
 

@@ -11,7 +11,8 @@ constexpr double kLiverElementSize = 0.0067;  ///< m; gives about 2,200 surface 
 /// a third cut away from below, all creases rounded (DESIGN 2.3). x points to the organ's left, y to the
 /// back, z up.
 ///   Groups: `fixed`, the tenth of the surface nodes that lies nearest to the rearmost node along the
-///   surface; `accessible`, the other surface nodes.
+///   surface; `accessible`, the surface nodes at least 15 mm away from those: where a tool presses on the rim
+///   of the clamp the series reaches less than half as far (README).
 /// @param element_size  edge length of the tetrahedra, m, in [0.003, 0.02]
 /// @throw MeshError when the size is out of range or Gmsh fails
 [[nodiscard]] mesh::TetMesh makeLiver(double element_size = kLiverElementSize);
