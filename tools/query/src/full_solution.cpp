@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -35,7 +36,9 @@ offline::FeModel bodyOf(const ModelAttributes& a, const modelfile::VolumeMesh& m
 }
 
 std::string text(const Vec3& v) {
-  return std::to_string(v[0]) + "," + std::to_string(v[1]) + "," + std::to_string(v[2]);
+  std::ostringstream out;
+  out << v[0] << ',' << v[1] << ',' << v[2];
+  return out.str();
 }
 
 double ratio(double error, double reference) {

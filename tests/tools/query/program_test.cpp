@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-query as its user sees it: exit code, standard output, standard error.
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "box_model.h"
+#include "parsed_deck.h"
+#include "run_program.h"
+#include "well_formed.h"
+
+namespace palpate::query::test {
+namespace {
+
+using palpate::testing::ProgramResult;
+using palpate::testing::runProgram;
+
+ProgramResult query(const BoxModel& box, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), box.path.string());
+  return runProgram("palpate-query", arguments);
+}
+
+void expectOneLineError(const ProgramResult& result, const std::string& part) {
+  EXPECT_GT(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.out.empty()) << result.out;
+  EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+}
+
+Vec3 vectorOf(const nlohmann::json& list) {
+  EXPECT_EQ(list.size(), 3U);
+  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
+
+std::string contentOf(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Program, AnswersInJson) {
+  const BoxModel box;
+  const std::int64_t node = BoxMesh::number(4, 2, 2);
+  const ProgramResult result =
+      query(box, {"--node", std::to_string(node), "--displacement", "-0.001,0,-.002", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.err.empty()) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  const Vec3 d(-0.001, 0.0, -0.002);
+  const Anchor anchor = anchorAtNode(box.model, node);
+  const Answer answer = ask(box.model, anchor, d);
+  EXPECT_EQ(vectorOf(json.at("force")), answer.response.force);
+  for (int row = 0; row < 3; ++row)
+    EXPECT_EQ(vectorOf(json.at("stiffness").at(static_cast<std::size_t>(row))),
+              Vec3(answer.response.stiffness.row(row)));
+  EXPECT_EQ(vectorOf(json.at("displacement")), d);
+  EXPECT_EQ(json.at("anchor").at("node"), node);
+  EXPECT_EQ(json.at("anchor").at("triangle"), anchor.s.triangle);
+  EXPECT_EQ(json.at("anchor").at("barycentric").get<std::vector<double>>(),
+            std::vector<double>(anchor.s.barycentric.begin(), anchor.s.barycentric.end()));
+  EXPECT_EQ(vectorOf(json.at("anchor").at("position")), anchor.position);
+  EXPECT_EQ(json.at("domain_radius"), answer.response.domain_radius);
+  EXPECT_EQ(json.at("status"), "ok");
+  EXPECT_FALSE(json.contains("newton"));
+}
+
+TEST(Program, ComparesWithNewtonAndWritesFiles) {
+  const BoxModel box;
+  const auto deck = box.folder / "deck.inp", field = box.folder / "field.vtu";
+  const ProgramResult result =
+      query(box, {"--at", "0.083,0.031,0.06", "--displacement=0,0,-0.002", "--ccx", deck.string(), "--field",
+                  field.string(), "--steps", "2", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Vec3 d(0.0, 0.0, -0.002);
+  const Anchor anchor = anchorNear(box.model, {0.083, 0.031, 0.06});
+  const FullSolution truth = box.solve(anchor, d);
+  const Errors errors = errorsOf(ask(box.model, anchor, d), truth, box.organ, d);
+  const auto newton = nlohmann::json::parse(result.out).at("newton");
+  EXPECT_LT((vectorOf(newton.at("force")) - truth.state.force).norm(), 1e-7 * truth.state.force.norm());
+  EXPECT_NEAR(newton.at("force_error"), errors.force, 1e-6);
+  EXPECT_NEAR(newton.at("field_error_max"), errors.field_max, 1e-6);
+  EXPECT_NEAR(newton.at("field_error_l2"), errors.field_l2, 1e-6);
+  EXPECT_NEAR(newton.at("min_det_f"), truth.min_det_f, 1e-7);
+  EXPECT_LT((vectorOf(newton.at("anchor_displacement")) - truth.displacement(box.organ, anchor.node)).norm(),
+            1e-9);
+  EXPECT_EQ(ParsedDeck(contentOf(deck)).under.at("*NODE,NSET=ALL").size(), 72U);
+  EXPECT_EQ(testing::xmlFault(contentOf(field)), "");
+  EXPECT_NE(contentOf(field).find("Name=\"error\""), std::string::npos);
+}
+
+TEST(Program, TellsAPersonTheSame) {
+  const BoxModel box;
+  const ProgramResult result =
+      query(box, {"--at", "0.083,0.031,0.06", "--displacement", "0,0,-0.002", "--newton"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part :
+       {"anchor", "status", "domain radius", "force on organ", "stiffness", "Newton: force", "min det F"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+}
+
+TEST(Program, SaysWhenAPointIsNotAccessible) {
+  const BoxModel box;
+  const ProgramResult result =
+      query(box, {"--at", "-0.01,0.03,0.02", "--displacement", "0.001,0,0", "--json"});
+  EXPECT_EQ(result.exit_code, 0);
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("status"), "not_accessible");
+  EXPECT_EQ(vectorOf(json.at("force")), Vec3(Vec3::Zero()));
+  EXPECT_NE(result.err.find("not accessible"), std::string::npos) << result.err;
+  expectOneLineError(query(box, {"--at", "-0.01,0.03,0.02", "--displacement", "0.001,0,0", "--newton"}),
+                     "clamped nodes only");
+}
+
+TEST(Program, RefusesBadArgumentsInOneLine) {
+  const BoxModel box;
+  const std::string node = std::to_string(BoxMesh::number(4, 2, 2));
+  expectOneLineError(query(box, {"--node", "4", "--displacement", "0,0,0"}), "node 4 is not in the mesh");
+  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0"}), "--displacement is '0,0'");
+  expectOneLineError(query(box, {"--at", "0,0,nan", "--displacement", "0,0,0"}), "--at is '0,0,nan'");
+  expectOneLineError(query(box, {"--displacement", "0,0,0"}), "--node,--at");
+  expectOneLineError(query(box, {"--node", node, "--at", "0,0,0", "--displacement", "0,0,0"}), "--node,--at");
+  expectOneLineError(query(box, {"--node", node}), "--displacement is required");
+  expectOneLineError(query(box, {"--node", "four", "--displacement", "0,0,0"}), "--node = four");
+  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,0", "--newton", "--steps", "0"}),
+                     "--steps");
+  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,0", "--field", "/none/a.vtu"}),
+                     "cannot write /none/a.vtu");
+  EXPECT_EQ(query(box, {"--help"}).exit_code, 0);
+}
+
+TEST(Program, RefusesATruncatedModel) {
+  const BoxModel box;
+  std::filesystem::resize_file(box.path, std::filesystem::file_size(box.path) / 2);
+  expectOneLineError(query(box, {"--node", "4", "--displacement", "0,0,0"}), "box.h5");
+  std::filesystem::remove(box.path);
+  expectOneLineError(query(box, {"--node", "4", "--displacement", "0,0,0"}), "cannot be opened");
+}
+
+TEST(Program, RefusesADisplacementThatNewtonCannotReach) {
+  const BoxModel box;
+  expectOneLineError(query(box, {"--node", std::to_string(BoxMesh::number(5, 3, 2)), "--displacement",
+                                 "-1e100,0,0", "--newton"}),
+                     "displacement -1e+100,0,0 m: Newton does not converge");
+}
+
+TEST(Program, WarnsOfElementsTurnedInsideOut) {
+  const BoxModel box;
+  const ProgramResult result = query(
+      box, {"--node", std::to_string(BoxMesh::number(5, 3, 2)), "--displacement", "-5,0,0", "--newton"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("inside out (min det F -"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("clamped"), std::string::npos) << result.out;
+}
+
+}  // namespace
+}  // namespace palpate::query::test
