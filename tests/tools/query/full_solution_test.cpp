@@ -68,6 +68,18 @@ TEST(FullSolution, AtRestHasNoErrors) {
   EXPECT_EQ(errors.field_l2, 0.0);
 }
 
+TEST(FullSolution, NewtonTakesSoManyStepsAndNoMore) {
+  const BoxModel box;
+  const Anchor anchor = anchorAtNode(box.model, BoxMesh::number(4, 1, 2));
+  const Vec3 d(0.0, 0.0, -0.01);
+  const offline::Patch patch = box.solve(anchor, 0.01 * d).patch;
+  offline::NewtonOptions options;
+  options.max_iterations = 3;  // too few for the whole way at once
+  EXPECT_NO_THROW((void)offline::NewtonSolver(box.organ.body).solvePatch(patch, d, options));
+  options.extra_steps = 0;
+  EXPECT_THROW((void)offline::NewtonSolver(box.organ.body).solvePatch(patch, d, options), std::runtime_error);
+}
+
 TEST(FullSolution, RefusesAPatchThatIsAllClamped) {
   const BoxModel box;
   const Anchor anchor = anchorNear(box.model, {-0.01, 0.03, 0.02});

@@ -113,6 +113,7 @@ NewtonResult NewtonSolver::walk(Problem problem, const NewtonOptions& options) {
   double level = 0.0;
   double step = 1.0 / std::max(options.steps, 1);
   int halvings = 0;
+  int attempts_left = options.steps + options.extra_steps;
   while (level < 1.0) {
     NewtonResult attempt = state;
     const double next = level + step > 1.0 - 1e-9 ? 1.0 : level + step;
@@ -121,12 +122,13 @@ NewtonResult NewtonSolver::walk(Problem problem, const NewtonOptions& options) {
       state = attempt;
       level = next;
       halvings = 0;
-    } else if (++halvings > options.max_halvings) {
-      throw std::runtime_error("Newton does not converge beyond " + std::to_string(level) +
-                               " of the prescribed load (step " + std::to_string(step) + ")");
     } else {
+      ++halvings;
       step *= 0.5;
     }
+    if (level < 1.0 && (halvings > options.max_halvings || --attempts_left <= 0))
+      throw std::runtime_error("Newton does not converge beyond " + std::to_string(level) +
+                               " of the prescribed load (step " + std::to_string(step) + ")");
   }
   return state;
 }

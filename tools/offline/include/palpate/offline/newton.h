@@ -14,6 +14,7 @@ struct NewtonOptions {
   int steps{1};             ///< equal load steps to begin with, >= 1; a step that fails is halved
   int max_iterations{30};   ///< per step
   int max_halvings{10};     ///< in a row
+  int extra_steps{100};     ///< tried beyond `steps` before giving up, failed ones included
   double tolerance{1e-10};  ///< of the residual, relative to the largest internal nodal force
 };
 
