@@ -8,8 +8,8 @@
 
 namespace palpate::mesh {
 
-/// Reads the linear tetrahedra of a Gmsh .msh (1, 2, 4.0, 4.1; text, 2 and 4.1 also binary), legacy .vtk (unstructured
-/// grid, text or binary) or Medit .mesh (text) file, chosen by extension.
+/// Reads the linear tetrahedra of a Gmsh .msh (1, 2, 4.0, 4.1; text, 2 and 4.1 also binary), legacy .vtk
+/// (unstructured grid, text or binary) or Medit .mesh (text) file, chosen by extension.
 ///   Nodes keep the file's order; those in no tetrahedron are dropped. Points, lines and triangles count
 ///   only for groups. A group is the nodes of all elements of a physical group (Medit: reference), whatever
 ///   their dimension; groups of the same name are one. Without a name the number is the name, or `point:1`,

@@ -27,7 +27,7 @@ struct Case {
   int order{3};                        ///< p, 1 to 7
   int modes{120};                      ///< n, 1 to 2000
   double near_radius{0.025};           ///< rho, m, [0, 1]
-  int sweeps{6};                      ///< of the far-field fit, 1 to 1000
+  int sweeps{6};                       ///< of the far-field fit, 1 to 1000
   std::string text;                    ///< the case file as read, for the provenance
 };
 

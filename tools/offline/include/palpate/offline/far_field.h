@@ -46,7 +46,7 @@ struct FitProblem {
 
 struct FitOptions {
   int modes{120};  ///< n, >= 1
-  int sweeps{6};  ///< alternating-direction sweeps
+  int sweeps{6};   ///< alternating-direction sweeps
   int workers{1};
   bool quiet{false};
 };
