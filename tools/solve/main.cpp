@@ -4,6 +4,7 @@
 // Sample runs:  palpate-solve liver.msh -o liver.h5
 //               palpate-solve case.toml -o liver.h5 --json
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "palpate/mesh/checks.h"
+#include "palpate/mesh/mesh_error.h"
 #include "palpate/mesh/read_mesh.h"
 #include "palpate/modelfile/model_file.h"
 #include "palpate/offline/build_model.h"
@@ -66,6 +68,28 @@ void adoptGroups(offline::Case& c, const mesh::TetMesh& organ) {
   if (c.text.empty() && organ.groups.count("accessible") != 0) c.accessible = "accessible";
 }
 
+/// What can be said of the output before minutes are spent on it.
+void checkOutput(const std::filesystem::path& output) {
+  const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error("--output " + output.string() + ": " + why);
+  };
+  if (output.extension() == ".xdmf") refuse("an .xdmf is written beside the model; name the model .h5");
+  if (std::filesystem::is_directory(output)) refuse("is a folder");
+  if (!std::filesystem::is_directory(folder)) refuse("there is no folder " + folder.string());
+  if (access(folder.c_str(), W_OK) != 0) refuse("the folder " + folder.string() + " cannot be written");
+}
+
+mesh::TetMesh readOrgan(const std::filesystem::path& path) {
+  mesh::TetMesh organ = mesh::readMesh(path);
+  try {
+    mesh::checkMesh(organ);
+  } catch (const mesh::MeshError& error) {
+    throw mesh::MeshError(path.string() + ": " + error.what());
+  }
+  return organ;
+}
+
 nlohmann::json summary(const Options& options, const modelfile::ModelData& data,
                        const offline::BuildReport& report, double total_seconds, double write_seconds) {
   std::vector<double> radii;  // of what a tool may touch, helpers left out
@@ -73,7 +97,7 @@ nlohmann::json summary(const Options& options, const modelfile::ModelData& data,
     if (data.contact_accessible[i] != 0) radii.push_back(data.contact_domain_radius[i]);
   std::sort(radii.begin(), radii.end());
   const auto quantile = [&](double q) {
-    return radii[static_cast<std::size_t>(q * static_cast<double>(radii.size() - 1))];
+    return radii[static_cast<std::size_t>(q * static_cast<double>(radii.size() - 1) + 0.5)];
   };
   return {{"model", options.output.string()},
           {"nodes", data.mesh_node_tag.size()},
@@ -83,7 +107,7 @@ nlohmann::json summary(const Options& options, const modelfile::ModelData& data,
           {"patch_radius", data.attributes.patch_radius},
           {"order", data.attributes.order},
           {"modes", data.modes_X.size() / (3 * data.surface_mesh_tag.size())},
-          {"domain_radius", {{"min", radii.front()}, {"q05", quantile(0.05)}, {"median", quantile(0.5)}}},
+          {"domain_radius", {{"min", radii.front()}, {"p05", quantile(0.05)}, {"median", quantile(0.5)}}},
           {"fit_error", report.fit_errors.back()},
           {"seconds",
            {{"factor", report.factor_seconds},
@@ -108,7 +132,7 @@ void print(const nlohmann::json& s) {
                1e3 * s["patch_radius"].get<double>(), s["order"].get<int>(), s["modes"].get<std::size_t>(),
                t["factor"].get<double>(), t["series"].get<double>(), t["fit"].get<double>(),
                t["write"].get<double>(), t["total"].get<double>(),
-               1e3 * s["domain_radius"]["q05"].get<double>(),
+               1e3 * s["domain_radius"]["p05"].get<double>(),
                1e3 * s["domain_radius"]["median"].get<double>(), 100.0 * s["fit_error"].get<double>(),
                s["model"].get<std::string>().c_str(), 1e-6 * s["file_bytes"].get<double>(),
                s["peak_memory_MiB"].get<double>());
@@ -116,11 +140,11 @@ void print(const nlohmann::json& s) {
 
 void run(Options options) {
   const auto start = Clock::now();
-  // 1. What to solve.
+  // 1. What to solve, and where to.
+  checkOutput(options.output);
   offline::Case c = readInput(options);
   // 2. The organ.
-  mesh::TetMesh organ = mesh::readMesh(c.mesh);
-  mesh::checkMesh(organ);
+  const mesh::TetMesh organ = readOrgan(c.mesh);
   adoptGroups(c, organ);
   // 3. Series, far field, near field.
   if (options.scratch.empty()) options.scratch = std::filesystem::absolute(options.output).parent_path();
@@ -135,7 +159,7 @@ void run(Options options) {
   // 5. What came out.
   const nlohmann::json s = summary(options, data, report, secondsSince(start), secondsSince(write_start));
   print(s);
-  if (options.json) std::cout << s.dump(2) << '\n';
+  if (options.json) std::cout << s.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
 }  // namespace
@@ -146,9 +170,16 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PALPATE_VERSION);
   Options options;
   describe(app, options);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "palpate-solve: " + std::string(error.what()) + " (see palpate-solve --help)\n";
+  });
   CLI11_PARSE(app, argc, argv);
   try {
     run(options);
+  } catch (const std::bad_alloc&) {
+    std::cerr
+        << "palpate-solve: out of memory; fewer modes, a smaller near_radius or a lower order need less\n";
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << "palpate-solve: " << error.what() << '\n';
     return 1;

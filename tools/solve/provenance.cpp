@@ -75,7 +75,7 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
       {"fit_errors", report.fit_errors},
       {"seconds",
        {{"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}}}};
-  data.attributes.provenance = provenance.dump();
+  data.attributes.provenance = provenance.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace palpate::solve

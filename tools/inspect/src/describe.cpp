@@ -30,7 +30,7 @@ Json bytesOfParts(const ModelView& v) {
   return bytes;
 }
 
-/// Smallest value that at least the part q of the sorted values does not exceed.
+/// The sorted value whose rank is nearest to the part q of the way from the first to the last.
 double quantile(const std::vector<double>& sorted, double q) {
   const double rank = q * static_cast<double>(sorted.size() - 1);
   return sorted[static_cast<std::size_t>(rank + 0.5)];

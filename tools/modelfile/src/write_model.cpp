@@ -182,7 +182,7 @@ void writeModel(const std::filesystem::path& path, const ModelData& data) {
   } catch (const std::filesystem::filesystem_error& error) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw ModelFileError(error.what());
+    throw ModelFileError(path.string() + ": cannot be written: " + error.code().message());
   } catch (const ModelFileError& error) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);

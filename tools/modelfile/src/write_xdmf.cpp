@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -70,12 +72,21 @@ std::filesystem::path writeXdmf(const std::filesystem::path& model) {
   const MetaModel loaded = MetaModel::load(model);
   std::filesystem::path path = model;
   path.replace_extension(".xdmf");
-  std::ofstream out(path);
+  if (path == model)
+    throw ModelFileError(model.string() + ": a model named .xdmf would be overwritten by its .xdmf");
+  const std::filesystem::path temporary = path.string() + ".tmp-" + std::to_string(::getpid());
+  std::ofstream out(temporary);
   out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
   writeGrid(out, escaped(model.filename().string()), loaded.view());
   out << "  </Domain>\n</Xdmf>\n";
   out.close();
-  if (!out) throw ModelFileError(path.string() + " cannot be written");
+  std::error_code error;
+  if (out) std::filesystem::rename(temporary, path, error);
+  if (!out || error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw ModelFileError(path.string() + " cannot be written; the model itself is whole");
+  }
   return path;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "palpate/mesh/topology.h"
@@ -84,6 +85,40 @@ ContactSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
   return ContactSurface(model, std::move(boundary.nodes), std::move(boundary.triangles));
 }
 
+std::string text(double x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.4g", x);
+  return buffer;
+}
+
+/// a as given or by default; a patch that reaches no neighbour is a point load, one as wide as the organ no
+/// contact.
+double patchRadius(const Case& c, const ContactSurface& surface) {
+  const double edge = surface.medianEdge();
+  const double a = c.patch_radius.value_or(1.3 * edge);
+  Vec3 low = surface.positions.front(), high = low;
+  for (const Vec3& x : surface.positions) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double widest = 0.5 * (high - low).minCoeff();
+  if (!(a > edge / 3.0) || a > std::max(widest, 1.3 * edge))
+    throw CaseError(c.mesh.string() + ": model.patch_radius = " + text(a) +
+                    " m does not fit; the median surface edge is " + text(edge) +
+                    " m, half the smallest extent " + text(widest) + " m");
+  return a;
+}
+
+/// The near field is part of the model, and stands in memory here and in the server.
+void checkNearBytes(const Case& c, std::span<const NearNodes> near, int coefficients) {
+  constexpr double kMost = 2147483648.0;  // bytes
+  double bytes = 0.0;
+  for (const NearNodes& nodes : near) bytes += 12.0 * coefficients * static_cast<double>(nodes.nodes.size());
+  if (bytes > kMost)
+    throw CaseError("model.near_radius = " + text(c.near_radius) + " m makes a near field of " +
+                    text(1e-6 * bytes) + " MB, at most " + text(1e-6 * kMost) + " MB are taken");
+}
+
 Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options, BuildReport& report)
     : case_(c),
       mesh_(mesh),
@@ -93,12 +128,13 @@ Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& o
       force_basis_(SeriesSolver::forceOrder(c.order)),
       model_(mesh.nodes, mesh.tetrahedra, groupOf(c, mesh, c.fixed), {c.E, c.nu}),
       surface_(surfaceOf(model_, mesh)),
-      patch_radius_(c.patch_radius.value_or(1.3 * surface_.medianEdge())),
+      patch_radius_(patchRadius(c, surface_)),
       d_ref_(0.5 * patch_radius_),
       positions_(contactPositions(model_, surface_, accessibleNodes(c, mesh, model_, surface_), patch_radius_,
                                   mesh)) {
   for (const std::int32_t node : positions_.nodes)
     near_.push_back(nearNodes(surface_, surface_.positions[at(node)], c.near_radius));
+  checkNearBytes(c, near_, basis_.size());
   const std::size_t coefficients = static_cast<std::size_t>(force_basis_.size());
   data_.contact_force.resize(positions_.nodes.size() * coefficients * 3);
   data_.contact_domain_radius.resize(positions_.nodes.size());
@@ -107,8 +143,9 @@ Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& o
 void Builder::storePosition(const SeriesSolver& series, int lane, std::size_t position, double radius) {
   if (!(radius > 0.0))
     throw std::runtime_error(
-        "node " + std::to_string(mesh_.node_tags[at(surface_.nodes[at(positions_.nodes[position])])]) +
-        ": the series has no domain");
+        case_.mesh.string() + ": node " +
+        std::to_string(mesh_.node_tags[at(surface_.nodes[at(positions_.nodes[position])])]) +
+        ": the series has no domain; is the organ held by \"" + case_.fixed + "\"?");
   data_.contact_domain_radius[position] = radius;
   const std::size_t coefficients = at(force_basis_.size());
   for (int k = 0; k < force_basis_.size(); ++k) {

@@ -71,8 +71,7 @@ std::vector<int> suspects(const MonomialBasis& basis, const KernelInput& input, 
     Lanes power = radius;
     for (int n = 1; n < degree; ++n) power *= radius;
     for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k) {
-      // 26 directions: |x^alpha| <= |x|^|alpha|, times how often the symmetric tensor holds the monomial is
-      // not needed, since the coefficients already carry it.
+      // |x^alpha| <= |x|^|alpha| in every direction.
       powers[static_cast<std::size_t>(k)] = power;
     }
   }

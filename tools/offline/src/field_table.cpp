@@ -17,7 +17,8 @@ FieldTable::FieldTable(const std::filesystem::path& folder, std::size_t position
     : positions_(positions), coefficients_(coefficients), rows_(rows) {
   std::string name = (folder / "palpate-fields-XXXXXX").string();
   file_ = mkostemp(name.data(), O_CLOEXEC);
-  if (file_ < 0) throw std::runtime_error(name + ": cannot make the scratch file: " + std::strerror(errno));
+  if (file_ < 0)
+    throw std::runtime_error(folder.string() + ": cannot make a scratch file there: " + std::strerror(errno));
   unlink(name.c_str());
   const std::size_t bytes = positions * blockBytes();
   const int error = bytes > 0 ? posix_fallocate(file_, 0, static_cast<off_t>(bytes)) : 0;

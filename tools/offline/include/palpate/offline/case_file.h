@@ -22,7 +22,7 @@ struct Case {
       accessible;           ///< physical group that a tool may touch; absent: all but the fixed nodes
   std::string law{"stvk"};  ///< "stvk"
   double E{160e3};          ///< Pa, (0, 1e12]
-  double nu{0.48};          ///< (-1, 0.4999]
+  double nu{0.48};          ///< [-0.99, 0.4999]
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges
   int order{3};                        ///< p, 1 to 7
   int modes{120};                      ///< n, 1 to 2000

@@ -12,7 +12,7 @@
 
 namespace palpate::offline {
 
-/// Share of the near field at distance r from s: 1 up to rho / 2, then smoothly (two derivatives) to 0 at
+/// Share of the near field at distance r from s: 1 up to 0.7 rho, then smoothly (two derivatives) to 0 at
 /// rho. DESIGN 2.3
 [[nodiscard]] double nearWindow(double r, double rho) noexcept;
 

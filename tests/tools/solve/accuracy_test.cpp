@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// From an organ to errors against Newton, through the programs, with what the default organ must show; on a
+// coarser liver, since every comparison is a full solution.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "palpate/mesh/read_mesh.h"
+#include "palpate/mesh/topology.h"
+#include "run_program.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::runProgram;
+
+std::string text(const Eigen::Vector3d& x) {
+  std::ostringstream out;
+  out.precision(17);
+  out << x[0] << ',' << x[1] << ',' << x[2];
+  return out.str();
+}
+
+double p95(std::vector<double> errors) {
+  std::sort(errors.begin(), errors.end());
+  return errors[static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(errors.size()))) - 1];
+}
+
+class CoarseLiver : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("palpate_liver_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    const auto made = runProgram(
+        "palpate-organ", {"liver", "--element-size", "0.011", "-o", (folder_ / "liver.msh").string()});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const auto solved = runProgram(
+        "palpate-solve", {(folder_ / "liver.msh").string(), "-o", (folder_ / "liver.h5").string(), "-q"});
+    ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  void SetUp() override {
+    organ_ = mesh::readMesh(folder_ / "liver.msh");
+    accessible_ = organ_.groups.at("accessible");
+  }
+
+  Eigen::Vector3d touch() {
+    return 2e-3 * Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_)).normalized();
+  }
+
+  void compare(const std::vector<std::string>& where, std::vector<double>& force,
+               std::vector<double>& field) {
+    std::vector<std::string> arguments{(folder_ / "liver.h5").string(), "--displacement", text(touch()),
+                                       "--newton", "--json"};
+    arguments.insert(arguments.end(), where.begin(), where.end());
+    const auto result = runProgram("palpate-query", arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json answer = json::parse(result.out);
+    force.push_back(answer.at("newton").at("force_error"));
+    field.push_back(answer.at("newton").at("field_error_max"));
+  }
+
+  static fs::path folder_;
+  mesh::TetMesh organ_;
+  std::vector<std::int32_t> accessible_;
+  std::mt19937 random_{7};
+  std::normal_distribution<double> normal_;
+};
+
+fs::path CoarseLiver::folder_;
+
+TEST_F(CoarseLiver, AtNodesForceIsWithin1PercentAndFieldWithin5) {
+  std::vector<double> force, field;
+  for (int i = 0; i < 20; ++i) {
+    const std::int32_t node = accessible_[random_() % accessible_.size()];
+    compare({"--node", std::to_string(organ_.node_tags[static_cast<std::size_t>(node)])}, force, field);
+  }
+  EXPECT_LT(p95(force), 0.01);
+  EXPECT_LT(p95(field), 0.05);
+}
+
+TEST_F(CoarseLiver, BetweenNodesForceIsWithin3PercentAndFieldWithin8) {
+  const mesh::BoundarySurface boundary = mesh::boundaryOf(organ_);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<double> force, field;
+  while (force.size() < 20) {
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    double a = uniform(random_), b = uniform(random_);
+    if (a + b > 1.0) {
+      a = 1.0 - a;
+      b = 1.0 - b;
+    }
+    const auto& triangle = boundary.triangles[random_() % boundary.triangles.size()];
+    const double weight[3] = {a, b, 1.0 - a - b};
+    bool all = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t node = boundary.nodes[static_cast<std::size_t>(triangle[k])];
+      all = all && std::binary_search(accessible_.begin(), accessible_.end(), node);
+      x += weight[k] * organ_.nodes[static_cast<std::size_t>(node)];
+    }
+    if (all) compare({"--at", text(x)}, force, field);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_LT(p95(force), 0.03);
+  EXPECT_LT(p95(field), 0.08);
+}
+
+TEST_F(CoarseLiver, DomainOfAllButFivePercentReaches4Millimetres) {
+  const auto result = runProgram("palpate-inspect", {(folder_ / "liver.h5").string(), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GE(json::parse(result.out).at("domain_radius").at("p05"), 4e-3);
+}
+
+}  // namespace
+}  // namespace palpate
