@@ -28,8 +28,21 @@ void ContactSolver::update(const MetaModel& model, const Vec3& c,
                            Contact& contact) const noexcept PALPATE_NONBLOCKING {
   if (contact.state == ContactState::kFree)
     tryCapture(model, c, contact);
+  else if (hasLeft(model, c))
+    leave(contact);
   else
     stick(model, c, contact);
+}
+
+bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& c) const noexcept PALPATE_NONBLOCKING {
+  constexpr double kHysteresis = 5e-4;  // m beyond the capture distance, so that noise does not toggle
+  return model.surface().closestPoint(c).signed_distance >= tip_radius_ + kHysteresis;
+}
+
+void ContactSolver::leave(Contact& contact) noexcept PALPATE_NONBLOCKING {
+  release(contact);
+  contact.overlapping = false;
+  contact.jumped = true;  // the tangential part did not fade on the way
 }
 
 void ContactSolver::release(Contact& contact) noexcept PALPATE_NONBLOCKING {

@@ -255,6 +255,23 @@ TEST(Step, LiftedToolIsReleasedAndCapturedAgainElsewhere) {
   EXPECT_GT(r.force[0], 0.0);
 }
 
+TEST(Step, ToolDrawnOffSidewaysIsLetGo) {
+  Driver driver(organ());
+  press(driver, 0.002);
+  Vec3 last = vec(driver.result().tools[0].force);
+  ASSERT_GT(last.norm(), 0.5);
+  int released = 0;
+  for (int ms = 0; ms < 800; ++ms) {
+    const ToolResult& r = driver.at(above(0.002) + Vec3(1e-4 * ms, 0.0, 0.0));
+    ASSERT_LE((vec(r.force) - last).norm(), 0.15) << ms << " ms: a step in the force";
+    last = vec(r.force);
+    released += r.state == static_cast<std::uint32_t>(ContactState::kFree) ? 1 : 0;
+  }
+  EXPECT_GT(released, 60);
+  EXPECT_EQ(last, Vec3::Zero());
+  EXPECT_EQ(driver.result().tools[0].flags, 0U);
+}
+
 TEST(Step, FixedPartHasNoForceAndAFlag) {
   Driver driver(organ());
   const ToolResult& r = driver.settle(Vec3(0.0, 0.0, -0.05));

@@ -16,9 +16,9 @@ struct Contact {
   ContactState state{ContactState::kFree};
   ContactPoint s;              ///< the anchor; when free, the nearest point of the rest surface
   Vec3 anchor = Vec3::Zero();  ///< X(s), m
-  Vec3 direction =
-      Vec3::Zero();            ///< m, outward unit vector from the anchor to the tip's centre, set at capture
-  Vec3 normal = Vec3::Zero();  ///< n(s), outward unit normal of the rest surface
+  /// m, outward unit vector from the anchor to the tip's centre, set at capture
+  Vec3 direction = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();        ///< n(s), outward unit normal of the rest surface
   Vec3 displacement = Vec3::Zero();  ///< d as imposed, before clamping, m
   Response response;                 ///< the organ's answer; zero when free
   std::uint32_t flags{0};            ///< kInContact, kBeyondDomain, kNotAccessible
@@ -26,10 +26,12 @@ struct Contact {
   bool jumped{false};  ///< the last update made a force that does not follow from the one before
 };
 
-/// Moves a tool through free and stick DESIGN 3.1
-///   free -> stick: signed distance of the tip's centre < R on an accessible triangle; the anchor s is the
-///   nearest point stick:         d = c - X(s) - R m, with s and m as set at capture stick -> free: f . n >
-///   0, the tool would pull
+/// Moves a tool through free and stick                                                  DESIGN 3.1
+///   free -> stick: signed distance of the tip's centre < R on an accessible triangle;
+///                  the anchor s is the nearest point
+///   stick:         d = c - X(s) - R m, with s and m as set at capture
+///   stick -> free: f . n > 0, the tool would pull; or the tip's sphere, grown by 0.5 mm, has left the
+///                  rest surface: a tool drawn off sideways is not held from afar
 /// Differs from DESIGN 3.1 for now: friction and sliding (kSlide) are not there, an anchor sticks until
 /// release.
 class ContactSolver {
@@ -43,6 +45,8 @@ class ContactSolver {
   static void release(Contact& contact) noexcept PALPATE_NONBLOCKING;
 
  private:
+  [[nodiscard]] bool hasLeft(const MetaModel& model, const Vec3& c) const noexcept PALPATE_NONBLOCKING;
+  static void leave(Contact& contact) noexcept PALPATE_NONBLOCKING;
   void tryCapture(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
   void stick(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
 
