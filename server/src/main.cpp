@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <memory>
 
 #include "command_line.h"
+#include "log_sink.h"
 #include "palpate/server/server.h"
 
 namespace palpate::server {
@@ -24,7 +25,7 @@ void prepareProcess() {
   const sigset_t signals = stopSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // whoever reads our log may leave; the organ stays
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("palpate-server"));
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("palpate-server", std::make_shared<LogSink>()));
 }
 
 int waitForSignal() {
@@ -57,9 +58,9 @@ int serve(int argc, char** argv) {
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
   // 5. Until somebody says stop,
   const int signal = waitForSignal();
-  spdlog::info("signal {}: stopping", signal);
-  // 6. zero force first, then everything else.
+  // 6. zero force first, then everything else, the log too.
   server.stop();
+  spdlog::info("signal {}: stopped", signal);
   return 0;
 }
 

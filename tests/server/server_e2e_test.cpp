@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-server as a user runs it: its own process, poses and answers over DDS.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +53,7 @@ class ServerEndToEnd : public ::testing::Test {
   void start(std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"--model", model_.string(), "--domain", std::to_string(domain_)};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    server_ = std::make_unique<ServerProcess>(arguments);
+    server_ = std::make_unique<ServerProcess>(arguments, log_fd_);
     client_ = std::make_unique<TestClient>(domain_, 0);
     ASSERT_TRUE(client_->connect()) << server_->log();
     const auto target = client_->findTarget();
@@ -78,6 +80,7 @@ class ServerEndToEnd : public ::testing::Test {
   std::uint32_t domain_ = palpate::testing::exclusiveDomain();
   std::filesystem::path model_ =
       std::filesystem::temp_directory_path() / ("palpate-e2e-" + std::to_string(getpid()) + ".h5");
+  int log_fd_ = -1;
   std::unique_ptr<ServerProcess> server_;
   std::unique_ptr<TestClient> client_;
   Target target_;
@@ -261,6 +264,35 @@ TEST_P(ServerStops, WithZeroForceLastAndExitCodeZero) {
   }
   EXPECT_TRUE(client_->waitForStatus([](const auto& s) { return s.state == dds::server_state::kStopping; })
                   .has_value());
+}
+
+// Leaves no room in a pipe: whoever writes to it waits for a reader.
+void fill(int pipe_end) {
+  const int flags = fcntl(pipe_end, F_GETFL);
+  fcntl(pipe_end, F_SETFL, flags | O_NONBLOCK);
+  while (write(pipe_end, "x", 1) == 1) {
+  }
+  fcntl(pipe_end, F_SETFL, flags);
+}
+
+TEST_F(ServerEndToEnd, StopsWithZeroForceWhenNobodyReadsItsLog) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(ends), 0);
+  log_fd_ = ends[1];
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  ASSERT_GT(sizeOf(client_->forces().back().force), 0.0);
+  fill(ends[1]);
+  client_->forget();
+  server_->signal(SIGTERM);
+  EXPECT_EQ(server_->waitForExit(std::chrono::seconds(10)), 0);
+  pause(50);
+  const auto forces = client_->forces();
+  ASSERT_FALSE(forces.empty());
+  EXPECT_EQ(sizeOf(forces.back().force), 0.0);
+  EXPECT_NE(forces.back().flags & dds::flag::kShuttingDown, 0U);
+  close(ends[0]);
+  close(ends[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, ServerStops, ::testing::Values(SIGINT, SIGTERM));

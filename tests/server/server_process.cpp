@@ -14,8 +14,8 @@
 namespace palpate::server::testing {
 namespace {
 
-[[noreturn]] void become(const std::vector<std::string>& arguments, const std::string& log_path) {
-  const int log = open(log_path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+[[noreturn]] void become(const std::vector<std::string>& arguments, const std::string& log_path, int log_fd) {
+  const int log = log_fd >= 0 ? log_fd : open(log_path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
   dup2(log, STDERR_FILENO);
   std::vector<char*> argv{const_cast<char*>("palpate-server")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -26,10 +26,10 @@ namespace {
 
 }  // namespace
 
-ServerProcess::ServerProcess(const std::vector<std::string>& arguments)
+ServerProcess::ServerProcess(const std::vector<std::string>& arguments, int log_fd)
     : log_path_("/tmp/palpate-server-test-" + std::to_string(getpid()) + ".log") {
   pid_ = fork();
-  if (pid_ == 0) become(arguments, log_path_);
+  if (pid_ == 0) become(arguments, log_path_, log_fd);
 }
 
 ServerProcess::~ServerProcess() {

@@ -13,7 +13,8 @@ namespace palpate::server::testing {
 /// runs.
 class ServerProcess {
  public:
-  explicit ServerProcess(const std::vector<std::string>& arguments);
+  /// @param[in] log_fd  where its standard error goes instead, borrowed; -1: into the file
+  explicit ServerProcess(const std::vector<std::string>& arguments, int log_fd = -1);
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;
