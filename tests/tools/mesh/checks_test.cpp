@@ -176,5 +176,27 @@ TEST(CheckMesh, RefusesBoundaryVertexOfTwoFans) {
   EXPECT_REFUSED(checkMesh(mesh), "not a manifold", "node 1 joins several fans");
 }
 
+TEST(CheckHeld, ThreeNodesOffOneLineHoldTheOrgan) {
+  TetMesh mesh = oneTetrahedron();
+  mesh.groups["fixed"] = {0, 1, 3};
+  EXPECT_NO_THROW(checkHeld(mesh, "fixed"));
+}
+
+TEST(CheckHeld, RefusesWhatLeavesARigidMotion) {
+  TetMesh mesh = makeBox({1, 1, 1}, {4, 4, 4});
+  mesh.groups["pair"] = {0, 1};
+  mesh.groups["edge"] = {0, 1, 2, 3};
+  EXPECT_REFUSED(checkHeld(mesh, "pair"), "group 'pair': 2 nodes do not hold", "at least 3");
+  EXPECT_REFUSED(checkHeld(mesh, "edge"), "group 'edge': 4 nodes lie on one line");
+  EXPECT_REFUSED(checkHeld(mesh, "none"), "no group 'none'");
+}
+
+TEST(CheckHeld, JudgesTheLineWhateverTheUnit) {
+  TetMesh mesh = oneTetrahedron();
+  mesh.groups["fixed"] = {0, 1, 3};
+  for (auto& x : mesh.nodes) x *= 1e-6;
+  EXPECT_NO_THROW(checkHeld(mesh, "fixed"));
+}
+
 }  // namespace
 }  // namespace palpate::mesh::test

@@ -70,9 +70,9 @@ TEST(FixedRule, UnknownGroupListsThoseThereAre) {
 TEST(FixedRule, RefusesWhatDoesNotHoldTheOrgan) {
   TetMesh box = mesh::makeBox({1, 1, 1}, {5, 5, 5});
   box.groups["line"] = {0, 1, 2, 4};
-  EXPECT_REFUSED(grouped("group:line", box), "4 fixed nodes lie on one line");
-  EXPECT_REFUSED(grouped("box:5,5,5,6,6,6"), "0 fixed nodes do not hold");
-  EXPECT_REFUSED(grouped("lowest-z:0.02"), "2 fixed nodes do not hold");
+  EXPECT_REFUSED(grouped("group:line", box), "group 'fixed': 4 nodes lie on one line");
+  EXPECT_REFUSED(grouped("box:5,5,5,6,6,6"), "0 nodes do not hold");
+  EXPECT_REFUSED(grouped("lowest-z:0.02"), "2 nodes do not hold");
   EXPECT_REFUSED(grouped("box:0,0,0,1,1,1"), "all 98 surface nodes are fixed");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/mesh/checks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,7 +14,8 @@
 namespace palpate::mesh {
 namespace {
 
-constexpr double kFlat = 1e-9;  // volume over longest edge cubed; 0.118 for a regular tetrahedron
+constexpr double kFlat = 1e-9;       // volume over longest edge cubed; 0.118 for a regular tetrahedron
+constexpr double kOnOneLine = 1e-6;  // distance from the line over the farthest node's distance
 
 std::string tetName(const TetMesh& mesh, std::size_t t) {
   return "tetrahedron " + std::to_string(mesh.tetrahedron_tags[t]);
@@ -192,6 +194,26 @@ void checkMesh(const TetMesh& mesh) {
   checkFaces(mesh, faces);
   checkConnected(mesh, faces);
   checkBoundary(mesh);
+}
+
+void checkHeld(const TetMesh& mesh, const std::string& group) {
+  const std::string name = "group '" + group + "'";
+  const auto found = mesh.groups.find(group);
+  if (found == mesh.groups.end()) throw MeshError("there is no " + name + " to hold the organ");
+  const auto& held = found->second;
+  const std::string who = name + ": " + std::to_string(held.size()) + " nodes ";
+  if (held.size() < 3) throw MeshError(who + "do not hold the organ; at least 3 are needed");
+  const auto from_first = [&](std::int32_t node) -> Eigen::Vector3d {
+    return mesh.nodes[static_cast<std::size_t>(node)] - mesh.nodes[static_cast<std::size_t>(held.front())];
+  };
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (const auto node : held) {
+    if (from_first(node).norm() > along.norm()) along = from_first(node);
+  }
+  const bool spread = std::any_of(held.begin(), held.end(), [&](std::int32_t node) {
+    return from_first(node).cross(along).norm() > kOnOneLine * along.squaredNorm();
+  });
+  if (!spread) throw MeshError(who + "lie on one line and do not hold the organ");
 }
 
 }  // namespace palpate::mesh

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "palpate/mesh/checks.h"
 #include "palpate/mesh/mesh_error.h"
 
 namespace palpate::organ {
@@ -93,23 +94,6 @@ Nodes fixedNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundar
   return found == mesh.groups.end() ? Nodes{} : found->second;
 }
 
-// Fewer than three nodes, or nodes on one line, leave the organ a rigid motion.
-void checkHeld(const mesh::TetMesh& mesh, const Nodes& fixed) {
-  const auto at = [&](std::size_t i) -> const Eigen::Vector3d& {
-    return mesh.nodes[static_cast<std::size_t>(fixed[i])];
-  };
-  const std::string few = std::to_string(fixed.size()) + " fixed nodes ";
-  if (fixed.size() < 3) throw MeshError(few + "do not hold the organ; at least 3 are needed");
-  Eigen::Vector3d along = Eigen::Vector3d::Zero();
-  for (std::size_t i = 1; i < fixed.size(); ++i) {
-    if ((at(i) - at(0)).norm() > along.norm()) along = at(i) - at(0);
-  }
-  for (std::size_t i = 1; i < fixed.size(); ++i) {
-    if ((at(i) - at(0)).cross(along).norm() > 1e-6 * along.squaredNorm()) return;
-  }
-  throw MeshError(few + "lie on one line and do not hold the organ");
-}
-
 }  // namespace
 
 FixedRule parseFixedRule(const std::string& text) {
@@ -130,7 +114,10 @@ FixedRule parseFixedRule(const std::string& text) {
 
 void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const FixedRule& rule) {
   const Nodes fixed = fixedNodes(mesh, boundary, rule);
-  if (!fixed.empty() || rule.kind != FixedRule::Kind::kKeep) checkHeld(mesh, fixed);
+  if (!fixed.empty() || rule.kind != FixedRule::Kind::kKeep) {
+    mesh.groups["fixed"] = fixed;
+    mesh::checkHeld(mesh, "fixed");
+  }
   Nodes accessible;
   std::set_difference(boundary.nodes.begin(), boundary.nodes.end(), fixed.begin(), fixed.end(),
                       std::back_inserter(accessible));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "palpate/mesh/tet_mesh.h"
 
 namespace palpate::mesh {
@@ -17,5 +19,11 @@ bool reorientIfAllNegative(TetMesh& mesh);
 /// @throw MeshError naming the entity by its number in the mesh file (node_tags, tetrahedron_tags)
 /// Cost O(T log T). Real-time: no.
 void checkMesh(const TetMesh& mesh);
+
+/// Refuses a group that leaves the organ a rigid motion when its nodes are held: fewer than three nodes, or
+/// nodes on one line. The group's nodes must be indices of the mesh.
+/// @throw MeshError naming the group and its number of nodes, or that there is no such group
+/// Cost O(nodes of the group). Real-time: no.
+void checkHeld(const TetMesh& mesh, const std::string& group);
 
 }  // namespace palpate::mesh
