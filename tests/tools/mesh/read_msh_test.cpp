@@ -66,6 +66,28 @@ TEST(ReadMsh, GroupsOfTheSameNameAreOne) {
   EXPECT_EQ(mesh.groups.at("lower face"), (Nodes{0, 1, 2, 3}));
 }
 
+TEST(ReadMsh, TetrahedronListedOncePerGroupIsOne) {
+  const TetMesh two = readText("a.msh", with(with(kMsh2, "$Elements\n5", "$Elements\n6"), "9 15 2 6",
+                                             "11 4 2 9 1 2 30 4 50\n9 15 2 6"));
+  expectTwoTetrahedra(two);
+  EXPECT_EQ(two.groups.at("upper"), two.groups.at("9"));
+  const TetMesh one =
+      readText("a.msh", with(with(kMsh1, "$ELM\n4", "$ELM\n5"), "$ENDELM", "11 4 9 1 4 2 30 4 50\n$ENDELM"));
+  expectTwoTetrahedra(one);
+  EXPECT_EQ(one.groups.at("7"), one.groups.at("9"));
+}
+
+TEST(ReadMsh, TetrahedronListedTwiceInOneGroupIsRefusedByTheCheck) {
+  const auto refused = [](const std::string& group) {
+    return checkMesh(
+        readText("a.msh", with(with(kMsh2, "$Elements\n5", "$Elements\n7"), "9 15 2 6",
+                               "11 4 2 9 1 2 30 4 50\n12 4 2 " + group + " 1 2 30 4 50\n9 15 2 6")));
+  };
+  EXPECT_REFUSED(refused("7"), "tetrahedron 12", "same nodes as tetrahedron 8");
+  EXPECT_REFUSED(refused("9"), "tetrahedron 12", "same nodes as tetrahedron 8");
+  EXPECT_REFUSED(refused("0"), "tetrahedron 12", "same nodes as tetrahedron 8");
+}
+
 TEST(ReadMsh, TakesCarriageReturns) {
   std::string text = kMsh2;
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');

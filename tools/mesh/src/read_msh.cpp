@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 
 #include "msh_sections.h"
@@ -61,9 +62,29 @@ void readNodes(ByteReader& in, const MshFormat& format, RawMesh& mesh) {
   }
 }
 
+// Versions 1 and 2 list a tetrahedron once for each of its physical groups, under different numbers. The first
+// number stays; the groups have their nodes already. What one group lists twice is left for checkMesh() to
+// refuse, and so is what is listed both within a group and without (0).
+void keepFirstListing(RawMesh& mesh, const Tags& group_of) {
+  std::map<std::array<std::int64_t, 4>, Tags> listed;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    Tags& groups = listed[mesh.tetrahedra[t]];
+    groups.push_back(group_of[t]);
+    const bool again = groups.size() > 1 && std::count(groups.begin(), groups.end(), 0) == 0 &&
+                       std::count(groups.begin(), groups.end(), group_of[t]) == 1;
+    if (again) continue;
+    mesh.tetrahedra[kept] = mesh.tetrahedra[t];
+    mesh.tetrahedron_tags[kept++] = mesh.tetrahedron_tags[t];
+  }
+  mesh.tetrahedra.resize(kept);
+  mesh.tetrahedron_tags.resize(kept);
+}
+
 // number type physical elementary count nodes...
 void readElements1(ByteReader& in, RawMesh& mesh) {
   const auto count = in.checkedCount(in.textInteger("the number of elements"), 12, "the number of elements");
+  Tags group_of(mesh.tetrahedra.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto tag = in.textInteger("an element's number");
     const auto type = mshElementType(in, in.textInteger("an element's type"), tag);
@@ -75,7 +96,9 @@ void readElements1(ByteReader& in, RawMesh& mesh) {
               std::to_string(type.nodes));
     }
     readMshElement(in, mesh, false, tag, type, Tags{group});
+    group_of.resize(mesh.tetrahedra.size(), group);
   }
+  keepFirstListing(mesh, group_of);
 }
 
 // The physical number is the first of the tags.
@@ -89,19 +112,29 @@ Tags readTags(ByteReader& in, std::int64_t count) {
   return tags;
 }
 
+// One element of version 2, whose number of tags is known. Its group is noted if it is a tetrahedron.
+void readElement2(ByteReader& in, RawMesh& mesh, std::int64_t tag, std::int64_t type, std::int64_t tags,
+                  Tags& group_of) {
+  const MshElementType known = mshElementType(in, type, tag);
+  const Tags groups = readTags(in, tags);
+  readMshElement(in, mesh, false, tag, known, groups);
+  group_of.resize(mesh.tetrahedra.size(), groups.empty() ? 0 : groups.front());
+}
+
 void readElements2(ByteReader& in, const MshFormat& format, RawMesh& mesh) {
   const auto count = in.checkedCount(in.textInteger("the number of elements"), 8, "the number of elements");
   if (format.binary) in.line();
   in.setBinary(format.binary);
+  Tags group_of(mesh.tetrahedra.size(), 0);
   for (std::size_t i = 0; i < count;) {
     if (!format.binary) {
       const auto tag = in.textInteger("an element's number");
-      const auto type = mshElementType(in, in.textInteger("an element's type"), tag);
-      readMshElement(in, mesh, false, tag, type, readTags(in, in.textInteger("an element's number of tags")));
+      const auto type = in.textInteger("an element's type");
+      readElement2(in, mesh, tag, type, in.textInteger("an element's number of tags"), group_of);
       ++i;
       continue;
     }
-    const auto number = in.integer32("an element's type");
+    const auto type = in.integer32("an element's type");
     const auto follow = in.integer32("a number of elements");
     const auto tags = in.integer32("an element's number of tags");
     if (follow < 1 || static_cast<std::size_t>(follow) > count - i) {
@@ -109,11 +142,10 @@ void readElements2(ByteReader& in, const MshFormat& format, RawMesh& mesh) {
     }
     for (std::int64_t k = 0; k < follow; ++k, ++i) {
       const auto tag = in.integer32("an element's number");
-      const auto type = mshElementType(in, number, tag);
-      const Tags groups = readTags(in, tags);
-      readMshElement(in, mesh, false, tag, type, groups);
+      readElement2(in, mesh, tag, type, tags, group_of);
     }
   }
+  keepFirstListing(mesh, group_of);
 }
 
 void skipSection(ByteReader& in, const std::string& name) {
