@@ -80,10 +80,11 @@ void checkOutput(const std::filesystem::path& output) {
   if (access(folder.c_str(), W_OK) != 0) refuse("the folder " + folder.string() + " cannot be written");
 }
 
-mesh::TetMesh readOrgan(const std::filesystem::path& path) {
+mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fixed) {
   mesh::TetMesh organ = mesh::readMesh(path);
   try {
     mesh::checkMesh(organ);
+    if (organ.groups.count(fixed) != 0) mesh::checkHeld(organ, fixed);
   } catch (const mesh::MeshError& error) {
     throw mesh::MeshError(path.string() + ": " + error.what());
   }
@@ -144,7 +145,7 @@ void run(Options options) {
   checkOutput(options.output);
   offline::Case c = readInput(options);
   // 2. The organ.
-  const mesh::TetMesh organ = readOrgan(c.mesh);
+  const mesh::TetMesh organ = readOrgan(c.mesh, c.fixed);
   adoptGroups(c, organ);
   // 3. Series, far field, near field.
   if (options.scratch.empty()) options.scratch = std::filesystem::absolute(options.output).parent_path();

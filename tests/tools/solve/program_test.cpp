@@ -118,6 +118,12 @@ TEST_F(SolveProgram, RefusesAnUnknownGroupAndListsThoseThereAre) {
   expectRefusal(result, "no group \"rib\"");
   EXPECT_NE(result.err.find("accessible, fixed"), std::string::npos) << result.err;
 }
+TEST_F(SolveProgram, RefusesAClampThatDoesNotHold) {
+  mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
+  block.groups["fixed"] = {0, 1};
+  writeBlock("loose.msh", block);
+  expectRefusal(solve({path("loose.msh"), "-o", path("out.h5")}), "loose.msh");
+}
 TEST_F(SolveProgram, RefusesAFolderThatIsNotThereBeforeItSolves) {
   expectRefusal(solve({path("block.msh"), "-o", path("nowhere/out.h5")}), "there is no folder");
 }
