@@ -20,8 +20,9 @@ bool cut(double limit, Vec3& f, Mat3& K) noexcept {
 
 }  // namespace
 
-double ForceLimiter::freshness(double age) const noexcept PALPATE_NONBLOCKING {
-  return std::clamp((config_.zero_after - age) / (config_.zero_after - config_.stale_timeout), 0.0, 1.0);
+double ForceLimiter::freshness(double age_at_end) const noexcept PALPATE_NONBLOCKING {
+  return std::clamp((config_.zero_after - age_at_end) / (config_.zero_after - config_.stale_timeout), 0.0,
+                    1.0);
 }
 
 LimitedForce ForceLimiter::limit(const LimiterInput& in,
@@ -40,7 +41,7 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
   const double step = in.dt / config_.ramp_time;
   memory.blend = std::max(0.0, memory.blend - step);
   if (in.shutting_down) memory.fade = std::max(0.0, memory.fade - step);
-  memory.gain = memory.fade * freshness(in.age);
+  memory.gain = memory.fade * freshness(in.age + in.period);
   out.force = memory.gain * ((1.0 - memory.blend) * memory.target + memory.blend * memory.from);
   out.stiffness = memory.gain * (1.0 - memory.blend) * K;
   memory.rendered = out.force;

@@ -23,12 +23,15 @@ class Tick {
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
   void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept;
   void deform(StepResult& result) noexcept;
+  void evaluate(StepResult& result) noexcept;
+  void blendField() noexcept;
   void report(const ToolMemory& memory, ToolResult& out) const noexcept;
 
   const MetaModel& model_;
   Workspace& work_;
   const StepInput& input_;
   double dt_;
+  bool jumped_{false};  // some tool's contact did, in this tick
 };
 
 namespace {
@@ -92,6 +95,7 @@ void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) n
     grow(tool, memory);
   }
   memory.was_stale = memory.age > work_.config_.stale_timeout;
+  jumped_ = jumped_ || jumped;
   render(memory, !good, jumped, out);
 }
 
@@ -102,6 +106,7 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
   in.stiffness = -memory.contact.response.stiffness;
   in.age = memory.age;
   in.dt = dt_;
+  in.period = 1e-9 * double(input_.period_ns);
   in.held = held;
   in.jumped = jumped;
   in.shutting_down = input_.shutting_down != 0;
@@ -113,8 +118,29 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
     out.stiffness[i] = limited.stiffness(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
 }
 
-/// The surface under all tools together; a tool whose force fades takes its dimple with it.
+/// The surface as shown. Where a contact jumps, the field moves over like the force does: the weight of the
+/// field before falls from 1 to 0 within ramp_time. One weight for the whole field, so that a second jump
+/// starts from what is shown.
 void Tick::deform(StepResult& result) noexcept {
+  if (jumped_) {
+    std::copy(work_.displacement_.begin(), work_.displacement_.end(), work_.displacement_from_.begin());
+    work_.displacement_blend_ = 1.0;
+  }
+  evaluate(result);
+  blendField();
+}
+
+void Tick::blendField() noexcept {
+  double& blend = work_.displacement_blend_;
+  blend = std::max(0.0, blend - dt_ / work_.config_.ramp_time);
+  if (blend == 0.0) return;
+  const auto weight = static_cast<float>(blend);
+  for (std::size_t i = 0; i < work_.displacement_.size(); ++i)
+    work_.displacement_[i] += weight * (work_.displacement_from_[i] - work_.displacement_[i]);
+}
+
+/// The surface under all tools together; a tool whose force fades takes its dimple with it.
+void Tick::evaluate(StepResult& result) noexcept {
   std::array<FieldSource, kMaxTools> sources;
   std::size_t count = 0;
   for (const ToolMemory& memory : work_.tools_)

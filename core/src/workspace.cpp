@@ -17,6 +17,7 @@ Workspace::Workspace(const MetaModel& model, const StepConfig& config)
       solver_(config.tip_radius),
       limiter_(config),
       scratch_(model),
-      displacement_(3 * static_cast<std::size_t>(model.surface().nodes())) {}
+      displacement_(3 * static_cast<std::size_t>(model.surface().nodes())),
+      displacement_from_(displacement_.size()) {}
 
 }  // namespace palpate

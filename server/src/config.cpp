@@ -38,6 +38,17 @@ std::optional<Complaint> firstToolComplaint(const StepConfig& step) {
   }
 }
 
+// A force stands for a period: with a longer one even the answer to a fresh pose would count as stale.
+std::optional<Complaint> rateComplaint(const ServerConfig& config) {
+  constexpr double kRounding = 1e-9;
+  const double slowest = 1.0 / config.step.stale_timeout;
+  if (config.rate >= slowest * (1.0 - kRounding)) return std::nullopt;
+  std::ostringstream text;
+  text << "is " << config.rate << ", expected at least " << slowest
+       << " Hz: a period has to fit into tool.stale_timeout, " << config.step.stale_timeout << " s";
+  return Complaint{"rate", text.str()};
+}
+
 }  // namespace
 
 std::optional<Complaint> firstComplaint(const ServerConfig& config) {
@@ -53,7 +64,8 @@ std::optional<Complaint> firstComplaint(const ServerConfig& config) {
     // Written so that NaN complains too.
     if (!(range.value >= range.low && range.value <= range.high)) return Complaint{range.key, outOf(range)};
   }
-  return firstToolComplaint(config.step);
+  if (const auto complaint = firstToolComplaint(config.step)) return complaint;
+  return rateComplaint(config);
 }
 
 rt::RealtimePolicy parsePolicy(const std::string& word) {

@@ -28,7 +28,7 @@ constexpr FlagText kFlagTexts[] = {
     {kBeyondDomain, "pressed beyond the model's domain: answer clamped"},
     {kForceLimited, "force cut to the limit"},
     {kNotAccessible, "touches a part of the surface that has no answer"},
-    {kNonFiniteForce, "the model overflowed: treated as stale"},
+    {kNonFiniteForce, "the model overflowed: force as after a stale pose, or no field"},
     {kPoseOutOfOrder, "pose number or stamp went backwards (sender restarted, or two senders)"},
 };
 

@@ -34,6 +34,10 @@ Facts factsOf(const MetaModel& model, const ServerConfig& config) {
   return facts;
 }
 
+std::int64_t periodOf(const ServerConfig& config) {
+  return std::llround(1e9 / config.rate);
+}
+
 // Locks what exists by now. @return whether it and the model are locked
 bool lockAll(const MetaModel& model) {
   const int refused = rt::lockMemory();
@@ -72,7 +76,7 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       surface_out_(participant_, channels_, facts_, model),
       status_out_(participant_, facts_),
       events_(channels_, status_out_),
-      tick_(model, work_, channels_, static_cast<std::uint64_t>(config.surface_every)),
+      tick_(model, work_, channels_, static_cast<std::uint64_t>(config.surface_every), periodOf(config)),
       poses_in_(participant_, channels_),
       ramp_time_(config.step.ramp_time) {
   facts_.memory_locked = lockAll(model);
@@ -109,9 +113,8 @@ void Server::startThreads(const ServerConfig& config) {
   force_thread_ = start("force-out", kForcePriority, [this] { force_out_.run(); });
   surface_thread_ = start("surface-out", kSurfacePriority, [this] { surface_out_.run(); });
   events_thread_ = start("events", 0, [this] { events_.run(); });
-  tick_thread_ =
-      std::make_unique<rt::PeriodicThread>(rt::ThreadOptions{"tick", kTickPriority, policy},
-                                           std::llround(1e9 / config.rate), &Tick::onCycle, &tick_);
+  tick_thread_ = std::make_unique<rt::PeriodicThread>(rt::ThreadOptions{"tick", kTickPriority, policy},
+                                                      periodOf(config), &Tick::onCycle, &tick_);
 }
 
 void Server::stop() {

@@ -37,6 +37,26 @@ TEST(ForceLimiter, PassesSmallForcesUnchanged) {
   EXPECT_EQ(out.flags, 0U);
 }
 
+TEST(ForceLimiter, NothingButZeroStandsFiftyMillisecondsAfterTheLastPose) {
+  const ForceLimiter limiter(StepConfig{});
+  for (const double period : {0.0001, 0.001, 0.0033, 0.02}) {
+    for (const double phase : {0.0, 0.13, 0.5, 0.97}) {  // the ages lie off the grid of 50 ms
+      Rendering memory;
+      LimiterInput in = pushing(Vec3(0.0, 0.0, 1.0));
+      in.dt = in.period = period;
+      for (in.age = phase * period; in.age < 0.1; in.age += period) {
+        const Vec3 force = limiter.limit(in, memory).force;
+        if (in.age + period > 0.050) {
+          ASSERT_EQ(force, Vec3::Zero()) << "sent at " << in.age << " s, period " << period;
+        }
+        if (in.age + period < 0.020) {
+          ASSERT_EQ(force, in.force) << "sent at " << in.age << " s, period " << period;
+        }
+      }
+    }
+  }
+}
+
 TEST(ForceLimiter, CutsLongForcesAndTheirStiffness) {
   const ForceLimiter limiter(StepConfig{});
   Rendering memory;

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "driver.h"
 #include "palpate/modelfile/model_file.h"
@@ -216,6 +219,49 @@ TEST(Step, OverflowInTheModelNeverComesOut) {
   EXPECT_TRUE(isFinite(driver.result().tools[0]));
   EXPECT_EQ(driver.result().tools[0].flags & kNonFiniteForce, kNonFiniteForce);
   for (const float u : driver.work().displacement()) ASSERT_TRUE(std::isfinite(u));
+}
+
+TEST(Step, OverflowInTheFieldAloneLeavesTheForceAndShowsNoField) {
+  modelfile::ModelData data = syntheticModel();
+  for (float& x : data.modes_X) x *= 1e30F;
+  for (float& y : data.modes_Y) y *= 1e30F;
+  const TemporaryFile file("field-overflow.h5");
+  modelfile::writeModel(file.path(), data);
+  const MetaModel model = MetaModel::load(file.path());
+  Driver driver(model), sound(organ());
+  press(driver, 0.004);
+  press(sound, 0.004);
+  EXPECT_EQ(driver.result().tools[0].flags, kInContact | kNonFiniteForce);
+  EXPECT_EQ(driver.result().tools[0].force, sound.result().tools[0].force);
+  EXPECT_EQ(driver.status(), StepStatus::kFlagged);
+  for (const float u : driver.work().displacement()) ASSERT_EQ(u, 0.0F);
+}
+
+/// Largest step of a component of the field in one tick.
+float stepOf(const Driver& driver, std::vector<float>& last) {
+  float most = 0.0F;
+  const std::span<const float> now = driver.work().displacement();
+  for (std::size_t i = 0; i < now.size(); ++i) most = std::max(most, std::abs(now[i] - last[i]));
+  last.assign(now.begin(), now.end());
+  return most;
+}
+
+TEST(Step, FieldIsContinuousWhenAContactJumps) {
+  Driver driver(organ());
+  std::vector<float> last(driver.work().displacement().size());
+  const auto play = [&](const Vec3& c, int ticks, std::int64_t age_ns, const char* what) {
+    for (int ms = 0; ms < ticks; ++ms) {
+      driver.at(c, age_ns);
+      ASSERT_LE(stepOf(driver, last), 2e-4F) << what << ", " << ms << " ms";
+    }
+  };
+  ASSERT_NO_FATAL_FAILURE(play(above(0.004), 50, 0, "appears inside"));
+  EXPECT_LT(*std::min_element(last.begin(), last.end()), -0.001F);
+  ASSERT_NO_FATAL_FAILURE(play(Vec3(0.2, 0.0, 0.0), 10, 0, "gone at once"));
+  ASSERT_NO_FATAL_FAILURE(play(Vec3(0.052, 0.0, 0.0), 50, 0, "elsewhere while it still blends"));
+  for (std::int64_t ms = 1; ms < 80; ++ms)
+    ASSERT_NO_FATAL_FAILURE(play(Vec3(0.052, 0.0, 0.0), 1, ms * 1'000'000, "falls silent"));
+  ASSERT_NO_FATAL_FAILURE(play(above(0.004), 50, 0, "comes back"));
 }
 
 TEST(Step, ForceNeverPulls) {

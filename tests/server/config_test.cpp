@@ -94,6 +94,12 @@ TEST_F(ConfigFile, RefusesANumberOutOfRangeByNameAndLine) {
   EXPECT_EQ(refusal("server_id = 4294967296"), ":1: server_id is 4294967296, expected 0 to 4294967295");
 }
 
+TEST_F(ConfigFile, RefusesARateWhosePeriodDoesNotFitIntoTheStaleTimeout) {
+  EXPECT_EQ(refusal("rate = 40").find(":1: rate is 40, expected at least 50 Hz"), 0U) << refusal("rate = 40");
+  EXPECT_EQ(refusal("rate = 50"), "accepted");
+  EXPECT_EQ(refusal("rate = 40\n[tool]\nstale_timeout = 0.025"), "accepted");
+}
+
 TEST_F(ConfigFile, RefusesAParameterOfTheEngineByNameAndLine) {
   EXPECT_EQ(refusal("domain = 1\n[tool]\ntip_radius = 0.2").find(":3: tool.tip_radius "), 0U)
       << refusal("domain = 1\n[tool]\ntip_radius = 0.2");

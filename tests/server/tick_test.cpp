@@ -84,7 +84,7 @@ class TickTest : public ::testing::Test {
   Workspace work_{model_, StepConfig{}};
   std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3 * model_.view().surfaceNodes());
   PoseIntake intake_{*channels_};
-  Tick tick_{model_, work_, *channels_, 1};
+  Tick tick_{model_, work_, *channels_, 1, kPeriod};
   rt::Cycle cycle_;
   std::int64_t now_ns_{1'000'000'000};
   std::uint64_t pose_seq_{0};
@@ -182,7 +182,7 @@ TEST_F(TickTest, AFullRingCostsTheNewestRecordAndTheCounterShowsIt) {
 }
 
 TEST_F(TickTest, WritesTheSurfaceOnlyAsOftenAsAsked) {
-  Tick seldom(model_, work_, *channels_, 10);
+  Tick seldom(model_, work_, *channels_, 10, kPeriod);
   for (cycle_.index = 0; cycle_.index < 30; ++cycle_.index) seldom.run(cycle_);
   ASSERT_TRUE(channels_->surface.update());
   EXPECT_EQ(channels_->surface.front().seq, 3U);

@@ -25,6 +25,7 @@ struct LimiterInput {
   Mat3 stiffness = Mat3::Zero();  ///< d force / d pose, N/m (not looked at when held)
   double age{0.0};                ///< s since the last good pose
   double dt{0.0};                 ///< s since the last tick
+  double period{0.0};             ///< s until the next force replaces this one
   bool held{false};               ///< no good pose in this tick: the last good force stands in
   bool jumped{false};             ///< the model's force is not continuous in this tick: blend over
   bool shutting_down{false};      ///< fade to zero, for good
@@ -39,8 +40,9 @@ struct LimitedForce {
 
 /// Keeps what a device gets safe and continuous DESIGN 3.2
 ///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
-///   gain  = fade clamp((zero_after - age) / (zero_after - stale_timeout), 0, 1): a stale pose has ramped to
-///   zero by zero_after, whatever the rate of the loop. A jump keeps the force of the tick before as `from`
+///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
+///   that the force will have when the next one replaces it, so that none but zero stands after zero_after,
+///   whatever the rate of the loop. A jump keeps the force of the tick before as `from`
 ///   and lets its weight fall from 1 to 0 within ramp_time. A convex mix, so that two forces that push never
 ///   add to one that pulls, and two within the limit never to one beyond it.
 class ForceLimiter {
@@ -52,7 +54,7 @@ class ForceLimiter {
                                    Rendering& memory) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] double freshness(double age) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] double freshness(double age_at_end) const noexcept PALPATE_NONBLOCKING;
 
   StepConfig config_;
 };

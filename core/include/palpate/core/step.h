@@ -22,8 +22,9 @@ struct ToolInput {
 /// Input of one tick. Plain: it crosses threads.
 struct StepInput {
   std::array<ToolInput, kMaxTools> tools{};
-  std::int64_t dt_ns{1'000'000};   ///< since the last tick, ns; taken as 0 to 0.1 s
-  std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
+  std::int64_t dt_ns{1'000'000};      ///< since the last tick, ns; taken as 0 to 0.1 s
+  std::int64_t period_ns{1'000'000};  ///< of the loop: what is sent now stands until it is replaced, ns
+  std::uint32_t shutting_down{0};     ///< not 0: ramp every force to zero within ramp_time and stay there
 };
 
 /// What one tool gets. Plain: it crosses threads.

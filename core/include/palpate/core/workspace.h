@@ -44,6 +44,8 @@ class Workspace {
   std::array<ToolMemory, kMaxTools> tools_{};
   FieldScratch scratch_;
   std::vector<float> displacement_;
+  std::vector<float> displacement_from_;  // the field at the last jump,
+  double displacement_blend_{0.0};        // and its weight, 1 at the jump, then falling to 0
 };
 
 }  // namespace palpate

@@ -17,9 +17,13 @@ namespace palpate::server {
 class Tick {
  public:
   /// @param[in] surface_every  ticks per surface field, >= 1
+  /// @param[in] period_ns      of the loop
   /// The three references must outlive the tick.
-  Tick(const MetaModel& model, Workspace& work, Channels& channels, std::uint64_t surface_every)
-      : model_(model), work_(work), channels_(channels), surface_every_(surface_every) {}
+  Tick(const MetaModel& model, Workspace& work, Channels& channels, std::uint64_t surface_every,
+       std::int64_t period_ns)
+      : model_(model), work_(work), channels_(channels), surface_every_(surface_every) {
+    input_.period_ns = period_ns;
+  }
 
   void run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
 
