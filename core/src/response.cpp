@@ -10,14 +10,14 @@ namespace {
 
 /// d, or d scaled to the radius of the domain.
 Vec3 clampToDomain(const Vec3& d, double radius) noexcept {
-  const double length = d.norm();
-  return length > radius ? Vec3(d * (radius / length)) : d;
+  const double length = d.stableNorm();  // |d|^2 of a huge displacement overflows
+  return length > radius ? Vec3(d.stableNormalized() * radius) : d;
 }
 
 /// Derivative of d -> radius d / |d|, for |d| > 0.
 Mat3 projectionGradient(const Vec3& d, double radius) noexcept {
-  const Vec3 direction = d.normalized();
-  return (radius / d.norm()) * (Mat3::Identity() - direction * direction.transpose());
+  const Vec3 direction = d.stableNormalized();
+  return (radius / d.stableNorm()) * (Mat3::Identity() - direction * direction.transpose());
 }
 
 using Monomials = std::array<double, MonomialBasis::kMaxCoefficients>;

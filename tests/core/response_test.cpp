@@ -145,6 +145,17 @@ TEST(Response, BeyondTheDomainTheForceIsThatOfTheScaledDisplacement) {
   EXPECT_LT(largestDifference(field(s, d), field(s, far.displacement)), 1e-9);
 }
 
+TEST(Response, AHugeDisplacementIsAnsweredAtTheDomainToo) {
+  Random random;
+  const ContactPoint s = random.contactPoint();
+  const Vec3 d(1.0, 1.0, -1.0);
+  Response near, far;
+  EXPECT_EQ(respond(organ(), s, d, near), ResponseStatus::kClamped);
+  EXPECT_EQ(respond(organ(), s, 1e200 * d, far), ResponseStatus::kClamped);
+  EXPECT_GT(near.force.norm(), 0.0);
+  EXPECT_LT((near.force - far.force).norm(), 1e-12 * near.force.norm());
+}
+
 TEST(Response, HasNoAnswerOnTheFixedPart) {
   const ContactPoint s = organ().surface().closestPoint(Vec3(0.0, 0.0, -1.0)).s;
   Response out;
