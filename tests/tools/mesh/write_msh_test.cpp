@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/mesh/write_msh.h"
 
+#include <iterator>
+
 #include "helpers.h"
 #include "palpate/mesh/box_mesh.h"
 #include "palpate/mesh/read_mesh.h"
@@ -9,10 +11,14 @@
 namespace palpate::mesh::test {
 namespace {
 
+std::ptrdiff_t entriesOf(const Folder& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder / "."), {});
+}
+
 TetMesh throughFile(const TetMesh& mesh) {
   const Folder folder;
   writeMsh(folder / "a.msh", mesh, boundaryOf(mesh));
-  EXPECT_FALSE(std::filesystem::exists(folder / "a.msh.part"));
+  EXPECT_EQ(entriesOf(folder), 1);  // nothing is left beside it
   return readMesh(folder / "a.msh");
 }
 
@@ -64,7 +70,27 @@ TEST(WriteMsh, KeepsCoordinatesToTheLastBit) {
 TEST(WriteMsh, RefusesAPlaceThatCannotBeWritten) {
   const TetMesh mesh = oneTetrahedron();
   const Folder folder;
-  EXPECT_REFUSED(writeMsh(folder / "none/a.msh", mesh, boundaryOf(mesh)), "none/a.msh", "cannot be written");
+  EXPECT_REFUSED(writeMsh(folder / "none/a.msh", mesh, boundaryOf(mesh)), "none/a.msh",
+                 "cannot be written: No such file or directory");
+}
+
+TEST(WriteMsh, AFolderOfThatNameStaysAndNothingIsLeftBesideIt) {
+  const TetMesh mesh = oneTetrahedron();
+  const Folder folder;
+  std::filesystem::create_directory(folder / "a.msh");
+  EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)),
+                 "a.msh: cannot be written: Is a directory");
+  EXPECT_EQ(entriesOf(folder), 1);
+}
+
+TEST(WriteMsh, TellsThatTheDiskIsFull) {
+  const TetMesh mesh = makeBeam();
+  const Folder folder;
+  const std::string beside = "a.msh.tmp-" + std::to_string(getpid());
+  std::filesystem::create_symlink("/dev/full", folder / beside);
+  EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)),
+                 "a.msh: cannot be written: No space left");
+  EXPECT_EQ(entriesOf(folder), 0);
 }
 
 TEST(WriteMsh, RefusesGroupNamesThatTheFormatCannotHold) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/mesh/write_msh.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <map>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "palpate/mesh/mesh_error.h"
@@ -170,26 +174,36 @@ void writeElements(std::ostream& out, const TetMesh& mesh, const Layout& layout)
   out << "$EndElements\n";
 }
 
-}  // namespace
-
-void writeMsh(const std::filesystem::path& path, const TetMesh& mesh, const BoundarySurface& boundary) {
-  const Layout layout = layoutOf(mesh, boundary);
-  std::filesystem::path beside = path;
-  beside += ".part";
-  std::ofstream out(beside);
+void writeSections(std::ostream& out, const TetMesh& mesh, const Layout& layout) {
   out.precision(17);
   out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   writeNames(out, layout);
   writeEntities(out, mesh, layout);
   writeNodes(out, mesh);
   writeElements(out, mesh, layout);
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(beside, path, error);
-  if (out && !error) return;
+}
+
+// Writes the file; what went wrong first, if anything. A stream only says that it failed, errno says why.
+std::error_code writeFile(const std::filesystem::path& path, const TetMesh& mesh, const Layout& layout) {
+  errno = 0;
+  std::ofstream out(path);
+  if (out) writeSections(out, mesh, layout);
+  if (out) out.close();
+  return out ? std::error_code{} : std::error_code(errno != 0 ? errno : EIO, std::generic_category());
+}
+
+}  // namespace
+
+void writeMsh(const std::filesystem::path& path, const TetMesh& mesh, const BoundarySurface& boundary) {
+  const Layout layout = layoutOf(mesh, boundary);
+  // The process's own name, so that two of them do not write into one file.
+  const std::filesystem::path beside = path.string() + ".tmp-" + std::to_string(::getpid());
+  std::error_code error = writeFile(beside, mesh, layout);
+  if (!error) std::filesystem::rename(beside, path, error);
+  if (!error) return;
   std::error_code ignored;  // the first error is the one to tell
   std::filesystem::remove(beside, ignored);
-  throw MeshError(path.string() + ": cannot be written");
+  throw MeshError(path.string() + ": cannot be written: " + error.message());
 }
 
 }  // namespace palpate::mesh
