@@ -73,7 +73,9 @@ TEST(CheckMesh, RefusesRepeatedCorner) {
 TEST(CheckMesh, RefusesFlatTetrahedron) {
   TetMesh mesh = oneTetrahedron();
   mesh.nodes[3] = {0.3, 0.3, 1e-10};
-  EXPECT_REFUSED(checkMesh(mesh), "tetrahedron 7", "flat");
+  EXPECT_REFUSED(checkMesh(mesh), "tetrahedron 7", "flat (volume 0.0167 mm^3)");
+  for (auto& x : mesh.nodes) x *= 1e-6;
+  EXPECT_REFUSED(checkMesh(mesh), "tetrahedron 7", "flat (volume 1.67e-20 mm^3)");
 }
 
 TEST(CheckMesh, JudgesFlatnessWhateverTheUnit) {
@@ -86,7 +88,7 @@ TEST(CheckMesh, RefusesOneInvertedTetrahedron) {
   TetMesh mesh = twoTetrahedra();
   std::swap(mesh.tetrahedra[1][2], mesh.tetrahedra[1][3]);
   EXPECT_FALSE(reorientIfAllNegative(mesh));
-  EXPECT_REFUSED(checkMesh(mesh), "tetrahedron 8", "inverted");
+  EXPECT_REFUSED(checkMesh(mesh), "tetrahedron 8", "inverted (volume -3.33e+08 mm^3)");
 }
 
 TEST(CheckMesh, TurnsAMeshOverThatIsAllInverted) {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <string>
 
@@ -23,6 +24,13 @@ std::string tetName(const TetMesh& mesh, std::size_t t) {
 
 std::string nodeName(const TetMesh& mesh, std::size_t i) {
   return "node " + std::to_string(mesh.node_tags[i]);
+}
+
+// Volumes span many orders of magnitude: a fixed number of decimals would show a sliver as 0.
+std::string inCubicMillimetres(double volume) {
+  char text[40];
+  std::snprintf(text, sizeof text, "(volume %.3g mm^3)", volume * 1e9);
+  return text;
 }
 
 std::string faceName(const TetMesh& mesh, const TetFace& face) {
@@ -89,10 +97,10 @@ void checkVolumes(const TetMesh& mesh) {
     const double volume = signedVolume(mesh, t);
     // Negated, so that an overflow to NaN is refused as well.
     if (!(std::abs(volume) >= kFlat * std::pow(longestEdge(mesh, t), 3)) || volume == 0) {
-      throw MeshError(tetName(mesh, t) + " is flat (volume " + std::to_string(volume * 1e9) + " mm^3)");
+      throw MeshError(tetName(mesh, t) + " is flat " + inCubicMillimetres(volume));
     }
     if (volume < 0) {
-      throw MeshError(tetName(mesh, t) + " is inverted (volume " + std::to_string(volume * 1e9) + " mm^3)");
+      throw MeshError(tetName(mesh, t) + " is inverted " + inCubicMillimetres(volume));
     }
   }
 }
