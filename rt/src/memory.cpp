@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/rt/memory.h"
 
+#include <linux/capability.h>
 #include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,18 +18,27 @@ namespace {
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 constexpr std::size_t kPage = 4096;
 
+// The effective capability decides, not the user: root in a container may lack it, a service may have it.
+bool mayLockWithoutLimit() noexcept {
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct data[_LINUX_CAPABILITY_U32S_3]{};
+  if (syscall(SYS_capget, &header, data) != 0) return false;
+  return (data[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
+}
+
 bool lockingIsUnlimited() noexcept {
   rlimit limit{};
-  return geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+  return mayLockWithoutLimit() || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
 }
 
 }  // namespace
 
-int lockMemory() noexcept {
+MemoryLock lockMemory() noexcept {
   mallopt(M_TRIM_THRESHOLD, -1);
   mallopt(M_MMAP_MAX, 0);
-  const int scope = lockingIsUnlimited() ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT;
-  return mlockall(scope) == 0 ? 0 : errno;
+  const bool unlimited = lockingIsUnlimited();
+  if (mlockall(unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) != 0) return {errno, false, false};
+  return {0, true, unlimited};
 }
 
 void prefaultStack() noexcept {

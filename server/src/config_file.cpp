@@ -4,6 +4,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "palpate/server/config.h"
 
@@ -63,15 +64,19 @@ class KeyReader {
   void refuseUnaskedIn(const toml::table& table, const std::string& prefix) const {
     for (const auto& [name, node] : table) {
       const std::string key = prefix + std::string(name.str());
-      if (asked_.count(key) != 0) continue;
-      const bool section = leadsToAnAskedKey(key);
+      // A quoted name may hold a dot; it looks like one of ours, but at_path() never found it.
+      const bool dotted = name.str().find('.') != std::string_view::npos;
+      if (!dotted && asked_.count(key) != 0) continue;
+      const bool section = !dotted && leadsToAnAskedKey(key);
       if (section && node.is_table()) {
         refuseUnaskedIn(*node.as_table(), key + ".");
         continue;
       }
       const std::string line = std::to_string(name.source().begin.line);
       throw ConfigError(file_ + ":" + line + ": " +
-                        (section ? key + " is not a table" : "unknown key " + key));
+                        (section  ? key + " is not a table"
+                         : dotted ? "unknown key " + prefix + "\"" + std::string(name.str()) + "\""
+                                  : "unknown key " + key));
     }
   }
 
@@ -119,9 +124,12 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   keys.read("surface_every", config.surface_every);
   readTool(keys, config.step);
   keys.refuseUnasked();
-  if (!model.empty()) config.model = path.parent_path() / model;
+  if (root.contains("model")) {
+    if (model.empty()) keys.refuse("model", "is empty, expected the path of a model file");
+    config.model = path.parent_path() / model;
+  }
   try {
-    if (!realtime.empty()) config.realtime = parsePolicy(realtime);
+    if (root.contains("realtime")) config.realtime = parsePolicy(realtime);
   } catch (const ConfigError& error) {
     keys.refuse("realtime", error.what());
   }

@@ -38,15 +38,20 @@ std::int64_t periodOf(const ServerConfig& config) {
   return std::llround(1e9 / config.rate);
 }
 
-// Locks what exists by now. @return whether it and the model are locked
+const char* reasonNotLocked(const rt::MemoryLock& lock) {
+  if (!lock.present) return std::strerror(lock.refused);
+  return lock.future ? "the model is not" : "under a limit, only what exists by now is";
+}
+
+// Locks what exists by now and what comes. @return whether all of it and the model are locked
 bool lockAll(const MetaModel& model) {
-  const int refused = rt::lockMemory();
-  const bool locked = refused == 0 && model.locked();
+  const rt::MemoryLock lock = rt::lockMemory();
+  const bool locked = lock.present && lock.future && model.locked();
   if (locked) {
     spdlog::info("memory: locked");
   } else {
     spdlog::warn("memory: not locked ({}), a tick may wait for a page; raise ulimit -l or grant CAP_IPC_LOCK",
-                 refused != 0 ? std::strerror(refused) : "the model is not");
+                 reasonNotLocked(lock));
   }
   return locked;
 }

@@ -117,11 +117,25 @@ TEST(LockMemory, SaysWhyWhenRefused) {
   const int code = withoutPrivilege([] {
     const rlimit none{0, 0};
     setrlimit(RLIMIT_MEMLOCK, &none);
-    return lockMemory() == 0 ? 1 : 0;
+    return lockMemory().refused == 0 ? 1 : 0;
   });
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizers take mlockall away, code " << code;
 #endif
+  EXPECT_EQ(code, 0);
+}
+
+TEST(LockMemory, UnderALimitDoesNotClaimWhatIsMappedLater) {
+  const int code = withoutPrivilege([] {
+    rlimit limit{};
+    getrlimit(RLIMIT_MEMLOCK, &limit);
+    constexpr rlim_t kMuch = rlim_t{1} << 30;
+    limit.rlim_cur = limit.rlim_max = limit.rlim_max < kMuch ? limit.rlim_max : kMuch;
+    if (setrlimit(RLIMIT_MEMLOCK, &limit) != 0) return 2;
+    const MemoryLock lock = lockMemory();
+    if (lock.future) return 1;
+    return lock.present == (lock.refused == 0) ? 0 : 3;
+  });
   EXPECT_EQ(code, 0);
 }
 

@@ -50,10 +50,26 @@ class HastyQueue {
   std::atomic<std::uint64_t> head_{0};
 };
 
-// Counts values that are not the next ones in order, whole. Ends after kValues, or at the first wrong one, or
-// in time.
+// The other wrong twin: passes a few values on and then nothing, as if one side never saw the other's counter.
+class StallingQueue {
+ public:
+  bool push(const Value& value) { return pushed_ < kLast && queue_.push(value) && ++pushed_ > 0; }
+  bool pop(Value& value) { return queue_.pop(value); }
+
+ private:
+  static constexpr std::uint64_t kLast = 100;
+  SpscQueue<Value, 8> queue_;
+  std::uint64_t pushed_{0};  // the producer's own
+};
+
+struct Tally {
+  std::uint64_t wrong{0};     // values that are not the next ones in order, whole
+  std::uint64_t received{0};  // all values
+};
+
+// Ends after kValues, or at the first wrong one, or in time.
 template <class Queue>
-std::uint64_t wrongValues(Queue& queue, std::int64_t end_ns) {
+Tally tally(Queue& queue, std::int64_t end_ns) {
   std::atomic<bool> stop{false};
   std::thread producer([&] {
     std::uint64_t number = 0;
@@ -61,20 +77,21 @@ std::uint64_t wrongValues(Queue& queue, std::int64_t end_ns) {
       if (queue.push(filled(number + 1))) ++number;
     }
   });
-  std::uint64_t wrong = 0;
-  std::uint64_t expected = 0;
+  Tally seen;
   Value value{};
-  while (expected < kValues && wrong == 0 && monotonicNow() < end_ns) {
-    if (queue.pop(value)) wrong += value == filled(++expected) ? 0 : 1;
+  while (seen.received < kValues && seen.wrong == 0 && monotonicNow() < end_ns) {
+    if (queue.pop(value)) seen.wrong += value == filled(++seen.received) ? 0 : 1;
   }
   stop = true;
   producer.join();
-  return wrong;
+  return seen;
 }
 
 TEST(SpscQueueStress, EveryValueArrivesWholeAndInOrder) {
   SpscQueue<Value, 8> queue;
-  EXPECT_EQ(wrongValues(queue, monotonicNow() + 20'000'000'000), 0U);
+  const Tally seen = tally(queue, monotonicNow() + 60'000'000'000);
+  EXPECT_EQ(seen.wrong, 0U);
+  EXPECT_EQ(seen.received, kValues);
 }
 
 TEST(SpscQueueStress, TheCheckCatchesAQueueThatCountsBeforeItCopies) {
@@ -82,9 +99,16 @@ TEST(SpscQueueStress, TheCheckCatchesAQueueThatCountsBeforeItCopies) {
   const std::int64_t end = monotonicNow() + 30'000'000'000;
   while (wrong == 0 && monotonicNow() < end) {
     HastyQueue queue;
-    wrong = wrongValues(queue, end);
+    wrong = tally(queue, end).wrong;
   }
   EXPECT_GT(wrong, 0U) << "the test above could not fail either";
+}
+
+TEST(SpscQueueStress, TheCheckCatchesAQueueThatStalls) {
+  StallingQueue queue;
+  const Tally seen = tally(queue, monotonicNow() + 500'000'000);
+  EXPECT_EQ(seen.wrong, 0U);
+  EXPECT_LT(seen.received, kValues) << "the count of the test above could not fail either";
 }
 
 }  // namespace

@@ -77,6 +77,15 @@ TEST_F(ConfigFile, RefusesAnUnknownKeyByNameAndLine) {
   EXPECT_EQ(refusal("domain = 1\n[tol]\ntip_radius = 0.01\n"), ":2: unknown key tol");
 }
 
+TEST_F(ConfigFile, RefusesAQuotedKeyThatOnlyLooksLikeOneOfOurs) {
+  EXPECT_EQ(refusal("\"tool.tip_radius\" = 0.01"), ":1: unknown key \"tool.tip_radius\"");
+}
+
+TEST_F(ConfigFile, RefusesEmptyWordsByNameAndLine) {
+  EXPECT_EQ(refusal("\nmodel = \"\""), ":2: model is empty, expected the path of a model file");
+  EXPECT_EQ(refusal("realtime = \"\""), ":1: realtime is \"\", expected require, prefer or off");
+}
+
 TEST_F(ConfigFile, RefusesAWrongTypeByNameAndLine) {
   EXPECT_EQ(refusal("rate = \"fast\""), ":1: rate is of type string, expected a number");
   EXPECT_EQ(refusal("\ndomain = 1.5"), ":2: domain is of type floating-point, expected an integer");

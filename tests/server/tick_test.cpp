@@ -73,6 +73,14 @@ class TickTest : public ::testing::Test {
     return records;
   }
 
+  // The flags of all forces that lie in the ring. Allocates nothing.
+  std::uint32_t takeFlags() noexcept {
+    std::uint32_t flags = 0;
+    ForceRecord record;
+    while (channels_->forces.pop(record)) flags |= record.result.flags;
+    return flags;
+  }
+
   TickRecord takeLastRecord() {
     TickRecord record;
     while (channels_->ticks.pop(record)) {
@@ -216,21 +224,28 @@ TEST_F(TickTest, AllocatesNothingWhateverComes) {
   std::vector<dds::ToolPose> poses;
   for (int i = 0; i < 100; ++i)
     poses.push_back(poseAtDepth(static_cast<std::uint32_t>(i % 6), 0.0003 * (i - 10)));
+  std::uint32_t flags = 0;
   const palpate::testing::AllocationGuard guard;
   for (const dds::ToolPose& pose :
        poses) {  // approach, contact of four tools, beyond the domain, unknown tools
     send(pose);
     runOneTick();
+    flags |= takeFlags();
   }
   send(bad);
-  for (int i = 0; i < 100; ++i) runOneTick();  // not finite, then stale
-  for (int i = 99; i >= 0; --i) {              // and out again, backwards in order
+  for (int i = 0; i < 100; ++i, flags |= takeFlags()) runOneTick();  // not finite, then stale
+  for (int i = 99; i >= 0; --i) {                                    // and out again, backwards in order
     send(poses[static_cast<std::size_t>(i)]);
     runOneTick();
+    flags |= takeFlags();
   }
   channels_->shutting_down = true;
   for (int i = 0; i < 500; ++i) runOneTick();  // until every ring is full
+  flags |= takeFlags();
   EXPECT_EQ(guard.count(), 0U);
+  const std::uint32_t wanted =
+      kInContact | kBeyondDomain | kNonFinitePose | kStalePose | kRamping | kPoseOutOfOrder | kShuttingDown;
+  EXPECT_EQ(flags & wanted, wanted) << "the ticks above did not go where they should";
 }
 
 }  // namespace
