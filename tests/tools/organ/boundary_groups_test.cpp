@@ -59,6 +59,29 @@ TEST(FixedRule, WithoutARuleTheFilesOwnGroupStays) {
   EXPECT_EQ(box.groups.at("accessible").size(), 98U);
 }
 
+TEST(FixedRule, WhatTheFileCallsAccessibleStaysExceptWhatIsFixed) {
+  TetMesh box = mesh::makeBox({1, 1, 1}, {5, 5, 5});
+  box.groups["accessible"] = {1, 2, 62, 124};
+  box.groups["fixed"] = {0, 1, 5};
+  setBoundaryGroups(box, mesh::boundaryOf(box), {});
+  EXPECT_EQ(box.groups.at("accessible"), (Nodes{2, 124}));  // node 62 is the centre
+  box = grouped("lowest-z:0.25", box);
+  EXPECT_EQ(box.groups.at("accessible"), (Nodes{124}));
+  EXPECT_REFUSED(grouped("box:0,0,0.9,1,1,1", box), "group 'accessible': none of its 1 nodes");
+}
+
+TEST(FixedRule, GroupsThatAreDroppedOrReplacedAreNamed) {
+  TetMesh box = mesh::makeBox({1, 1, 1}, {5, 5, 5});
+  for (const char* name : {"accessible", "fixed", "organ", "vessel"}) box.groups[name] = {0, 1, 5};
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(groupsNotKept(box, {}), (Names{"organ", "vessel"}));
+  EXPECT_EQ(groupsNotKept(box, parseFixedRule("group:vessel")), (Names{"fixed", "organ"}));
+  EXPECT_EQ(groupsNotKept(box, parseFixedRule("group:fixed")), (Names{"organ", "vessel"}));
+  EXPECT_EQ(groupsNotKept(box, parseFixedRule("lowest-z:0.25")), (Names{"fixed", "organ", "vessel"}));
+  box.groups["organ"].resize(box.nodes.size());
+  EXPECT_EQ(groupsNotKept(box, {}), (Names{"vessel"}));
+}
+
 TEST(FixedRule, UnknownGroupListsThoseThereAre) {
   TetMesh box = mesh::makeBox({1, 1, 1}, {5, 5, 5});
   EXPECT_REFUSED(grouped("group:vesel", box), "group:vesel", "the file has none");

@@ -5,6 +5,7 @@
 #include "palpate/mesh/box_mesh.h"
 #include "palpate/mesh/topology.h"
 #include "palpate/mesh/write_msh.h"
+#include "palpate/organ/liver.h"
 #include "samples.h"
 
 namespace palpate::organ::test {
@@ -27,8 +28,30 @@ TEST(ImportOrgan, ScalesAndKeepsTheOrderOfTheNodes) {
 TEST(ImportOrgan, TellsThatNothingIsFixed) {
   const Folder folder;
   const ImportedOrgan organ = importOrgan(folder.write("a.msh", mesh::test::kMsh1), {});
-  ASSERT_EQ(organ.notes.size(), 1U);
-  EXPECT_NE(organ.notes[0].find("nothing is fixed"), std::string::npos);
+  ASSERT_EQ(organ.notes.size(), 2U);
+  EXPECT_NE(organ.notes[1].find("nothing is fixed"), std::string::npos);
+}
+
+TEST(ImportOrgan, NamesTheGroupsThatAreNotKept) {
+  const Folder folder;
+  const auto file = folder.write("a.msh", mesh::test::kMsh1);
+  EXPECT_EQ(importOrgan(file, {}).notes.front(), "groups of the file that are not kept: 5, 6, 7");
+  ImportOptions options;
+  options.fixed = parseFixedRule("group:6");
+  EXPECT_EQ(importOrgan(file, options).notes,
+            std::vector<std::string>{"groups of the file that are not kept: 5, 7"});
+}
+
+TEST(ImportOrgan, LiverComesBackWithItsGroups) {
+  const Folder folder;
+  const mesh::TetMesh liver = makeLiver();
+  const auto boundary = mesh::boundaryOf(liver);
+  mesh::writeMsh(folder / "liver.msh", liver, boundary);
+  const ImportedOrgan back = importOrgan(folder / "liver.msh", {});
+  EXPECT_EQ(back.mesh.groups, liver.groups);
+  EXPECT_LT(back.mesh.groups.at("accessible").size() + back.mesh.groups.at("fixed").size(),
+            boundary.nodes.size());  // the rim is in neither
+  EXPECT_TRUE(back.notes.empty());
 }
 
 TEST(ImportOrgan, TurnsAnInvertedMeshOverAndSaysSo) {

@@ -57,6 +57,16 @@ TEST(Program, WritesTheBeamAndTellsInJson) {
   EXPECT_EQ(mesh::readMesh(file).groups.at("fixed").size(), 81U);
 }
 
+TEST(Program, JsonIsUtf8WhateverTheNamesAre) {
+  const Folder folder;
+  std::string text = mesh::test::kMsh2;
+  text.replace(text.find("lower face"), 5, "l\xff\xfew");
+  const auto file = folder.write("a.msh", text);
+  const Result result = run(folder, "import --json " + file.string() + " -o " + (folder / "b.msh").string());
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.out;
+}
+
 TEST(Program, WritesALiverWithoutNoise) {
   const Folder folder;
   const Result result = run(folder, "liver --element-size 0.015 -o " + (folder / "liver.msh").string());
@@ -86,17 +96,23 @@ TEST(Program, RefusesInOneLineAndLeavesNoFile) {
   const auto file = folder.write("a.msh", mesh::test::kMsh2);
   expectOneLineError(run(folder, "import " + file.string() + " --fixed group:no" + to),
                      "the file has curve:6, lower face");
+  expectOneLineError(run(folder, "import " + file.string() + " --fixed ''" + to), "expected group:NAME");
   const auto cut = folder.write("cut.msh", mesh::test::kMsh2.substr(0, 200));
   expectOneLineError(run(folder, "import " + cut.string() + to), "cut.msh: line");
   EXPECT_FALSE(std::filesystem::exists(target));
   expectOneLineError(run(folder, "beam -o " + (folder / "none/beam.msh").string()), "cannot be written");
 }
 
-TEST(Program, RefusesUnknownArguments) {
+TEST(Program, RefusesUnknownArgumentsInOneLineWithItsName) {
   const Folder folder;
-  EXPECT_NE(run(folder, "").code, 0);
-  EXPECT_NE(run(folder, "beam").code, 0);
-  EXPECT_NE(run(folder, "spleen -o a.msh").code, 0);
+  for (const char* wrong : {"", "beam", "spleen -o a.msh", "beam -o a.msh --size 3",
+                            "liver -o a.msh --element-size small", "import -o a.msh"}) {
+    const Result result = run(folder, wrong);
+    EXPECT_GT(result.code, 0) << wrong;
+    EXPECT_TRUE(result.out.empty()) << result.out;
+    EXPECT_TRUE(result.err.starts_with("palpate-organ: ")) << result.err;
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  }
   EXPECT_EQ(run(folder, "--help").code, 0);
   EXPECT_EQ(run(folder, "import --help").code, 0);
 }

@@ -94,6 +94,23 @@ Nodes fixedNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundar
   return found == mesh.groups.end() ? Nodes{} : found->second;
 }
 
+// What the file calls accessible may leave out more than the clamp, a rim around it for one.
+Nodes accessibleNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const Nodes& fixed) {
+  Nodes accessible;
+  std::set_difference(boundary.nodes.begin(), boundary.nodes.end(), fixed.begin(), fixed.end(),
+                      std::back_inserter(accessible));
+  if (accessible.empty())
+    throw MeshError("all " + std::to_string(boundary.nodes.size()) + " surface nodes are fixed");
+  const auto own = mesh.groups.find("accessible");
+  if (own == mesh.groups.end()) return accessible;
+  Nodes both;
+  std::set_intersection(accessible.begin(), accessible.end(), own->second.begin(), own->second.end(),
+                        std::back_inserter(both));
+  if (!both.empty()) return both;
+  throw MeshError("group 'accessible': none of its " + std::to_string(own->second.size()) +
+                  " nodes is a surface node that is not fixed");
+}
+
 }  // namespace
 
 FixedRule parseFixedRule(const std::string& text) {
@@ -118,14 +135,21 @@ void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundar
     mesh.groups["fixed"] = fixed;
     mesh::checkHeld(mesh, "fixed");
   }
-  Nodes accessible;
-  std::set_difference(boundary.nodes.begin(), boundary.nodes.end(), fixed.begin(), fixed.end(),
-                      std::back_inserter(accessible));
-  if (accessible.empty())
-    throw MeshError("all " + std::to_string(boundary.nodes.size()) + " surface nodes are fixed");
+  Nodes accessible = accessibleNodes(mesh, boundary, fixed);
   mesh.groups.clear();
   if (!fixed.empty()) mesh.groups["fixed"] = fixed;
   mesh.groups["accessible"] = std::move(accessible);
+}
+
+std::vector<std::string> groupsNotKept(const mesh::TetMesh& mesh, const FixedRule& rule) {
+  std::vector<std::string> names;
+  for (const auto& [name, nodes] : mesh.groups) {
+    const bool whole = name == "organ" && nodes.size() == mesh.nodes.size();  // writeMsh() adds it again
+    const bool replaced = name == "fixed" && rule.kind != FixedRule::Kind::kKeep && rule.group != name;
+    const bool kept = name == "fixed" || name == "accessible" || name == rule.group;
+    if (replaced || !(kept || whole)) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace palpate::organ

@@ -39,6 +39,12 @@ mesh::TetMesh readScaled(const std::filesystem::path& path, const ImportOptions&
   return mesh::fillSurface(surface, options.element_size);
 }
 
+void noteGroupsNotKept(ImportedOrgan& organ, const FixedRule& rule) {
+  std::string names;
+  for (const auto& name : groupsNotKept(organ.mesh, rule)) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty()) organ.notes.push_back("groups of the file that are not kept: " + names);
+}
+
 ImportedOrgan importChecked(const std::filesystem::path& path, const ImportOptions& options) {
   ImportedOrgan organ{readScaled(path, options), {}, {}};
   if (mesh::reorientIfAllNegative(organ.mesh)) {
@@ -46,6 +52,7 @@ ImportedOrgan importChecked(const std::filesystem::path& path, const ImportOptio
   }
   mesh::checkMesh(organ.mesh);
   organ.boundary = mesh::boundaryOf(organ.mesh);
+  noteGroupsNotKept(organ, options.fixed);
   setBoundaryGroups(organ.mesh, organ.boundary, options.fixed);
   if (!organ.mesh.groups.contains("fixed")) {
     organ.notes.emplace_back("nothing is fixed: name a group, a height or a box with --fixed");

@@ -66,11 +66,11 @@ ImportedOrgan withBoundary(palpate::mesh::TetMesh mesh) {
   return organ;
 }
 
-ImportedOrgan importFile(const Arguments& arguments) {
+ImportedOrgan importFile(const CLI::App& command, const Arguments& arguments) {
   palpate::organ::ImportOptions options;
   options.scale = arguments.scale;
   options.element_size = arguments.element_size;
-  if (!arguments.fixed.empty()) options.fixed = palpate::organ::parseFixedRule(arguments.fixed);
+  if (command.count("--fixed") > 0) options.fixed = palpate::organ::parseFixedRule(arguments.fixed);
   ImportedOrgan organ = palpate::organ::importOrgan(arguments.input, options);
   palpate::organ::renumber(organ.mesh);
   return organ;
@@ -79,7 +79,11 @@ ImportedOrgan importFile(const Arguments& arguments) {
 void writeAndReport(const ImportedOrgan& organ, const Arguments& arguments) {
   palpate::mesh::writeMsh(arguments.output, organ.mesh, organ.boundary);
   const auto report = palpate::organ::makeReport(arguments.output, organ.mesh, organ.boundary, organ.notes);
-  if (arguments.json) std::cout << palpate::organ::toJson(report).dump() << '\n';
+  // Names come from files and may be no UTF-8; JSON must be.
+  if (arguments.json) {
+    const auto json = palpate::organ::toJson(report);
+    std::cout << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  }
   palpate::organ::print(arguments.json ? std::cerr : std::cout, report);
 }
 
@@ -89,10 +93,13 @@ int main(int argc, char** argv) {
   CLI::App app{"Makes and imports organ meshes: metres, linear tetrahedra, groups `fixed` and `accessible`."};
   app.set_version_flag("--version", PALPATE_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("palpate-organ: ") + error.what() + " (--help tells more)\n";
+  });
   Arguments arguments;
   const CLI::App* const liver = addLiver(app, arguments);
   const CLI::App* const beam = addBeam(app, arguments);
-  addImport(app, arguments);
+  const CLI::App* const importer = addImport(app, arguments);
   CLI11_PARSE(app, argc, argv);
   try {
     if (liver->parsed()) {
@@ -102,7 +109,7 @@ int main(int argc, char** argv) {
     } else if (beam->parsed()) {
       writeAndReport(withBoundary(palpate::mesh::makeBeam()), arguments);
     } else {
-      writeAndReport(importFile(arguments), arguments);
+      writeAndReport(importFile(*importer, arguments), arguments);
     }
   } catch (const std::exception& error) {
     std::cerr << "palpate-organ: " << error.what() << '\n';
