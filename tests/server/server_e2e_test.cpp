@@ -8,8 +8,12 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <memory>
+#include <sstream>
+#include <string>
 
 #include "../idl/test_domain.h"
 #include "palpate/testing/synthetic_model.h"
@@ -244,6 +248,40 @@ TEST_F(ServerEndToEnd, TellsItsStateAboutOnceASecond) {
   EXPECT_GE(status->tick_us.count, 100U);
   const auto later = client_->waitForStatus([&](const auto& s) { return s.ticks > status->ticks; });
   EXPECT_TRUE(later.has_value());
+}
+
+// Real-time priority of each thread by name, from /proc; 0: none.
+std::map<std::string, int> priorities(pid_t pid) {
+  std::map<std::string, int> found;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task")) {
+    std::string name;
+    std::string stat;
+    std::getline(std::ifstream(task.path() / "comm"), name);
+    std::getline(std::ifstream(task.path() / "stat"), stat);
+    std::istringstream fields(stat.substr(std::min(stat.size(), stat.rfind(')') + 1)));
+    std::string field;
+    for (int number = 3; number <= 40; ++number) fields >> field;  // proc(5): 40 is rt_priority
+    if (fields) found[name] = std::stoi(field);
+  }
+  return found;
+}
+
+TEST_F(ServerEndToEnd, RunsItsThreadsAtTheirPriorities) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  const auto status = client_->waitForStatus([](const auto& s) { return s.ticks > 0; });
+  ASSERT_TRUE(status.has_value());
+  if (!status->realtime) GTEST_SKIP() << "SCHED_FIFO is not granted here";
+  const auto found = priorities(server_->pid());
+  const std::map<std::string, int> wanted{
+      {"tick", 80}, {"force-out", 75}, {"surface-out", 40}, {"events", 0}};
+  for (const auto& [name, priority] : wanted) {
+    ASSERT_EQ(found.count(name), 1U) << name;
+    EXPECT_EQ(found.at(name), priority) << name;
+  }
+  const auto receiving = std::count_if(found.begin(), found.end(), [](const auto& thread) {
+    return thread.first.rfind("recv", 0) == 0 && thread.second == 70;
+  });
+  EXPECT_GT(receiving, 0) << "no receive thread of DDS was raised";
 }
 
 class ServerStops : public ServerEndToEnd, public ::testing::WithParamInterface<int> {};

@@ -29,6 +29,9 @@ class ServerProcess {
 
   [[nodiscard]] bool running();
 
+  /// -1 once it has ended.
+  [[nodiscard]] pid_t pid() const { return pid_; }
+
  private:
   pid_t pid_{-1};
   int exit_code_{-1};

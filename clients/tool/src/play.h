@@ -25,7 +25,12 @@ struct Recording {
   std::uint64_t sent{0};
   std::uint64_t missed_periods{0};  ///< periods in which this process did not get to run
   bool server_left{false};          ///< the server said that it shuts down
+  /// Poses without a recorded answer: superseded, or their answer was lost.
   [[nodiscard]] std::uint64_t unanswered() const noexcept { return sent - samples.size(); }
+  /// Poses that the server replaced by newer ones before a tick used them, by its own count.
+  [[nodiscard]] std::uint64_t superseded() const noexcept {
+    return samples.empty() ? 0 : samples.back().force.superseded - samples.front().force.superseded;
+  }
 };
 
 /// Sends poses along the path at 1 kHz and records the answers; ends early on a stop signal or when the

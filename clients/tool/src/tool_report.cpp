@@ -56,10 +56,11 @@ std::string summaryOf(const Played& played, const Recording& recording) {
   const Sample& peak = peakOf(recording);
   return line(
              "peak force %.4f N at %.3f s, %.3f mm deep; %llu poses sent, %llu answered, %llu superseded, "
-             "%llu forces lost\n",
+             "%llu unanswered, %llu forces lost\n",
              length(forceOf(peak)), peak.t_s, depthOf(played, peak) * 1e3,
              static_cast<unsigned long long>(recording.sent),
              static_cast<unsigned long long>(recording.samples.size()),
+             static_cast<unsigned long long>(recording.superseded()),
              static_cast<unsigned long long>(recording.unanswered()),
              static_cast<unsigned long long>(recording.answers.lost())) +
          (recording.server_left ? "the server shut down before the script's end\n" : "");
@@ -123,7 +124,8 @@ nlohmann::json jsonOf(const Played& played, const Recording& recording) {
             {"contact_s", contact_s},
             {"sent", recording.sent},
             {"answered", recording.samples.size()},
-            {"superseded", recording.unanswered()},
+            {"superseded", recording.superseded()},
+            {"unanswered", recording.unanswered()},
             {"received", recording.answers.received()},
             {"lost", recording.answers.lost()},
             {"missed_periods", recording.missed_periods},
