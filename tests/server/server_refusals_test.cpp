@@ -63,6 +63,14 @@ TEST_F(ServerRefuses, WhatItDoesNotKnow) {
   EXPECT_NE(refusal({"--rate", "fast"}).find("rate"), std::string::npos);
 }
 
+TEST(ServerExplains, ItselfAndItsVersionWithExitCodeZero) {
+  for (const char* question : {"--help", "--version"}) {
+    ServerProcess server({question});
+    EXPECT_EQ(server.waitForExit(), 0) << question;
+    EXPECT_EQ(server.log(), "") << question << ": an answer, not a complaint";
+  }
+}
+
 TEST_F(ServerRefuses, AConfigurationByFileAndLine) {
   std::ofstream(file_) << "domain = 1\nspeed = 3\n";
   EXPECT_EQ(refusal({"--config", file_.string()}), file_.string() + ":2: unknown key speed");

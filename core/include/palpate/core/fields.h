@@ -11,8 +11,8 @@
 namespace palpate {
 
 /// The far field: u(X; s, d) = sum_k X_k(X) y_k,  y_k = sum_b lambda_b sum_alpha x^alpha Y_{k,alpha}(p_b)
-/// DESIGN 2.3 Linear in y: the y of several tools add up before the one product with X. Borrows the model's
-/// arrays.
+///                                                                                              DESIGN 2.3
+/// Linear in y: the y of several tools add up before the one product with X. Borrows the model's arrays.
 class SeparatedField {
  public:
   explicit SeparatedField(const ModelView& view);

@@ -13,8 +13,8 @@ namespace palpate {
 /// Exponents (a_x, a_y, a_z) of one monomial d^alpha = d_x^a_x d_y^a_y d_z^a_z.
 using MultiIndex = std::array<int, 3>;
 
-/// The monomials d^alpha with 1 <= |alpha| <= p, in the order in which every file and table holds them DESIGN
-/// 1, 2.2
+/// The monomials d^alpha with 1 <= |alpha| <= p, in the order in which every file and table holds them
+///                                                                                          DESIGN 1, 2.2
 ///   by degree, then lexicographically descending: x y z | xx xy xz yy yz zz | xxx xxy ...
 /// There is no constant term: an organ that is not touched does not move.
 class MonomialBasis {

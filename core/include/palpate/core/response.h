@@ -24,8 +24,8 @@ struct Response {
   double domain_radius{0.0};         ///< d_max(s), m
 };
 
-/// Reaction of the organ to a tool that displaced its contact patch at s by d DESIGN 2.2, 3.1 |d| beyond
-/// domainRadius(s) is scaled to it; stiffness then is df/dd through that projection.
+/// Reaction of the organ to a tool that displaced its contact patch at s by d            DESIGN 2.2, 3.1
+/// |d| beyond domainRadius(s) is scaled to it; stiffness then is df/dd through that projection.
 /// @param[in]  s  contact point of this model's surface, @param[in]  d  W, m, finite
 /// @param[out] out  always written; zero when not accessible
 /// @return kOk, kClamped, or kNoAnswer (the model has no answer at s). Cost O(C). Real-time: yes.

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kStalePose =
     1U << 3;  ///< no good pose for stale_timeout; the force ramps to zero
 inline constexpr std::uint32_t kBeyondDomain =
     1U << 4;  ///< |d| above domain_radius; the answer is that of the clamped d
-inline constexpr std::uint32_t kForceLimited = 1U
-                                               << 5;  ///< |f| above the force limit; direction kept, size cut
+/// |f| above the force limit; direction kept, size cut
+inline constexpr std::uint32_t kForceLimited = 1U << 5;
 inline constexpr std::uint32_t kNotAccessible =
     1U << 6;  ///< the tip touches the organ where no answer was computed
 inline constexpr std::uint32_t kRamping =
