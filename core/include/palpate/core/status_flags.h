@@ -26,7 +26,8 @@ inline constexpr std::uint32_t kRamping =
 inline constexpr std::uint32_t kShuttingDown =
     1U << 8;  ///< the server stops; the force goes to zero and stays there
 inline constexpr std::uint32_t kNonFiniteForce =
-    1U << 9;  ///< the model's numbers overflowed: a force is answered like a stale pose, a field is shown as zero
+    1U
+    << 9;  ///< the model's numbers overflowed: a force is answered like a stale pose, a field is shown as zero
 inline constexpr std::uint32_t kPoseOutOfOrder =
     1U << 10;  ///< sender's stamps went backwards (set by the server)
 
