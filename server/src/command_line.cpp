@@ -28,7 +28,9 @@ void declare(CLI::App& app, Given& given) {
   app.add_option("--model", given.model, "Model file made by palpate-solve")->type_name("FILE");
   app.add_option("--config", given.config, "Options as TOML, see server/server.toml")->type_name("FILE");
   app.add_option("--domain", given.domain, "DDS domain, 0 to 230, default 0");
-  app.add_option("--rate", given.rate, "Ticks per second, 10 to 10000, default 1000")->type_name("HZ");
+  app.add_option("--rate", given.rate,
+                 "Ticks per second, 50 to 10000, default 1000 (lower with a longer tool.stale_timeout)")
+      ->type_name("HZ");
   app.add_option("--realtime", given.realtime, "Real-time priority: require, prefer (default) or off")
       ->type_name("POLICY");
   app.add_option("--tip-radius", given.tip_radius, "Radius of the tools' tips, m, 0 to 0.05, default 0.005");

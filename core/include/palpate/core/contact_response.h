@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-/// The reaction of the organ to an imposed patch displacement, not truncated to the modes DESIGN 2.2, 2.3
+/// The reaction of the organ to an imposed patch displacement, not truncated to the modes (DESIGN 2.2, 2.3).
 ///   f(s, d) = sum_b lambda_b sum_alpha (d / d_ref)^alpha f_alpha(p_b)
 /// Differs from the paper: exact in its order, displacement-driven. Borrows the model's arrays.
 class ContactResponse {

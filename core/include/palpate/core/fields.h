@@ -31,7 +31,7 @@ class SeparatedField {
   int modes_;
 };
 
-/// The near field: what the modes miss close to s, already windowed to zero at the near radius DESIGN 2.3
+/// The near field: what the modes miss close to s, already windowed to zero at the near radius (DESIGN 2.3).
 class NearField {
  public:
   explicit NearField(const ModelView& view);

@@ -38,7 +38,7 @@ struct LimitedForce {
   std::uint32_t flags{0};  ///< kForceLimited, kStalePose, kRamping, kShuttingDown
 };
 
-/// Keeps what a device gets safe and continuous DESIGN 3.2
+/// Keeps what a device gets safe and continuous (DESIGN 3.2).
 ///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
 ///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
 ///   that the force will have when the next one replaces it, so that none but zero stands after zero_after,

@@ -46,7 +46,7 @@ struct FieldSource {
   double gain{1.0};       ///< 0 to 1
 };
 
-/// Displacement of the surface nodes, far plus near field, superposed over the tools DESIGN 2.3
+/// Displacement of the surface nodes, far plus near field, superposed over the tools (DESIGN 2.3).
 /// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Real-time: yes.
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;

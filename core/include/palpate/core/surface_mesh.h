@@ -20,7 +20,7 @@ struct NearestPoint {
   double signed_distance{0.0};   ///< m, negative inside the organ
 };
 
-/// The rest surface: positions, normals, nearest points, and where the organ can be touched DESIGN 3.1
+/// The rest surface: positions, normals, nearest points, and where the organ can be touched (DESIGN 3.1).
 /// Borrows the arrays of the view; built before the loop, then const.
 class SurfaceMesh {
  public:
