@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace palpate::offline {
@@ -38,6 +40,17 @@ Pattern lowerPattern(const FeModel& model) {
           if (first + r >= model.dof(node) + c) pattern.row.push_back(first + r);
       pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
     }
+  }
+  return pattern;
+}
+
+Pattern lowerPattern(const SparseMatrix& K) {
+  Pattern pattern;
+  pattern.column_start.push_back(0);
+  for (int column = 0; column < K.outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry)
+      if (entry.row() >= column) pattern.row.push_back(static_cast<int>(entry.row()));
+    pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
   }
   return pattern;
 }
@@ -76,8 +89,8 @@ cholmod_dense view(Eigen::Ref<Eigen::MatrixXd> b) {
 }  // namespace
 
 struct Cholesky::State {
-  explicit State(const FeModel& fe) : model(fe), pattern(lowerPattern(fe)), values(pattern.row.size()) {
-    matrix.nrow = matrix.ncol = static_cast<std::size_t>(fe.dofCount());
+  State(const FeModel* fe, Pattern p) : model(fe), pattern(std::move(p)), values(pattern.row.size()) {
+    matrix.nrow = matrix.ncol = pattern.column_start.size() - 1;
     matrix.nzmax = values.size();
     matrix.p = pattern.column_start.data();
     matrix.i = pattern.row.data();
@@ -107,23 +120,35 @@ struct Cholesky::State {
 
   void assemble(const Eigen::VectorXd& u) {
     std::fill(values.begin(), values.end(), 0.0);
-    for (int e = 0; e < model.elementCount(); ++e) {
-      const Eigen::Matrix<double, 12, 12> K = model.elementTangent(e, u);
-      const auto& t = model.tetrahedra()[static_cast<std::size_t>(e)];
+    for (int e = 0; e < model->elementCount(); ++e) {
+      const Eigen::Matrix<double, 12, 12> K = model->elementTangent(e, u);
+      const auto& t = model->tetrahedra()[static_cast<std::size_t>(e)];
       for (int a = 0; a < 12; ++a) {
-        const int row = model.dof(t[static_cast<std::size_t>(a / 3)]);
+        const int row = model->dof(t[static_cast<std::size_t>(a / 3)]);
         if (row < 0) continue;
         for (int b = 0; b < 12; ++b) {
-          const int column = model.dof(t[static_cast<std::size_t>(b / 3)]);
+          const int column = model->dof(t[static_cast<std::size_t>(b / 3)]);
           if (column >= 0) add(row + a % 3, column + b % 3, K(a, b));
         }
       }
     }
   }
 
+  void copy(const SparseMatrix& K) {
+    std::size_t next = 0;
+    for (int column = 0; column < K.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
+        if (entry.row() < column) continue;
+        if (next >= values.size() || pattern.row[next] != entry.row())
+          throw std::invalid_argument("a matrix of another pattern than the one that was analysed");
+        values[next++] = entry.value();
+      }
+  }
+  void factorize();
+
   [[nodiscard]] cholmod_factor* active() const { return positive ? definite : indefinite; }
 
-  const FeModel& model;
+  const FeModel* model;  // none for a matrix from elsewhere
   Pattern pattern;
   std::vector<double> values;
   Common common;
@@ -133,7 +158,10 @@ struct Cholesky::State {
   bool positive{true};
 };
 
-Cholesky::Cholesky(const FeModel& model) : state_(std::make_unique<State>(model)) {}
+Cholesky::Cholesky(const FeModel& model) : state_(std::make_unique<State>(&model, lowerPattern(model))) {}
+Cholesky::Cholesky(const SparseMatrix& K) : state_(std::make_unique<State>(nullptr, lowerPattern(K))) {
+  factorize(K);
+}
 Cholesky::~Cholesky() = default;
 
 bool Cholesky::positiveDefinite() const noexcept {
@@ -144,22 +172,32 @@ double Cholesky::factorSize() const noexcept {
 }
 
 void Cholesky::factorize(const Eigen::VectorXd& u) {
-  State& s = *state_;
-  s.assemble(u);
-  cholmod_factorize(&s.matrix, s.definite, s.common.get());
-  s.positive = s.definite->minor == s.definite->n;
-  if (s.positive) return;
-  cholmod_common* common = s.common.get();
-  if (s.indefinite == nullptr) {
-    common->supernodal = CHOLMOD_SIMPLICIAL;
-    s.indefinite = cholmod_analyze(&s.matrix, common);
-    common->supernodal = CHOLMOD_SUPERNODAL;
-    if (s.indefinite == nullptr) throw std::runtime_error("CHOLMOD could not analyse the stiffness matrix");
-  }
-  common->supernodal = CHOLMOD_SIMPLICIAL;
-  cholmod_factorize(&s.matrix, s.indefinite, common);
-  common->supernodal = CHOLMOD_SUPERNODAL;
-  if (s.indefinite->minor != s.indefinite->n) throw std::runtime_error("the tangent stiffness is singular");
+  if (state_->model == nullptr) throw std::logic_error("a factor of a matrix has no displacement");
+  state_->assemble(u);
+  state_->factorize();
+}
+
+void Cholesky::factorize(const SparseMatrix& K) {
+  if (static_cast<std::size_t>(K.rows()) != state_->matrix.nrow || K.rows() != K.cols())
+    throw std::invalid_argument("a matrix of another size than the one that was analysed");
+  state_->copy(K);
+  state_->factorize();
+}
+
+void Cholesky::State::factorize() {
+  const auto run = [this](cholmod_factor* factor) {
+    if (cholmod_factorize(&matrix, factor, common.get()) == 0)
+      throw std::runtime_error("CHOLMOD could not factorize the stiffness matrix (code " +
+                               std::to_string(common.get()->status) + ")");
+    return factor->minor == factor->n;
+  };
+  positive = run(definite);
+  if (positive) return;
+  common.get()->supernodal = CHOLMOD_SIMPLICIAL;
+  if (indefinite == nullptr) indefinite = cholmod_analyze(&matrix, common.get());
+  const bool regular = indefinite != nullptr && run(indefinite);
+  common.get()->supernodal = CHOLMOD_SUPERNODAL;
+  if (!regular) throw std::runtime_error("the tangent stiffness is singular");
 }
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) const {

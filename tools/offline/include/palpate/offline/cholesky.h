@@ -2,18 +2,23 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <memory>
 
 #include "palpate/offline/fe_model.h"
 
 namespace palpate::offline {
 
+using SparseMatrix = Eigen::SparseMatrix<double>;  ///< column by column
+
 /// Factorization of the tangent stiffness on the unknowns of an FeModel, by CHOLMOD (METIS ordering,
 /// supernodal). The symbolic analysis is done once, at construction; factorize() may be called any number of
-/// times.
+/// times. Const functions and Solvers of one factor may work in several threads at once.
 class Cholesky {
  public:
   explicit Cholesky(const FeModel& model);
+  /// Of any symmetric matrix, both triangles present; analyses and factorizes it.
+  explicit Cholesky(const SparseMatrix& K);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
@@ -21,6 +26,9 @@ class Cholesky {
   /// Factorizes K_T(u). Falls back to L D L^T when K_T is not positive definite.
   /// @param u  3 N, m  @throw std::runtime_error when K_T is singular
   void factorize(const Eigen::VectorXd& u);
+  /// Factorizes a matrix with the pattern of the first.
+  /// @throw std::invalid_argument for another pattern, std::runtime_error when K is singular
+  void factorize(const SparseMatrix& K);
   [[nodiscard]] bool positiveDefinite() const noexcept;
   /// Non-zeros of the factor.
   [[nodiscard]] double factorSize() const noexcept;
