@@ -23,27 +23,37 @@ double remainder(double last, double previous, double before_previous) {
   return last * std::max(1.0, ratio / (1.0 - ratio));
 }
 
-bool forceIsTrusted(const MonomialBasis& basis, std::span<const Vec3> force, const DomainCriteria& criteria,
-                    const Vec3& d) {
+struct Answer {
+  const MonomialBasis& basis;
+  std::span<const Vec3> coefficients;
+  int kept;          // degree that the model keeps
+  double tolerance;  // of what it leaves out
+
+  [[nodiscard]] bool isTrusted(const Vec3& x) const;
+};
+
+bool Answer::isTrusted(const Vec3& x) const {
   std::array<double, MonomialBasis::kMaxCoefficients> value{};
   std::array<Vec3, MonomialBasis::kMaxCoefficients> slope;
   std::array<Vec3, MonomialBasis::kMaxOrder + 1> terms;
   terms.fill(Vec3::Zero());
-  basis.evaluate(d, value);
-  basis.gradient(d, slope);
+  basis.evaluate(x, value);
+  basis.gradient(x, slope);
   Mat3 K = Mat3::Zero();
-  for (std::size_t k = 0; k < force.size(); ++k) {
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
     const MultiIndex& a = basis[static_cast<int>(k)];
-    terms[static_cast<std::size_t>(a[0] + a[1] + a[2])] += value[k] * force[k];
-    K += force[k] * slope[k].transpose();
+    const int degree = a[0] + a[1] + a[2];
+    terms[static_cast<std::size_t>(degree)] += value[k] * coefficients[k];
+    if (degree <= kept) K += coefficients[k] * slope[k].transpose();
   }
-  const Vec3 f = std::accumulate(terms.begin(), terms.end(), Vec3(Vec3::Zero()));
   const auto order = static_cast<std::size_t>(basis.order());
   if (order > 1) {  // a series of order 1 has no higher terms to be judged by
+    const Vec3 whole = std::accumulate(terms.begin(), terms.end(), Vec3(Vec3::Zero()));
+    const Vec3 cut = std::accumulate(terms.begin() + kept + 1, terms.end(), Vec3(Vec3::Zero()));
     const double before_previous =
         order > 2 ? terms[order - 2].norm() : std::numeric_limits<double>::infinity();
-    const double left = remainder(terms[order].norm(), terms[order - 1].norm(), before_previous);
-    if (left > criteria.force_error * f.norm()) return false;
+    const double tail = remainder(terms[order].norm(), terms[order - 1].norm(), before_previous);
+    if (cut.norm() + tail > tolerance * whole.norm()) return false;
   }
   const Mat3 symmetric = 0.5 * (K + K.transpose());
   return Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0.0;
@@ -102,13 +112,15 @@ const std::vector<Vec3>& sampledDirections() {
   return directions;
 }
 
-double forceRadius(const MonomialBasis& basis, std::span<const Vec3> force, const DomainCriteria& criteria) {
+double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept, double cap,
+                    double tolerance) {
   constexpr int kScan = 100;  // the radius is found by a scan, then by halving between two samples
-  double radius = criteria.cap;
+  double radius = cap;
+  const Answer series{basis, answer, kept, tolerance};
   for (const Vec3& direction : sampledDirections()) {
-    const auto trusted = [&](double r) { return forceIsTrusted(basis, force, criteria, r * direction); };
+    const auto trusted = [&](double r) { return series.isTrusted(r * direction); };
     double good = 0.0;
-    const double step = criteria.cap / kScan;
+    const double step = cap / kScan;
     while (good < radius && trusted(std::min(good + step, radius))) good = std::min(good + step, radius);
     double bad = std::min(good + step, radius);
     for (int halving = 0; halving < 12 && good < radius; ++halving) {
@@ -121,11 +133,11 @@ double forceRadius(const MonomialBasis& basis, std::span<const Vec3> force, cons
   return radius;
 }
 
-void limitByDetF(const MonomialBasis& basis, const KernelInput& input, const DomainCriteria& criteria,
+void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
                  std::span<double> radii) {
   Lanes radius{};
   for (std::size_t lane = 0; lane < radii.size(); ++lane) radius[static_cast<int>(lane)] = radii[lane];
-  for (const int element : suspects(basis, input, criteria.min_det_f, radius)) {
+  for (const int element : suspects(basis, input, min_det_f, radius)) {
     for (const Vec3& direction : sampledDirections()) {
       // Ten halvings of what is too far: to a thousandth of the radius that was offered.
       Lanes good{};
@@ -137,7 +149,7 @@ void limitByDetF(const MonomialBasis& basis, const KernelInput& input, const Dom
         detF(input, element, laneMonomials(basis, direction, tried).data(), &det);
         bool all_good = true;
         for (int lane = 0; lane < kLanes; ++lane) {
-          const bool fine = det[lane] >= criteria.min_det_f;
+          const bool fine = det[lane] >= min_det_f;
           if (fine) good[lane] = std::max(good[lane], tried[lane]);
           if (good[lane] == offered[lane]) continue;
           all_good = false;

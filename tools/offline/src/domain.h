@@ -13,13 +13,15 @@ namespace palpate::offline {
 /// The unit directions in which a domain is sampled: faces, edges and corners of a cube, 26.
 [[nodiscard]] const std::vector<Vec3>& sampledDirections();
 
-/// Largest |d| up to which, in every sampled direction, the terms of the last degree stay small against the
-/// force and df/dd is positive definite. @param force  f_alpha  @return m, at most criteria.cap DESIGN 2.2
-[[nodiscard]] double forceRadius(const MonomialBasis& basis, std::span<const Vec3> force,
-                                 const DomainCriteria& criteria);
+/// Largest radius, at most `cap`, up to which in every sampled direction the part of the answer to degree
+/// `kept` is within `tolerance` of the whole, what lies beyond the last degree estimated, and its derivative
+/// is positive definite.                                                                        DESIGN 2.2
+/// @param answer  coefficients of f(d), or of d(f)
+[[nodiscard]] double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept,
+                                  double cap, double tolerance);
 
-/// Shrinks each lane's radius until det F >= criteria.min_det_f in every element and sampled direction.
-void limitByDetF(const MonomialBasis& basis, const KernelInput& input, const DomainCriteria& criteria,
+/// Shrinks each lane's radius until det F >= min_det_f in every element and sampled direction.
+void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
                  std::span<double> radii);
 
 }  // namespace palpate::offline

@@ -4,11 +4,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 
+#include "ball_moments.h"
 #include "palpate/offline/parallel.h"
 #include "palpate/offline/progress.h"
 
@@ -21,29 +21,6 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
 constexpr std::size_t kChunk = 32;  // positions read and multiplied at once
-
-/// Mean of x^alpha over the unit ball; zero unless all exponents are even.
-double ballMoment(const std::array<int, 3>& a) {
-  const auto odd = [](int n) { return n % 2 != 0; };
-  if (odd(a[0]) || odd(a[1]) || odd(a[2])) return 0.0;
-  double sphere = 1.0;  // (a_x - 1)!! (a_y - 1)!! (a_z - 1)!! / (n + 1)!!
-  int n = 0;
-  for (const int exponent : a) {
-    for (int k = exponent - 1; k > 1; k -= 2) sphere *= k;
-    n += exponent;
-  }
-  for (int k = n + 1; k > 1; k -= 2) sphere /= k;
-  return sphere * 3.0 / (n + 3.0);
-}
-
-/// L with L L^T = M, M_kl the mean of x^(alpha_k + alpha_l) over the unit ball.
-MatrixXd momentFactor(const MonomialBasis& basis) {
-  MatrixXd M(basis.size(), basis.size());
-  for (int k = 0; k < basis.size(); ++k)
-    for (int l = 0; l < basis.size(); ++l)
-      M(k, l) = ballMoment({basis[k][0] + basis[l][0], basis[k][1] + basis[l][1], basis[k][2] + basis[l][2]});
-  return M.llt().matrixL();
-}
 
 class Fit {
  public:
@@ -315,37 +292,6 @@ FarField Fit::run() {
 }
 
 }  // namespace
-
-double nearWindow(double r, double rho) noexcept {
-  constexpr double kFlat =
-      0.7;  // of rho: the fit is left alone with what is far, the transition spans an element
-  const double t = std::clamp((r / rho - kFlat) / (1.0 - kFlat), 0.0, 1.0);
-  return std::max(0.0, 1.0 - t * t * t * (10.0 + t * (-15.0 + 6.0 * t)));
-}
-
-NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho) {
-  NearNodes near;
-  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
-    const double r = (surface.positions[i] - x).norm();
-    if (r >= rho) continue;
-    near.nodes.push_back(static_cast<std::int32_t>(i));
-    near.window.push_back(static_cast<float>(nearWindow(r, rho)));
-  }
-  return near;
-}
-
-FitWeights fitWeights(const ContactSurface& surface, const Vec3& x, double rho) {
-  FitWeights weights;
-  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
-    const double r = (surface.positions[i] - x).norm();
-    if (r >= 3.0 * rho) continue;
-    const double far = 1.0 - nearWindow(r, rho);
-    const double emphasis = far > 0.0 ? std::pow(3.0 * rho / r, 2.5) : 0.0;
-    weights.nodes.push_back(static_cast<std::int32_t>(i));
-    weights.change.push_back(static_cast<float>(far * far * emphasis - 1.0));
-  }
-  return weights;
-}
 
 FarField fitFarField(const FitProblem& problem, const FitOptions& options) {
   if (problem.table.positions() == 0 || options.modes < 1)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,42 +14,54 @@
 
 namespace palpate::offline {
 
-/// Sampling and limits of the domain radius d_max(s).                                          DESIGN 2.2
-struct DomainCriteria {
-  double force_error{0.01};  ///< last terms of the force, and estimated remainder, relative to the force
-  double min_det_f{0.3};     ///< over all elements
-  double cap{0.05};          ///< m, largest radius ever stated
+/// What a series is driven by, and what it answers.
+enum class SeriesKind : std::uint8_t {
+  kDisplacement,  ///< d prescribed, f found: the production track                               DESIGN 2.2
+  kForce,         ///< f prescribed, d found: the paper's parameters, position and orientation   DESIGN 2.1
 };
 
-/// The displacement-driven series of up to kLanes contact positions at once.                   DESIGN 2.2
-///   u(X; s, d) = sum d^alpha U_alpha(X, s),  f(s, d) = sum d^alpha f_alpha(s),  1 <= |alpha| <= p
+/// Sampling and limits of the domain radius d_max(s), or f_max(s).                              DESIGN 2.2
+struct DomainCriteria {
+  double answer_error{0.01};  ///< of the force (or displacement): what the series leaves out, relative
+  double min_det_f{0.3};      ///< over all elements
+  double cap{0.05};           ///< m, largest radius ever stated; driven by force: of the linear answer
+};
+
+/// The series of up to kLanes contact positions at once.                                       DESIGN 2.2
+///   kDisplacement: u(X; s, d) = sum d^alpha U_alpha(X, s),  f(s, d) = sum d^alpha f_alpha(s)
+///   kForce:        u(X; s, f) = sum f^alpha U_alpha(X, s),  d(s, f) = sum f^alpha d_alpha(s)
+/// 1 <= |alpha| <= p for the fields. With f prescribed the recursion is that of DESIGN 2.2 without its
+/// correction: U_{e_i} = W_s e_i, U_alpha = -K0^-1 r_alpha, d_alpha = G_s^T U_alpha.
 /// One factorization K0 = K_T(0) serves every position, direction and order. Coefficients are not scaled:
-/// U_alpha in m^(1-|alpha|), f_alpha in N m^-|alpha|. One object per thread; the factor is shared.
+/// U_alpha in m^(1-|alpha|), f_alpha in N m^-|alpha|; or U_alpha and d_alpha in m N^-|alpha|. One object per
+/// thread; the factor is shared.
 class SeriesSolver {
  public:
   /// @param factor  of K_T(0)  @param order  p, 1 to MonomialBasis::kMaxOrder
-  SeriesSolver(const FeModel& model, const Cholesky& factor, int order);
+  SeriesSolver(const FeModel& model, const Cholesky& factor, int order,
+               SeriesKind kind = SeriesKind::kDisplacement);
   ~SeriesSolver();
 
   /// @param patches  1 to kLanes contact patches with at least one free node each
   /// @throw std::runtime_error when a patch cannot be moved (C_s singular) or a result is not finite
   void solve(std::span<const Patch> patches);
 
-  /// Degree of the force for fields of degree p: 2p, as far as the energy (one degree more) stays in a
+  /// Degree of the answer for fields of degree p: 2p, as far as the energy (one degree more) stays in a
   /// MonomialBasis.
-  [[nodiscard]] static constexpr int forceOrder(int order) noexcept {
+  [[nodiscard]] static constexpr int answerOrder(int order) noexcept {
     return std::max(order, std::min(2 * order, MonomialBasis::kMaxOrder - 1));
   }
 
   /// The monomials of the fields, degree p.
   [[nodiscard]] const MonomialBasis& basis() const noexcept;
-  /// The monomials of the force, degree forceOrder(p).
-  [[nodiscard]] const MonomialBasis& forceBasis() const noexcept;
-  /// f_alpha of the position in a lane, alpha = forceBasis()[k]; N m^-|alpha|.
-  [[nodiscard]] Vec3 force(int lane, int k) const;
-  /// U_alpha of the position in a lane at a volume node; m^(1-|alpha|).
+  /// The monomials of the answer, degree answerOrder(p).
+  [[nodiscard]] const MonomialBasis& answerBasis() const noexcept;
+  /// f_alpha (driven by force: d_alpha) of the position in a lane, alpha = answerBasis()[k].
+  [[nodiscard]] Vec3 answer(int lane, int k) const;
+  /// U_alpha of the position in a lane at a volume node.
   [[nodiscard]] Vec3 displacement(int lane, int k, int node) const;
-  /// Largest |d| at which the series of a lane is to be trusted, over 26 directions, m.
+  /// Largest |d| (|f|) at which the series of a lane is to be trusted, over 26 directions, m (N). Driven by
+  /// displacement the whole answer is judged; driven by force its part of degree p, all that a model keeps.
   [[nodiscard]] std::vector<double> domainRadii(const DomainCriteria& criteria) const;
 
  private:

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "palpate/offline/patch.h"
+
+namespace palpate::offline {
+
+/// Share of the near field at distance r from s: 1 up to 0.7 rho, then smoothly (two derivatives) to 0 at
+/// rho. DESIGN 2.3
+[[nodiscard]] double nearWindow(double r, double rho) noexcept;
+
+/// The surface nodes that the near field of one contact position holds.
+struct NearNodes {
+  std::vector<std::int32_t> nodes;  ///< surface nodes with |X_i - X_s| < rho, ascending
+  std::vector<float> window;        ///< nearWindow of each
+};
+
+[[nodiscard]] NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho);
+
+/// How much more or less than its area a node counts in the fit for one contact position.
+struct FitWeights {
+  std::vector<std::int32_t> nodes;  ///< surface nodes whose weight is not 1, ascending
+  std::vector<float> change;        ///< weight - 1 of each: (1 - nearWindow(r))^2 g(r) - 1
+};
+
+/// g(r) = max(1, 3 rho / r)^2.5: least squares over the area alone would let a narrow ring of large errors
+/// stand round the near field, since the ring is small; what a user sees is the largest error.
+[[nodiscard]] FitWeights fitWeights(const ContactSurface& surface, const Vec3& x, double rho);
+
+}  // namespace palpate::offline

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "palpate/core/multi_index.h"
+
+namespace palpate::offline {
+
+/// Lower triangular L with L L^T = M, M_kl the mean of x^(alpha_k + alpha_l) over the unit ball |x| <= 1:
+/// coefficients times L have the mean square of their polynomial as their squared norm.
+[[nodiscard]] Eigen::MatrixXd momentFactor(const MonomialBasis& basis);
+
+}  // namespace palpate::offline
