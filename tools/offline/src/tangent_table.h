@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "palpate/offline/parametric_problem.h"
+
+namespace palpate::offline {
+
+/// K_T(u_s) of all positions at one load level. Values of as many positions as the memory allows are kept, those
+/// of the others assembled whenever they are asked for. One thread per worker number.
+class TangentTable {
+ public:
+  using View = Eigen::Map<const SparseMatrix>;
+
+  /// @param bytes  what the kept values may take  @param constant  K_T(0) for every u
+  TangentTable(const ParametricProblem& problem, double bytes, int workers, bool constant);
+
+  /// Assembles K_T(u) for position s. The view holds until this worker's next call.
+  View assemble(int worker, int s, const Eigen::VectorXd& u);
+  /// The matrix of the last assemble() of s. @param u  that displacement again, called only when not kept
+  template <typename Displacement>
+  View at(int worker, int s, const Displacement& u) {
+    return constant_ || s < kept() ? view(worker, s) : assemble(worker, s, u());
+  }
+  [[nodiscard]] bool constant() const noexcept { return constant_; }
+
+ private:
+  [[nodiscard]] int kept() const noexcept { return static_cast<int>(values_.size()); }
+  [[nodiscard]] View view(int worker, int s) const;
+
+  const ParametricProblem& problem_;
+  bool constant_;
+  std::vector<Eigen::VectorXd> values_;  ///< of the first positions
+  std::vector<SparseMatrix> work_;       ///< one a worker
+};
+
+}  // namespace palpate::offline
