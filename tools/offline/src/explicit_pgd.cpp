@@ -37,11 +37,11 @@ double enrich(SeparatedIncrement& increment, const ExplicitOptions& options, int
   return residual;
 }
 
-/// Cuts X to the modes that carry the history up to a tenth of the tolerance. @return whether any went
+/// Cuts X to the modes that carry the history up to half the tolerance. @return whether any went
 bool recompress(SeparatedIncrement& increment, LevelHistory& history, double tolerance) {
   history.X = increment.X();
   const HistoryModes modes = historyModes(history, increment.positionWeights());
-  const double allowed = 0.01 * tolerance * tolerance * modes.energy.sum();
+  const double allowed = 0.25 * tolerance * tolerance * modes.energy.sum();
   Eigen::Index count = modes.energy.size();
   for (double tail = 0.0; count > 1; --count) {
     tail += modes.energy[count - 1];

@@ -122,16 +122,14 @@ double SeparatedIncrement::residual() const {
   const bool carried = options_.scheme != LoadStepping::kForwardEuler;
   const double reference = carried ? to_ : to_ - from_;
   const Eigen::VectorXd scale = v_.cwiseSqrt();
-  const bool exact = probes_.size() == 0;
-  double squares = 0.0;
-  if (exact) {
+  if (probes_.size() == 0) {
     const Eigen::MatrixXd scaled = rho_ * scale.asDiagonal();
-    squares = scaled.cwiseProduct(solveK0(scaled)).sum();
-  } else {
-    const Eigen::MatrixXd mixed = rho_ * (scale.asDiagonal() * probes_);
-    squares = mixed.cwiseProduct(solveK0(mixed)).sum() / static_cast<double>(probes_.cols());
+    const Eigen::VectorXd squares = scaled.cwiseProduct(solveK0(scaled)).colwise().sum();
+    return std::sqrt(squares.cwiseQuotient(problem_.weights()).maxCoeff()) / reference;
   }
-  return std::sqrt(std::max(squares, 0.0) / problem_.weights().sum()) / reference;
+  const Eigen::MatrixXd mixed = rho_ * (scale.asDiagonal() * probes_);
+  const double mean = mixed.cwiseProduct(solveK0(mixed)).sum() / static_cast<double>(probes_.cols());
+  return std::sqrt(mean / problem_.weights().sum()) / reference;
 }
 
 /// K0^-1 of a random combination of the residuals: one step of a power iteration.

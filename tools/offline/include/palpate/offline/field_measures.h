@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "palpate/offline/fe_model.h"
+
+namespace palpate::offline {
+
+/// (sum det F V) / (sum V) - 1: what a displacement adds to the volume of the body, relative. Linear solutions
+/// of large bending gain volume without a cause.                                 paper Sections 3 and 4.2
+/// @param u  3 N, m
+[[nodiscard]] double volumeChange(const FeModel& model, const Eigen::VectorXd& u);
+
+/// (int |u|^2 dX)^(1/2) of a nodal field, exact for linear tetrahedra, m^(5/2). @param u  3 N, m
+[[nodiscard]] double normL2(const FeModel& model, const Eigen::VectorXd& u);
+
+/// |u - reference| / |reference| in L2. @throw std::invalid_argument when the reference is zero
+[[nodiscard]] double relativeErrorL2(const FeModel& model, const Eigen::VectorXd& u,
+                                     const Eigen::VectorXd& reference);
+
+}  // namespace palpate::offline
