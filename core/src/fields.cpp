@@ -18,9 +18,9 @@ std::size_t index(std::int64_t i) noexcept {
 }
 
 /// Weight of each coefficient of one contact position.
-Weights scaled(std::span<const double> monomials, double factor) noexcept {
+Weights scaled(std::span<const double> phi, double factor) noexcept {
   Weights weight;
-  for (std::size_t k = 0; k < monomials.size(); ++k) weight[k] = static_cast<float>(factor * monomials[k]);
+  for (std::size_t k = 0; k < phi.size(); ++k) weight[k] = static_cast<float>(factor * phi[k]);
   return weight;
 }
 
@@ -29,13 +29,13 @@ Weights scaled(std::span<const double> monomials, double factor) noexcept {
 SeparatedField::SeparatedField(const ModelView& view)
     : X_(view.modes_X), Y_(view.modes_Y), modes_(static_cast<int>(view.modes())) {}
 
-void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const double> monomials, double gain,
+void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
                                    std::span<float> y) const noexcept PALPATE_NONBLOCKING {
   const std::size_t n = y.size();
   for (std::size_t b = 0; b < index(mix.count); ++b) {
-    const Weights weight = scaled(monomials, gain * mix.weight[b]);
-    const float* const Y = Y_.data() + index(mix.position[b]) * monomials.size() * n;
-    addWeightedRows(Y, n, weight.data(), monomials.size(), n, y.data());
+    const Weights weight = scaled(phi, gain * mix.weight[b]);
+    const float* const Y = Y_.data() + index(mix.position[b]) * phi.size() * n;
+    addWeightedRows(Y, n, weight.data(), phi.size(), n, y.data());
   }
 }
 
@@ -51,16 +51,16 @@ NearField::NearField(const ModelView& view)
   scratch_size_ = static_cast<int>(3 * most);
 }
 
-void NearField::add(const PositionMix& mix, std::span<const double> monomials, double gain,
+void NearField::add(const PositionMix& mix, std::span<const double> phi, double gain,
                     std::span<float> scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
   for (std::size_t b = 0; b < index(mix.count); ++b) {
     const std::size_t m = index(mix.position[b]);
     const std::size_t first = index(offset_[m]), nodes = index(offset_[m + 1]) - first;
     const std::span<float> block = scratch.first(3 * nodes);
     std::fill(block.begin(), block.end(), 0.0F);
-    const Weights weight = scaled(monomials, gain * mix.weight[b]);
-    const float* const field = field_.data() + 3 * monomials.size() * first;
-    addWeightedRows(field, 3 * nodes, weight.data(), monomials.size(), 3 * nodes, block.data());
+    const Weights weight = scaled(phi, gain * mix.weight[b]);
+    const float* const field = field_.data() + 3 * phi.size() * first;
+    addWeightedRows(field, 3 * nodes, weight.data(), phi.size(), 3 * nodes, block.data());
     for (std::size_t i = 0; i < nodes; ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
         u[3 * index(node_[first + i]) + axis] += block[3 * i + axis];

@@ -12,7 +12,7 @@ MetaModel MetaModel::load(const std::filesystem::path& path) {
   SealedImage image(
       path);  // first: whatever happens to the file from here on, the copy stays what was checked
   ModelContents contents = readModel(image, path.string());
-  checkContents(contents.view, path.string());
+  checkContents(contents.attributes, contents.view, path.string());
   try {
     return MetaModel(std::move(image), std::move(contents.attributes), contents.view);
   } catch (const std::invalid_argument& error) {
@@ -24,7 +24,7 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
     : image_(std::move(image)),
       attributes_(std::move(attributes)),
       view_(view),
-      basis_(attributes_.order),
+      functions_(view_, attributes_, attributes_.order),
       surface_(view_),
       response_(view_, attributes_),
       far_field_(view_),

@@ -5,6 +5,7 @@
 #include "model_reader.h"
 #include "palpate/core/load_error.h"
 #include "palpate/core/multi_index.h"
+#include "palpate/core/types.h"
 
 namespace palpate {
 
@@ -44,6 +45,54 @@ class Checker {
   const std::string& name_;
 };
 
+void checkOrders(const ModelAttributes& a, const Checker& check) {
+  const int highest = a.parameters == Parameters::kForce ? a.order : MonomialBasis::kMaxOrder;
+  check.require(a.order >= 1 && a.order <= MonomialBasis::kMaxOrder,
+                "attribute order is " + std::to_string(a.order),
+                "1 to " + std::to_string(MonomialBasis::kMaxOrder));
+  check.require(a.force_order >= a.order && a.force_order <= highest,
+                "attribute force_order is " + std::to_string(a.force_order),
+                a.order == highest ? std::to_string(highest)
+                                   : std::to_string(a.order) + " to " + std::to_string(highest));
+}
+
+/// The largest |d|, |f| or t that is trusted.
+void checkDomain(Parameters parameters, std::span<const double> radius, const Checker& check) {
+  for (std::size_t m = 0; m < radius.size(); ++m) {
+    const std::string found = "is " + std::to_string(radius[m]);
+    if (parameters == Parameters::kDisplacement && radius[m] < 0.0)
+      check.failAt("/contact/domain_radius", m, found, "at least 0");
+    if (parameters == Parameters::kForce && !(radius[m] > 0.0))
+      check.failAt("/contact/domain_radius", m, found, "more than 0 N");
+    if (parameters == Parameters::kLevel && !(radius[m] > 0.0 && radius[m] <= 1.0))
+      check.failAt("/contact/domain_radius", m, found, "more than 0, at most 1");
+  }
+}
+
+void checkLevels(const ModelView& v, const Checker& check) {
+  constexpr std::size_t kMaxSteps = 100'000;
+  constexpr auto kMaxFunctions = static_cast<std::size_t>(MonomialBasis::kMaxCoefficients);
+  const std::size_t C = v.level_functions;
+  check.require(C >= 1 && C <= kMaxFunctions, "/levels/Z has " + std::to_string(C) + " level functions",
+                "1 to " + std::to_string(kMaxFunctions));
+  const std::size_t points = v.levels_Z.size() / C;
+  check.require(points >= 2 && points <= kMaxSteps + 1, "/levels/Z has " + std::to_string(points) + " levels",
+                "2 to " + std::to_string(kMaxSteps + 1));
+  check.finite("/levels/Z", v.levels_Z);
+  for (std::size_t q = 0; q < C; ++q)
+    if (v.levels_Z[q * points] != 0.0)
+      check.failAt("/levels/Z", q * points, "is " + std::to_string(v.levels_Z[q * points]), "0 at level 0");
+}
+
+/// A load-driven model has modes only.                                                       DESIGN 2.1
+void checkNoNear(const ModelAttributes& a, const ModelView& v, const Checker& check) {
+  const std::string should =
+      "none: a model with parameters \"" + std::string(toString(a.parameters)) + "\" has no near field";
+  check.require(a.near_radius == 0.0, "attribute near_radius is " + std::to_string(a.near_radius), should);
+  check.require(v.near_node.empty(), "/near/node has " + std::to_string(v.near_node.size()) + " numbers",
+                should);
+}
+
 void checkPositions(const ModelView& v, const Checker& check) {
   check.require(v.positions() > 0, "/contact/node is empty", "contact positions");
   check.indices("/contact/node", v.contact_node, v.surfaceNodes());
@@ -54,9 +103,6 @@ void checkPositions(const ModelView& v, const Checker& check) {
       check.failAt("/contact/node", m, "leads back to position " + std::to_string(back), std::to_string(m));
     if (v.contact_accessible[m] > 1)
       check.failAt("/contact/accessible", m, "is " + std::to_string(v.contact_accessible[m]), "0 or 1");
-    if (v.contact_domain_radius[m] < 0.0)
-      check.failAt("/contact/domain_radius", m, "is " + std::to_string(v.contact_domain_radius[m]),
-                   "at least 0");
   }
   std::size_t used = 0;
   for (const std::int32_t position : v.position_of_node) used += position >= 0 ? 1 : 0;
@@ -85,6 +131,7 @@ void checkNear(const ModelView& v, const Checker& check) {
 void checkFinite(const ModelView& v, const Checker& check) {
   check.finite("/surface/positions", v.surface_positions);
   check.finite("/contact/force", v.contact_force);
+  check.finite("/contact/displacement", v.contact_displacement);
   check.finite("/contact/domain_radius", v.contact_domain_radius);
   check.finite("/modes/X", v.modes_X);
   check.finite("/modes/Y", v.modes_Y);
@@ -101,26 +148,31 @@ void checkAttributes(const ModelAttributes& a, const std::string& name) {
                   std::string("attribute ") + attribute + " is " + std::to_string(value), expected);
   };
   check.require(a.law == "stvk", "attribute law is \"" + a.law.substr(0, 40) + "\"", "\"stvk\"");
-  check.require(a.order >= 1 && a.order <= MonomialBasis::kMaxOrder,
-                "attribute order is " + std::to_string(a.order),
-                "1 to " + std::to_string(MonomialBasis::kMaxOrder));
-  check.require(a.force_order >= a.order && a.force_order <= MonomialBasis::kMaxOrder,
-                "attribute force_order is " + std::to_string(a.force_order),
-                std::to_string(a.order) + " to " + std::to_string(MonomialBasis::kMaxOrder));
+  if (a.parameters != Parameters::kLevel) checkOrders(a, check);
   range("E", a.E, a.E > 0.0, "more than 0 Pa");
   range("nu", a.nu, a.nu > -1.0 && a.nu < 0.5, "more than -1 and less than 0.5");
   range("patch_radius", a.patch_radius, a.patch_radius > 0.0, "more than 0 m");
   range("near_radius", a.near_radius, a.near_radius >= 0.0, "at least 0 m");
   range("reference_displacement", a.reference_displacement, a.reference_displacement > 0.0, "more than 0 m");
+  if (a.parameters == Parameters::kForce)
+    range("reference_force", a.reference_force, a.reference_force > 0.0, "more than 0 N");
+  if (a.parameters != Parameters::kLevel) return;
+  range("load", a.load, a.load > 0.0, "more than 0 N");
+  const double length = Eigen::Map<const Vec3>(a.load_direction.data()).stableNorm();
+  check.require(std::abs(length - 1.0) <= 1e-9,
+                "attribute load_direction has length " + std::to_string(length), "1");
 }
 
-void checkContents(const ModelView& v, const std::string& name) {
+void checkContents(const ModelAttributes& a, const ModelView& v, const std::string& name) {
   const Checker check(name);
   check.require(v.surfaceNodes() > 0 && v.triangles() > 0, "/surface is empty", "a closed surface");
   checkFinite(v, check);
   check.indices("/surface/triangles", v.surface_triangles, v.surfaceNodes());
   checkPositions(v, check);
+  checkDomain(a.parameters, v.contact_domain_radius, check);
   checkNear(v, check);
+  if (a.parameters != Parameters::kDisplacement) checkNoNear(a, v, check);
+  if (a.parameters == Parameters::kLevel) checkLevels(v, check);
   const std::size_t N = v.mesh_node_tag.size();
   check.require(N > 0, "/mesh/nodes is empty", "the volume mesh");
   check.indices("/mesh/tetrahedra", v.mesh_tetrahedra, N);

@@ -1,373 +1,126 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one file of core that knows HDF5.
 #include "model_reader.h"
 
-#include <hdf5.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
-#include <initializer_list>
-#include <limits>
-#include <string_view>
-#include <vector>
-
-#include "palpate/core/hdf5_handle.h"
-#include "palpate/core/load_error.h"
+#include "hdf5_reader.h"
 #include "palpate/core/multi_index.h"
 
 namespace palpate {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "the model file is mapped as it is: little-endian only");
+/// Version 1 is the displacement-driven model, version 2 the load-driven ones.
+Parameters readParameters(const Hdf5Reader& file) {
+  if (const std::string format = file.text("format"); format != "palpate-model")
+    file.fail("attribute format is \"" + format.substr(0, 40) + "\", expected \"palpate-model\"");
+  const int version = file.integer("version");
+  if (version == 1) return Parameters::kDisplacement;
+  if (version != 2) file.fail("attribute version is " + std::to_string(version) + ", expected 1 or 2");
+  const std::string parameters = file.text("parameters");
+  for (const Parameters kind : {Parameters::kForce, Parameters::kLevel})
+    if (parameters == toString(kind)) return kind;
+  file.fail("attribute parameters is \"" + parameters.substr(0, 40) + "\", expected \"force\" or \"level\"");
+}
 
-constexpr std::uint64_t kAlignment = 4096;
-constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kMaxLength =
-    std::numeric_limits<std::int32_t>::max() / 4;  // int arithmetic on 3 n is safe
-
-/// Keeps HDF5 from printing its errors, which leave here as LoadError, and restores what was set before.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+/// What differs between the kinds.
+void readKind(const Hdf5Reader& file, ModelAttributes& a) {
+  if (a.parameters == Parameters::kLevel) {
+    file.numbers("load_direction", a.load_direction);
+    a.load = file.number("load");
+    return;
   }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
- private:
-  H5E_auto2_t function_{nullptr};
-  void* data_{nullptr};
-};
-
-/// What HDF5 says about its last error, at the place where it met it.
-std::string lastError() {
-  std::string reason = "unknown reason";
-  const auto keep = [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
-    if (error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
-    return 0;
-  };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep, &reason);  // from the call to the cause: the last one stays
-  return reason;
+  a.order = file.integer("order");
+  const bool force_order = a.parameters == Parameters::kDisplacement || file.hasAttribute("force_order");
+  a.force_order = force_order ? file.integer("force_order") : a.order;
+  if (a.parameters == Parameters::kForce) a.reference_force = file.number("reference_force");
 }
 
-/// Lets HDF5's core driver read the image where it lies, without a copy of its own: a sealed memory file
-/// cannot be opened by name (HDF5 resolves /proc/self/fd/N to a path, and there is none). Read-only, so
-/// nothing is written to it.
-H5FD_file_image_callbacks_t inPlace(const SealedImage& image) {
-  H5FD_file_image_callbacks_t callbacks{};
-  callbacks.image_malloc = [](std::size_t, H5FD_file_image_op_t, void* self) -> void* {
-    return const_cast<std::byte*>(static_cast<const SealedImage*>(self)->bytes().data());
-  };
-  callbacks.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; };
-  callbacks.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* { return nullptr; };
-  callbacks.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
-  callbacks.udata_copy = [](void* self) { return self; };
-  callbacks.udata_free = [](void*) -> herr_t { return 0; };
-  callbacks.udata = const_cast<SealedImage*>(&image);
-  return callbacks;
-}
-
-/// One length of a shape: a number, or a symbol that the first dataset with it defines.
-struct Length {
-  std::string symbol;
-  std::uint64_t value{kUnknown};
-  Length(std::uint64_t number) : symbol(std::to_string(number)), value(number) {}
-  explicit Length(const char* letter) : symbol(letter) {}
-  [[nodiscard]] std::string text() const {
-    return value == kUnknown || symbol == std::to_string(value) ? symbol
-                                                                : symbol + " = " + std::to_string(value);
-  }
-};
-
-template <typename T>
-struct FileType;
-template <>
-struct FileType<double> {
-  static hid_t id() { return H5T_IEEE_F64LE; }
-};
-template <>
-struct FileType<float> {
-  static hid_t id() { return H5T_IEEE_F32LE; }
-};
-template <>
-struct FileType<std::int32_t> {
-  static hid_t id() { return H5T_STD_I32LE; }
-};
-template <>
-struct FileType<std::int64_t> {
-  static hid_t id() { return H5T_STD_I64LE; }
-};
-template <>
-struct FileType<std::uint8_t> {
-  static hid_t id() { return H5T_STD_U8LE; }
-};
-
-std::string describeType(hid_t type) {
-  const H5T_class_t kind = H5Tget_class(type);
-  if (kind != H5T_INTEGER && kind != H5T_FLOAT) return "neither integer nor floating point";
-  const std::string order = H5Tget_order(type) == H5T_ORDER_BE ? "big-endian " : "little-endian ";
-  const std::string sign = kind == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_NONE ? "unsigned " : "";
-  return order + std::to_string(8 * H5Tget_size(type)) + "-bit " + sign +
-         (kind == H5T_INTEGER ? "integer" : "float");
-}
-
-/// Reads one model through HDF5.
-class Reader {
- public:
-  Reader(const SealedImage& image, std::string name)
-      : image_(image), name_(std::move(name)), file_(openImage()) {}
-
-  [[nodiscard]] ModelAttributes attributes() const;
-  [[nodiscard]] ModelView view(int order, int force_order) const;
-
- private:
-  [[noreturn]] void fail(const std::string& what) const { throw LoadError(name_ + ": " + what); }
-  [[nodiscard]] Hdf5Handle openImage() const;
-  [[nodiscard]] Hdf5Handle openAttribute(const char* attribute) const;
-  [[nodiscard]] double number(const char* attribute) const;
-  [[nodiscard]] int integer(const char* attribute) const;
-  [[nodiscard]] std::string text(const char* attribute) const;
-  [[nodiscard]] Hdf5Handle openDataset(const std::string& path) const;
-  void checkLink(const std::string& path) const;
-  void checkShape(const std::string& path, hid_t dataset, std::span<Length* const> wanted) const;
-  void checkType(const std::string& path, hid_t dataset, hid_t wanted) const;
-  void checkLayout(const std::string& path, hid_t dataset) const;
-  [[nodiscard]] const std::byte* place(const std::string& path, hid_t dataset, std::uint64_t bytes) const;
-
-  /// Checks all that can be checked about one dataset without looking at its numbers. Unknown lengths are
-  /// filled in.
-  template <typename T>
-  [[nodiscard]] std::span<const T> dataset(const std::string& path,
-                                           std::initializer_list<Length*> shape) const;
-
-  const SealedImage& image_;
-  std::string name_;
-  Hdf5Handle file_;
-};
-
-Hdf5Handle Reader::openImage() const {
-  static constexpr std::array<unsigned char, 8> kSignature{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-  const auto bytes = image_.bytes();
-  if (bytes.size() < kSignature.size() ||
-      std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0)
-    fail("does not begin with the HDF5 signature, expected a model file");
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5FD_file_image_callbacks_t callbacks = inPlace(image_);
-  constexpr std::size_t kIncrement = 1U << 16U;  // of a file that grows; this one does not
-  const bool ready = H5Pset_fapl_core(access.get(), kIncrement, 0) >= 0 &&
-                     H5Pset_file_image_callbacks(access.get(), &callbacks) >= 0 &&
-                     H5Pset_file_image(access.get(), const_cast<std::byte*>(bytes.data()), bytes.size()) >= 0;
-  if (!ready) fail("HDF5 cannot read from memory (" + lastError() + ")");
-  Hdf5Handle file(H5Fopen("palpate-model", H5F_ACC_RDONLY, access.get()), H5Fclose);
-  if (!file.valid())
-    fail("HDF5 cannot open its " + std::to_string(bytes.size()) +
-         " bytes, the file is truncated or damaged (" + lastError() + ")");
-  return file;
-}
-
-Hdf5Handle Reader::openAttribute(const char* attribute) const {
-  Hdf5Handle handle(H5Aopen(file_.get(), attribute, H5P_DEFAULT), H5Aclose);
-  if (!handle.valid()) fail(std::string("attribute ") + attribute + " is missing");
-  const Hdf5Handle space(H5Aget_space(handle.get()), H5Sclose);
-  if (!space.valid() || H5Sget_simple_extent_npoints(space.get()) != 1)
-    fail(std::string("attribute ") + attribute + " is not a single value");
-  return handle;
-}
-
-double Reader::number(const char* attribute) const {
-  const Hdf5Handle handle = openAttribute(attribute);
-  const Hdf5Handle type(H5Aget_type(handle.get()), H5Tclose);
-  double value = 0.0;
-  if (H5Tget_class(type.get()) != H5T_FLOAT || H5Aread(handle.get(), H5T_NATIVE_DOUBLE, &value) < 0)
-    fail(std::string("attribute ") + attribute + " is " + describeType(type.get()) + ", expected a float");
-  return value;
-}
-
-int Reader::integer(const char* attribute) const {
-  const Hdf5Handle handle = openAttribute(attribute);
-  const Hdf5Handle type(H5Aget_type(handle.get()), H5Tclose);
-  int value = 0;  // HDF5 saturates larger integers, so that a wild one stays out of range
-  if (H5Tget_class(type.get()) != H5T_INTEGER || H5Aread(handle.get(), H5T_NATIVE_INT, &value) < 0)
-    fail(std::string("attribute ") + attribute + " is " + describeType(type.get()) + ", expected an integer");
-  return value;
-}
-
-std::string Reader::text(const char* attribute) const {
-  constexpr std::size_t kMaxFixedText = 65536;  // more does not fit an object header
-  const Hdf5Handle handle = openAttribute(attribute);
-  const Hdf5Handle type(H5Aget_type(handle.get()), H5Tclose);
-  const std::string refusal = std::string("attribute ") + attribute + " is no readable text";
-  if (H5Tget_class(type.get()) != H5T_STRING) fail(refusal);
-  if (H5Tis_variable_str(type.get()) > 0) {
-    char* value = nullptr;
-    if (H5Aread(handle.get(), type.get(), static_cast<void*>(&value)) < 0) fail(refusal);
-    std::string copy(value == nullptr ? "" : value);
-    H5free_memory(value);
-    return copy;
-  }
-  const std::size_t size = H5Tget_size(type.get());
-  if (size > kMaxFixedText) fail(refusal);
-  std::vector<char> value(size + 1, '\0');
-  if (H5Aread(handle.get(), type.get(), value.data()) < 0) fail(refusal);
-  return value.data();
-}
-
-ModelAttributes Reader::attributes() const {
-  if (const std::string format = text("format"); format != "palpate-model")
-    fail("attribute format is \"" + format.substr(0, 40) + "\", expected \"palpate-model\"");
-  if (const int version = integer("version"); version != 1)
-    fail("attribute version is " + std::to_string(version) + ", expected 1");
+ModelAttributes readAttributes(const Hdf5Reader& file) {
   ModelAttributes a;
-  a.model_id = text("model_id");
-  a.law = text("law");
-  a.provenance = text("provenance");
-  a.E = number("E");
-  a.nu = number("nu");
-  a.order = integer("order");
-  a.force_order = integer("force_order");
-  a.patch_radius = number("patch_radius");
-  a.near_radius = number("near_radius");
-  a.reference_displacement = number("reference_displacement");
+  a.parameters = readParameters(file);
+  a.model_id = file.text("model_id");
+  a.law = file.text("law");
+  a.provenance = file.text("provenance");
+  a.E = file.number("E");
+  a.nu = file.number("nu");
+  a.patch_radius = file.number("patch_radius");
+  a.near_radius = file.number("near_radius");
+  a.reference_displacement = file.number("reference_displacement");
+  readKind(file, a);
   return a;
 }
 
-/// A soft or external link would lead out of the copy that is checked.
-void Reader::checkLink(const std::string& path) const {
-  H5L_info_t info{};
-  if (H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) <= 0) fail("/" + path + " is missing");
-  if (H5Lget_info(file_.get(), path.c_str(), &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_HARD)
-    fail("/" + path + " is a link to somewhere else, expected the data in this file");
+/// Symbols that more than one dataset has in its shape.
+struct Lengths {
+  Length Ns{"Ns"}, M{"M"}, n{"n"}, C{"C"}, three{3};
+};
+
+Length sizeOf(int order) {
+  return {static_cast<std::uint64_t>(MonomialBasis::size(order))};
 }
 
-Hdf5Handle Reader::openDataset(const std::string& path) const {
-  checkLink(path.substr(0, path.find('/')));
-  checkLink(path);
-  Hdf5Handle handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!handle.valid()) fail("/" + path + " is no readable dataset");
-  return handle;
+void readSurface(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  Length T("T");
+  v.surface_positions = file.dataset<double>("surface/positions", {&size.Ns, &size.three});
+  v.surface_triangles = file.dataset<std::int32_t>("surface/triangles", {&T, &size.three});
+  v.surface_mesh_tag = file.dataset<std::int64_t>("surface/mesh_tag", {&size.Ns});
+  v.position_of_node = file.dataset<std::int32_t>("surface/position_of_node", {&size.Ns});
 }
 
-void Reader::checkShape(const std::string& path, hid_t dataset, std::span<Length* const> wanted) const {
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(space.get());
-  std::array<hsize_t, H5S_MAX_RANK> found{};
-  if (rank > 0) H5Sget_simple_extent_dims(space.get(), found.data(), nullptr);
-  bool good = rank == static_cast<int>(wanted.size());
-  for (std::size_t i = 0; good && i < wanted.size(); ++i) {
-    if (wanted[i]->value == kUnknown && found[i] <= kMaxLength) wanted[i]->value = found[i];
-    good = wanted[i]->value == found[i];
+void readLevels(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  Length points("L + 1");
+  v.levels_Z = file.dataset<double>("levels/Z", {&size.C, &points});
+  v.level_functions = static_cast<std::size_t>(size.C.value);
+}
+
+void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size, ModelView& v) {
+  v.contact_node = file.dataset<std::int32_t>("contact/node", {&size.M});
+  v.contact_accessible = file.dataset<std::uint8_t>("contact/accessible", {&size.M});
+  if (a.parameters == Parameters::kDisplacement) {
+    Length Cf = sizeOf(a.force_order);
+    v.contact_force = file.dataset<double>("contact/force", {&size.M, &Cf, &size.three});
+  } else {
+    v.contact_displacement = file.dataset<double>("contact/displacement", {&size.M, &size.C, &size.three});
   }
-  if (good) return;
-  std::string is, should;
-  for (int i = 0; i < rank; ++i)
-    is += (i > 0 ? " x " : "") + std::to_string(found[static_cast<std::size_t>(i)]);
-  for (const Length* length : wanted) should += (should.empty() ? "" : " x ") + length->text();
-  fail("/" + path + " has shape " + (rank > 0 ? is : "of no array") + ", expected " + should);
+  v.contact_domain_radius = file.dataset<double>("contact/domain_radius", {&size.M});
 }
 
-void Reader::checkType(const std::string& path, hid_t dataset, hid_t wanted) const {
-  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  if (!type.valid() || H5Tequal(type.get(), wanted) <= 0)
-    fail("/" + path + " is " + describeType(type.get()) + ", expected " + describeType(wanted));
+void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  Length components(3 * size.Ns.value), offsets(size.M.value + 1), near("sum K");
+  v.modes_X = file.dataset<float>("modes/X", {&size.n, &components});
+  v.modes_Y = file.dataset<float>("modes/Y", {&size.M, &size.C, &size.n});
+  v.near_offset = file.dataset<std::int64_t>("near/offset", {&offsets});
+  v.near_node = file.dataset<std::int32_t>("near/node", {&near});
+  Length field(3 * size.C.value * near.value);
+  v.near_field = file.dataset<float>("near/field", {&field});
 }
 
-void Reader::checkLayout(const std::string& path, hid_t dataset) const {
-  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (!creation.valid()) fail("/" + path + " has no readable layout");
-  if (const int filters = H5Pget_nfilters(creation.get()); filters != 0)
-    fail("/" + path + " has " + std::to_string(filters) +
-         " filters (compression or the like), expected none");
-  const H5D_layout_t layout = H5Pget_layout(creation.get());
-  if (layout != H5D_CONTIGUOUS)
-    fail("/" + path + " is " +
-         (layout == H5D_CHUNKED   ? "chunked"
-          : layout == H5D_COMPACT ? "compact"
-                                  : "virtual") +
-         ", expected contiguous");
-  if (H5Pget_external_count(creation.get()) != 0)
-    fail("/" + path + " lies in another file, expected the data in this file");
-}
-
-const std::byte* Reader::place(const std::string& path, hid_t dataset, std::uint64_t bytes) const {
-  const std::uint64_t size = image_.bytes().size();
-  const haddr_t offset = H5Dget_offset(dataset);
-  if (offset == HADDR_UNDEF)
-    fail("/" + path + " has no place in the file (late allocation), expected early allocation");
-  if (offset > size || bytes > size - offset)
-    fail("/" + path + " lies at bytes " + std::to_string(offset) + " + " + std::to_string(bytes) +
-         ", expected within the file's " + std::to_string(size));
-  if (H5Dget_storage_size(dataset) != bytes)
-    fail("/" + path + " stores " + std::to_string(H5Dget_storage_size(dataset)) + " bytes, expected " +
-         std::to_string(bytes));
-  if (offset % kAlignment != 0)
-    fail("/" + path + " begins at byte " + std::to_string(offset) + ", expected a multiple of " +
-         std::to_string(kAlignment));
-  return image_.bytes().data() + offset;
-}
-
-template <typename T>
-std::span<const T> Reader::dataset(const std::string& path, std::initializer_list<Length*> shape) const {
-  const Hdf5Handle handle = openDataset(path);
-  checkType(path, handle.get(), FileType<T>::id());
-  checkShape(path, handle.get(), std::span(shape.begin(), shape.size()));
-  checkLayout(path, handle.get());
-  const std::uint64_t limit = image_.bytes().size() / sizeof(T);
-  std::uint64_t count = 1;
-  for (const Length* length : shape) {
-    if (length->value != 0 && count > limit / length->value)
-      fail("/" + path + " has more numbers than the file's " + std::to_string(image_.bytes().size()) +
-           " bytes can hold");
-    count *= length->value;
-  }
-  if (count == 0) return {};
-  return {static_cast<const T*>(static_cast<const void*>(place(path, handle.get(), count * sizeof(T)))),
-          static_cast<std::size_t>(count)};
-}
-
-ModelView Reader::view(int order, int force_order) const {
-  Length Ns("Ns"), T("T"), M("M"), n("n"), near("sum K"), N("N"), V("V"), fixed("F"), three(3), four(4);
-  Length C(static_cast<std::uint64_t>(MonomialBasis::size(order)));
-  Length Cf(static_cast<std::uint64_t>(MonomialBasis::size(force_order)));
-  ModelView v;
-  v.surface_positions = dataset<double>("surface/positions", {&Ns, &three});
-  v.surface_triangles = dataset<std::int32_t>("surface/triangles", {&T, &three});
-  v.surface_mesh_tag = dataset<std::int64_t>("surface/mesh_tag", {&Ns});
-  v.position_of_node = dataset<std::int32_t>("surface/position_of_node", {&Ns});
-  v.contact_node = dataset<std::int32_t>("contact/node", {&M});
-  v.contact_accessible = dataset<std::uint8_t>("contact/accessible", {&M});
-  v.contact_force = dataset<double>("contact/force", {&M, &Cf, &three});
-  v.contact_domain_radius = dataset<double>("contact/domain_radius", {&M});
-  Length components(3 * Ns.value), offsets(M.value + 1);
-  v.modes_X = dataset<float>("modes/X", {&n, &components});
-  v.modes_Y = dataset<float>("modes/Y", {&M, &C, &n});
-  v.near_offset = dataset<std::int64_t>("near/offset", {&offsets});
-  v.near_node = dataset<std::int32_t>("near/node", {&near});
-  Length field(3 * C.value * near.value);
-  v.near_field = dataset<float>("near/field", {&field});
-  v.mesh_nodes = dataset<double>("mesh/nodes", {&N, &three});
-  v.mesh_tetrahedra = dataset<std::int32_t>("mesh/tetrahedra", {&V, &four});
-  v.mesh_node_tag = dataset<std::int64_t>("mesh/node_tag", {&N});
-  v.mesh_tetrahedron_tag = dataset<std::int64_t>("mesh/tetrahedron_tag", {&V});
-  v.mesh_fixed = dataset<std::int32_t>("mesh/fixed", {&fixed});
-  v.mesh_surface_node = dataset<std::int32_t>("mesh/surface_node", {&Ns});
-  return v;
+void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  Length N("N"), V("V"), fixed("F"), four(4);
+  v.mesh_nodes = file.dataset<double>("mesh/nodes", {&N, &size.three});
+  v.mesh_tetrahedra = file.dataset<std::int32_t>("mesh/tetrahedra", {&V, &four});
+  v.mesh_node_tag = file.dataset<std::int64_t>("mesh/node_tag", {&N});
+  v.mesh_tetrahedron_tag = file.dataset<std::int64_t>("mesh/tetrahedron_tag", {&V});
+  v.mesh_fixed = file.dataset<std::int32_t>("mesh/fixed", {&fixed});
+  v.mesh_surface_node = file.dataset<std::int32_t>("mesh/surface_node", {&size.Ns});
 }
 
 }  // namespace
 
 ModelContents readModel(const SealedImage& image, const std::string& name) {
-  const Silence silence;
-  const Reader reader(image, name);
+  const Hdf5Reader file(image, name);
   ModelContents contents;
-  contents.attributes = reader.attributes();
-  checkAttributes(contents.attributes, name);
-  contents.view = reader.view(contents.attributes.order, contents.attributes.force_order);
+  ModelAttributes& a = contents.attributes;
+  a = readAttributes(file);
+  checkAttributes(a, name);
+  Lengths size;
+  readSurface(file, size, contents.view);
+  if (a.parameters == Parameters::kLevel)
+    readLevels(file, size, contents.view);
+  else
+    size.C = sizeOf(a.order);
+  readContact(file, a, size, contents.view);
+  readFields(file, size, contents.view);
+  readMesh(file, size, contents.view);
   return contents;
 }
 

@@ -24,6 +24,6 @@ struct ModelContents {
 void checkAttributes(const ModelAttributes& attributes, const std::string& name);
 
 /// Every index in range, every table consistent, every number finite. @throw LoadError
-void checkContents(const ModelView& view, const std::string& name);
+void checkContents(const ModelAttributes& attributes, const ModelView& view, const std::string& name);
 
 }  // namespace palpate

@@ -4,23 +4,33 @@
 #include <algorithm>
 #include <array>
 
+#include "load_driven.h"
+
 namespace palpate {
 
-namespace {
-
-/// d, or d scaled to the radius of the domain.
-Vec3 clampToDomain(const Vec3& d, double radius) noexcept {
+Vec3 clampToDomain(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
   const double length = d.stableNorm();  // |d|^2 of a huge displacement overflows
   return length > radius ? Vec3(d.stableNormalized() * radius) : d;
 }
 
-/// Derivative of d -> radius d / |d|, for |d| > 0.
-Mat3 projectionGradient(const Vec3& d, double radius) noexcept {
+Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
   const Vec3 direction = d.stableNormalized();
   return (radius / d.stableNorm()) * (Mat3::Identity() - direction * direction.transpose());
 }
 
-using Monomials = std::array<double, MonomialBasis::kMaxCoefficients>;
+namespace {
+
+/// f(s, d) of a "displacement" model.
+ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, Response& out) noexcept {
+  out.domain_radius = series.limit();
+  out.displacement = clampToDomain(d, out.domain_radius);
+  out.parameter = out.displacement;
+  out.force = series.value(out.displacement);
+  out.stiffness = series.gradient(out.displacement);
+  if (!(d.norm() > out.domain_radius)) return ResponseStatus::kOk;
+  out.stiffness = (out.stiffness * projectionGradient(d, out.domain_radius)).eval();
+  return ResponseStatus::kClamped;
+}
 
 }  // namespace
 
@@ -41,13 +51,27 @@ ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3
   out = Response{};
   const PositionMix mix = model.surface().mix(s);
   if (mix.count == 0) return ResponseStatus::kNoAnswer;
-  out.domain_radius = model.response().domainRadius(mix);
-  out.displacement = clampToDomain(d, out.domain_radius);
-  out.force = model.response().force(mix, out.displacement);
-  out.stiffness = model.response().stiffness(mix, out.displacement);
-  if (!(d.norm() > out.domain_radius)) return ResponseStatus::kOk;
-  out.stiffness = (out.stiffness * projectionGradient(d, out.domain_radius)).eval();
-  return ResponseStatus::kClamped;
+  const ContactSeries series = model.response().at(mix);
+  switch (model.attributes().parameters) {
+    case Parameters::kDisplacement:
+      return answerToDisplacement(series, d, out);
+    case Parameters::kForce:
+      return findForce(series, d, out);
+    case Parameters::kLevel:
+      return findLevel(series, model.attributes(), d, out);
+  }
+  return ResponseStatus::kNoAnswer;
+}
+
+ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, const Vec3& load,
+                             Response& out) noexcept PALPATE_NONBLOCKING {
+  out = Response{};
+  const PositionMix mix = model.surface().mix(s);
+  const Parameters parameters = model.attributes().parameters;
+  if (mix.count == 0 || parameters == Parameters::kDisplacement) return ResponseStatus::kNoAnswer;
+  const ContactSeries series = model.response().at(mix);
+  return parameters == Parameters::kForce ? answerToForce(series, load, out)
+                                          : answerToLevel(series, model.attributes(), load.x(), out);
 }
 
 FieldScratch::FieldScratch(const MetaModel& model)
@@ -61,25 +85,27 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
     for (const FieldSource& source : sources) {
       const PositionMix mix = model.surface().mix(source.s);
       if (mix.count == 0) continue;
-      const Vec3 d = clampToDomain(source.d, model.response().domainRadius(mix));
-      Monomials all;
-      const std::span<double> monomials(all.data(), static_cast<std::size_t>(model.basis().size()));
-      model.basis().evaluate(d / model.attributes().reference_displacement, monomials);
-      add(mix, monomials, source.gain);
+      const Vec3 p = clampToDomain(source.parameter, model.response().limit(mix));
+      std::array<double, MonomialBasis::kMaxCoefficients> all;
+      const std::span<double> phi(all.data(), static_cast<std::size_t>(model.functions().size()));
+      model.functions().evaluate(p, phi);
+      add(mix, phi, source.gain);
     }
   };
-  forEach([&](const PositionMix& mix, std::span<const double> monomials, double gain) {
-    model.farField().addAmplitudes(mix, monomials, gain, scratch.amplitudes);
+  forEach([&](const PositionMix& mix, std::span<const double> phi, double gain) {
+    model.farField().addAmplitudes(mix, phi, gain, scratch.amplitudes);
   });
   model.farField().expand(scratch.amplitudes, u);
-  forEach([&](const PositionMix& mix, std::span<const double> monomials, double gain) {
-    model.nearField().add(mix, monomials, gain, scratch.near_block, u);
+  forEach([&](const PositionMix& mix, std::span<const double> phi, double gain) {
+    model.nearField().add(mix, phi, gain, scratch.near_block, u);
   });
 }
 
 void evaluateField(const MetaModel& model, const ContactPoint& s, const Vec3& d, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING {
-  const std::array<FieldSource, 1> source{FieldSource{s, d, 1.0}};
+  Response response;
+  (void)respond(model, s, d, response);  // without an answer there is no field either
+  const std::array<FieldSource, 1> source{FieldSource{s, response.parameter, 1.0}};
   evaluateField(model, source, scratch, u);
 }
 

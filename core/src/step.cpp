@@ -145,7 +145,7 @@ void Tick::evaluate(StepResult& result) noexcept {
   std::size_t count = 0;
   for (const ToolMemory& memory : work_.tools_)
     if (memory.contact.state != ContactState::kFree)
-      sources[count++] = {memory.contact.s, memory.contact.displacement, memory.rendering.gain};
+      sources[count++] = {memory.contact.s, memory.contact.response.parameter, memory.rendering.gain};
   const std::span<float> u(work_.displacement_);
   std::fill(u.begin(), u.end(), 0.0F);
   if (count == 0) return;

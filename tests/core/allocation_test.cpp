@@ -49,4 +49,22 @@ TEST(Step, NeverAllocates) {
     EXPECT_EQ(seen & flag, flag) << "the path of flag " << flag << " was not taken";
 }
 
+TEST(Step, NeverAllocatesWithALoadDrivenModel) {
+  for (const Parameters parameters : {Parameters::kForce, Parameters::kLevel}) {
+    const MetaModel model = loadSynthetic({.parameters = parameters});
+    Driver driver(model);
+    std::uint32_t seen = 0;
+    std::size_t allocations = 0;
+    {
+      const AllocationGuard guard;
+      for (int ms = 0; ms < 200; ++ms)
+        seen |= driver.at(Vec3(0.0001 * ms, 0.0, 0.056 - 0.016 * std::abs(std::sin(0.03 * ms)))).flags;
+      allocations = guard.count();
+    }
+    EXPECT_EQ(allocations, 0U);
+    for (const std::uint32_t flag : {kInContact, kBeyondDomain})
+      EXPECT_EQ(seen & flag, flag) << "the path of flag " << flag << " was not taken";
+  }
+}
+
 }  // namespace palpate::testing

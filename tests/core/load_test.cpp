@@ -20,6 +20,7 @@
 #include "palpate/core/meta_model.h"
 #include "palpate/modelfile/model_file.h"
 #include "palpate/testing/synthetic_model.h"
+#include "spoiled_file.h"
 
 namespace palpate::testing {
 
@@ -31,23 +32,6 @@ using ::testing::HasSubstr;
 const ModelData& goodData() {
   static const ModelData data = syntheticModel({.subdivisions = 1, .modes = 2});
   return data;
-}
-
-/// What load() says about a file; empty when it says nothing.
-std::string complaint(const std::filesystem::path& path) {
-  try {
-    const MetaModel model = MetaModel::load(path);
-    return {};
-  } catch (const LoadError& error) {
-    return error.what();
-  }
-}
-
-void expectRefused(const std::filesystem::path& path, const std::string& expected) {
-  const std::string text = complaint(path);
-  EXPECT_THAT(text, HasSubstr(expected));
-  EXPECT_THAT(text, HasSubstr(path.string()));
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 0) << "one line, not " << text;
 }
 
 std::vector<char> readBytes(const std::filesystem::path& path) {
@@ -226,13 +210,6 @@ TEST(Load, SurvivesDamagedBytes) {
 
 namespace {
 
-/// Opens a good file for spoiling, with the alignment of the writer.
-Hdf5Handle openForSpoiling(const std::filesystem::path& path, hsize_t alignment = 4096) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_alignment(access.get(), 0, alignment);
-  return {H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose};
-}
-
 struct Replacement {
   hid_t type{H5T_IEEE_F64LE};
   std::vector<hsize_t> shape{};  ///< empty: that of the good /contact/force
@@ -314,22 +291,6 @@ void linkForce(const std::filesystem::path& path, bool external) {
     H5Lcreate_soft("/elsewhere", file.get(), "contact/force", H5P_DEFAULT, H5P_DEFAULT);
 }
 
-template <typename T>
-void setNumber(const std::filesystem::path& path, const char* name, hid_t type, T value) {
-  const Hdf5Handle file = openForSpoiling(path);
-  H5Adelete(file.get(), name);
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle attribute(H5Acreate2(file.get(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                             H5Aclose);
-  H5Awrite(attribute.get(), type, &value);
-}
-
-void deleteThing(const std::filesystem::path& path, const char* attribute, const char* link) {
-  const Hdf5Handle file = openForSpoiling(path);
-  if (attribute != nullptr) H5Adelete(file.get(), attribute);
-  if (link != nullptr) H5Ldelete(file.get(), link, H5P_DEFAULT);
-}
-
 std::vector<WrongLayout> layouts() {
   const std::string M = std::to_string(forceShape()[0]);
   return {
@@ -364,7 +325,9 @@ std::vector<WrongLayout> layouts() {
       {{"MissingAttribute", "attribute nu is missing"}, [](const auto& p) { deleteThing(p, "nu", nullptr); }},
       {{"NoModelAtAll", "attribute format is missing"},
        [](const auto& p) { deleteThing(p, "format", nullptr); }},
-      {{"Version", "attribute version is 2, expected 1"},
+      {{"Version", "attribute version is 3, expected 1 or 2"},
+       [](const auto& p) { setNumber(p, "version", H5T_NATIVE_INT, 3); }},
+      {{"NoParameters", "attribute parameters is missing"},
        [](const auto& p) { setNumber(p, "version", H5T_NATIVE_INT, 2); }},
       {{"Order", "attribute order is 8, expected 1 to 7"},
        [](const auto& p) { setNumber(p, "order", H5T_NATIVE_INT, 8); }},

@@ -71,9 +71,9 @@ double largestDifference(const std::vector<float>& a, const std::vector<float>& 
 /// The sum of the format's text, term by term, in double precision.
 std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
   const ModelView& v = organ().view();
-  const std::size_t C = static_cast<std::size_t>(organ().basis().size()), n = v.modes();
+  const std::size_t C = static_cast<std::size_t>(organ().functions().size()), n = v.modes();
   std::vector<double> monomial(C), u(v.surface_positions.size());
-  organ().basis().evaluate(d / options().reference_displacement, monomial);
+  MonomialBasis(options().order).evaluate(d / options().reference_displacement, monomial);
   const PositionMix mix = organ().surface().mix(s);
   for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b) {
     const auto m = static_cast<std::size_t>(mix.position[b]);
@@ -198,7 +198,7 @@ TEST(Field, SourcesAddWithTheirGains) {
   std::vector<float> both(organ().view().surface_positions.size());
   const std::array<FieldSource, 2> sources{a, b};
   evaluateField(organ(), sources, scratch, both);
-  const std::vector<float> one = field(a.s, a.d), other = field(b.s, b.d);
+  const std::vector<float> one = field(a.s, a.parameter), other = field(b.s, b.parameter);
   for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(both[i], one[i] + 0.25F * other[i], 1e-8);
 }
 

@@ -76,6 +76,43 @@ TEST(WriteModel, RefusesSizesThatDoNotFit) {
   }
 }
 
+TEST(WriteModel, RefusesLoadDrivenSizesThatDoNotFit) {
+  const std::vector<std::tuple<Parameters, std::string, std::function<void(ModelData&)>>> cases{
+      {Parameters::kForce, "/contact/displacement has",
+       [](ModelData& d) { d.contact_displacement.pop_back(); }},
+      {Parameters::kForce, "/contact/force has 3 numbers, expected 0",
+       [](ModelData& d) { d.contact_force.assign(3, 0.0); }},
+      {Parameters::kForce, "/levels/Z has 2 numbers, expected 0",
+       [](ModelData& d) { d.levels_Z.assign(2, 0.0); }},
+      {Parameters::kDisplacement, "/contact/displacement has 3 numbers, expected 0",
+       [](ModelData& d) { d.contact_displacement.assign(3, 0.0); }},
+      {Parameters::kLevel, "/contact/displacement has",
+       [](ModelData& d) { d.contact_displacement.pop_back(); }},
+      {Parameters::kLevel, "/contact/displacement has 0 level functions, expected 1 to 119",
+       [](ModelData& d) { d.contact_displacement.clear(); }},
+      {Parameters::kLevel, "/levels/Z has 32 numbers, expected a multiple of 3",
+       [](ModelData& d) { d.levels_Z.pop_back(); }},
+      {Parameters::kLevel, "/levels/Z has 1 levels, expected at least 2",
+       [](ModelData& d) { d.levels_Z.resize(3); }},
+      {Parameters::kLevel, "/modes/Y has", [](ModelData& d) { d.modes_Y.pop_back(); }},
+  };
+  const TemporaryFile file("load-driven-sizes.h5");
+  for (const auto& [parameters, expected, spoil] : cases) {
+    ModelData data = syntheticModel({.subdivisions = 1, .modes = 2, .parameters = parameters});
+    spoil(data);
+    EXPECT_THAT(complaint(file.path(), data), HasSubstr(expected));
+    EXPECT_FALSE(std::filesystem::exists(file.path())) << expected;
+  }
+}
+
+TEST(WriteXdmf, ShowsTheModesOfALoadDrivenModel) {
+  const TemporaryFile model("level.h5"), xdmf("level.xdmf");
+  writeSyntheticModel(model.path(), {.subdivisions = 1, .modes = 2, .parameters = Parameters::kLevel});
+  modelfile::writeXdmf(model.path());
+  EXPECT_EQ(count(text(xdmf.path()), "AttributeType=\"Vector\""), 2U);
+  EXPECT_EQ(modelfile::readVolumeMesh(model.path()).node_tag.size(), 43U);
+}
+
 TEST(WriteModel, LeavesNothingBehindWhereItCannotWrite) {
   EXPECT_THAT(complaint("/nonexistent/folder/model.h5", syntheticModel(small())), HasSubstr("cannot write"));
   const TemporaryFile folder("folder.h5");

@@ -74,7 +74,7 @@ Json describe(const MetaModel& model) {
   out["modes"] = v.modes();
   out["order"] = a.order;
   out["force_order"] = a.force_order;
-  out["coefficients"] = model.basis().size();
+  out["coefficients"] = model.functions().size();
   out["patch_radius"] = a.patch_radius;
   out["near_radius"] = a.near_radius;
   out["near_nodes_mean"] = static_cast<double>(v.near_node.size()) / static_cast<double>(v.positions());

@@ -39,8 +39,19 @@ void checkSurface(const ModelData& d, std::size_t Ns) {
 
 void checkContact(const ModelData& d, std::size_t M, std::size_t C) {
   expectSize("contact/accessible", d.contact_accessible.size(), M);
-  expectSize("contact/force", d.contact_force.size(), M * C * 3);
+  const bool load_driven = d.attributes.parameters != Parameters::kDisplacement;
+  const std::size_t Cf = load_driven ? 0 : coefficients(forceOrder(d.attributes));
+  expectSize("contact/force", d.contact_force.size(), M * Cf * 3);
+  expectSize("contact/displacement", d.contact_displacement.size(), load_driven ? M * C * 3 : 0);
   expectSize("contact/domain_radius", d.contact_domain_radius.size(), M);
+}
+
+void checkLevels(const ModelData& d, std::size_t C) {
+  if (d.attributes.parameters != Parameters::kLevel) return expectSize("levels/Z", d.levels_Z.size(), 0);
+  expectTuples("levels/Z", d.levels_Z.size(), C);
+  if (d.levels_Z.size() < 2 * C)
+    throw ModelFileError("/levels/Z has " + std::to_string(d.levels_Z.size() / C) +
+                         " levels, expected at least 2");
 }
 
 void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t C) {
@@ -57,14 +68,28 @@ void checkMesh(const ModelData& d) {
 
 }  // namespace
 
+std::size_t fieldCoefficients(const ModelData& data) {
+  if (data.attributes.parameters != Parameters::kLevel) return coefficients(data.attributes.order);
+  const std::size_t width = 3 * data.contact_node.size();
+  if (width == 0) throw ModelFileError("/contact/node is empty, expected contact positions");
+  expectTuples("contact/displacement", data.contact_displacement.size(), width);
+  const std::size_t C = data.contact_displacement.size() / width;
+  if (C == 0 || C > static_cast<std::size_t>(MonomialBasis::kMaxCoefficients))
+    throw ModelFileError("/contact/displacement has " + std::to_string(C) +
+                         " level functions, expected 1 to " +
+                         std::to_string(MonomialBasis::kMaxCoefficients));
+  return C;
+}
+
 void checkSizes(const ModelData& data) {
-  const std::size_t C = coefficients(data.attributes.order);
+  const std::size_t C = fieldCoefficients(data);
   const std::size_t Ns = data.surface_mesh_tag.size();
   const std::size_t M = data.contact_node.size();
   if (Ns == 0) throw ModelFileError("/surface/mesh_tag is empty, expected a surface");
   if (M == 0) throw ModelFileError("/contact/node is empty, expected contact positions");
   checkSurface(data, Ns);
-  checkContact(data, M, coefficients(forceOrder(data.attributes)));
+  checkContact(data, M, C);
+  checkLevels(data, C);
   checkFields(data, Ns, M, C);
   checkMesh(data);
 }

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,11 +66,13 @@ Hdf5Handle createFile(const std::string& path) {
   return file;
 }
 
+void makeGroup(const Hdf5Handle& file, const char* name) {
+  const Hdf5Handle group(H5Gcreate2(file.get(), name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  require(group.valid(), name);
+}
+
 void makeGroups(const Hdf5Handle& file) {
-  for (const char* name : {"surface", "contact", "modes", "near", "mesh"}) {
-    const Hdf5Handle group(H5Gcreate2(file.get(), name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-    require(group.valid(), name);
-  }
+  for (const char* name : {"surface", "contact", "modes", "near", "mesh"}) makeGroup(file, name);
 }
 
 template <typename T>
@@ -97,6 +100,14 @@ void writeNumber(const Hdf5Handle& file, const char* name, T value) {
   require(attribute.valid() && H5Awrite(attribute.get(), memoryType(T{}), &value) >= 0, name);
 }
 
+void writeNumbers(const Hdf5Handle& file, const char* name, std::span<const double> values) {
+  const hsize_t count = values.size();
+  const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Hdf5Handle attribute(
+      H5Acreate2(file.get(), name, fileType(double{}), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  require(attribute.valid() && H5Awrite(attribute.get(), memoryType(double{}), values.data()) >= 0, name);
+}
+
 /// Variable length, so that a long provenance does not meet the 64 KiB limit of an object header.
 void writeText(const Hdf5Handle& file, const char* name, const std::string& text) {
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
@@ -109,34 +120,58 @@ void writeText(const Hdf5Handle& file, const char* name, const std::string& text
   require(attribute.valid() && H5Awrite(attribute.get(), type.get(), &start) >= 0, name);
 }
 
+/// What differs between the kinds.
+void writeKind(const Hdf5Handle& file, const ModelAttributes& a) {
+  if (a.parameters != Parameters::kDisplacement)
+    writeText(file, "parameters", std::string(toString(a.parameters)));
+  if (a.parameters == Parameters::kLevel) {
+    writeNumbers(file, "load_direction", a.load_direction);
+    writeNumber(file, "load", a.load);
+    return;
+  }
+  writeNumber(file, "order", std::int32_t{a.order});
+  writeNumber(file, "force_order", std::int32_t{forceOrder(a)});
+  if (a.parameters == Parameters::kForce) writeNumber(file, "reference_force", a.reference_force);
+}
+
 void writeAttributes(const Hdf5Handle& file, const ModelAttributes& a) {
   writeText(file, "format", "palpate-model");
-  writeNumber(file, "version", std::int32_t{1});
+  writeNumber(file, "version", std::int32_t{a.parameters == Parameters::kDisplacement ? 1 : 2});
   writeText(file, "model_id", a.model_id);
   writeText(file, "law", a.law);
   writeNumber(file, "E", a.E);
   writeNumber(file, "nu", a.nu);
-  writeNumber(file, "order", std::int32_t{a.order});
-  writeNumber(file, "force_order", std::int32_t{forceOrder(a)});
   writeNumber(file, "patch_radius", a.patch_radius);
   writeNumber(file, "near_radius", a.near_radius);
   writeNumber(file, "reference_displacement", a.reference_displacement);
   writeText(file, "provenance", a.provenance);
+  writeKind(file, a);
+}
+
+/// The contact's answer, of one kind or the other, and the level functions.
+void writeContact(const Hdf5Handle& file, const ModelData& d, hsize_t M, hsize_t C) {
+  writeDataset(file, "contact/node", d.contact_node, {M});
+  writeDataset(file, "contact/accessible", d.contact_accessible, {M});
+  writeDataset(file, "contact/domain_radius", d.contact_domain_radius, {M});
+  if (d.attributes.parameters == Parameters::kDisplacement) {
+    const hsize_t Cf = static_cast<hsize_t>(MonomialBasis::size(forceOrder(d.attributes)));
+    return writeDataset(file, "contact/force", d.contact_force, {M, Cf, 3});
+  }
+  writeDataset(file, "contact/displacement", d.contact_displacement, {M, C, 3});
+  if (d.attributes.parameters != Parameters::kLevel) return;
+  makeGroup(file, "levels");
+  writeDataset(file, "levels/Z", d.levels_Z, {C, d.levels_Z.size() / C});
 }
 
 void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
   const hsize_t Ns = d.surface_mesh_tag.size(), M = d.contact_node.size();
-  const hsize_t C = static_cast<hsize_t>(MonomialBasis::size(d.attributes.order));
-  const hsize_t Cf = static_cast<hsize_t>(MonomialBasis::size(forceOrder(d.attributes)));
+  const hsize_t C = fieldCoefficients(d);
   const hsize_t n = d.modes_X.size() / (3 * Ns);
   writeDataset(file, "surface/positions", d.surface_positions, {Ns, 3});
   writeDataset(file, "surface/triangles", d.surface_triangles, {d.surface_triangles.size() / 3, 3});
   writeDataset(file, "surface/mesh_tag", d.surface_mesh_tag, {Ns});
   writeDataset(file, "surface/position_of_node", d.position_of_node, {Ns});
-  writeDataset(file, "contact/node", d.contact_node, {M});
-  writeDataset(file, "contact/accessible", d.contact_accessible, {M});
-  writeDataset(file, "contact/force", d.contact_force, {M, Cf, 3});
-  writeDataset(file, "contact/domain_radius", d.contact_domain_radius, {M});
+  writeContact(file, d, M, C);
   writeDataset(file, "modes/X", d.modes_X, {n, 3 * Ns});
   writeDataset(file, "modes/Y", d.modes_Y, {M, C, n});
   writeDataset(file, "near/offset", d.near_offset, {M + 1});

@@ -1,37 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <span>
 
 #include "palpate/core/contact_point.h"
 #include "palpate/core/model_view.h"
 #include "palpate/core/multi_index.h"
+#include "palpate/core/parameter_functions.h"
 #include "palpate/core/types.h"
 
 namespace palpate {
 
-/// The reaction of the organ to an imposed patch displacement, not truncated to the modes (DESIGN 2.2, 2.3).
-///   f(s, d) = sum_b lambda_b sum_alpha (d / d_ref)^alpha f_alpha(p_b)
-/// Differs from the paper: exact in its order, displacement-driven. Borrows the model's arrays.
+/// What the contact patch at one s answers to the parameter p of the model, its coefficients mixed once:
+///   sum_k phi_k(p) c_k,   c_k = sum_b lambda_b c_k(p_b)
+/// That is f(s, d) in N for a "displacement" model, d(s, f) or d(s, t) in m for "force" and "level".
+class ContactSeries {
+ public:
+  /// c(p). Cost O(C). Real-time: yes.
+  [[nodiscard]] Vec3 value(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
+  /// dc/dp, 3 x 3; of a level the first column only. Cost O(C). Real-time: yes.
+  [[nodiscard]] Mat3 gradient(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
+  /// |p| up to which the answer is trusted: d_max in m, f_max in N, or t_max.
+  [[nodiscard]] double limit() const noexcept { return limit_; }
+  /// L of a "level" model, else 0.
+  [[nodiscard]] int levelSteps() const noexcept { return functions_->levelSteps(); }
+
+ private:
+  friend class ContactResponse;
+  explicit ContactSeries(const ParameterFunctions& functions) noexcept : functions_(&functions) {}
+
+  const ParameterFunctions* functions_;
+  std::array<Vec3, MonomialBasis::kMaxCoefficients> coefficient_;  // the first size() of them
+  double limit_{0.0};
+};
+
+/// The contact's own answer. Of a "displacement" model it is not truncated to the modes (DESIGN 2.2, 2.3), of
+/// the load-driven kinds it is what the modes give (DESIGN 2.1). Borrows the model's arrays.
+/// Differs from the paper: exact in its order, displacement-driven (the first kind).
 class ContactResponse {
  public:
   ContactResponse(const ModelView& view, const ModelAttributes& attributes);
 
-  /// Force of the tool on the organ, W, N, without clamping. @param d  m. Cost O(C). Real-time: yes.
-  [[nodiscard]] Vec3 force(const PositionMix& mix, const Vec3& d) const noexcept PALPATE_NONBLOCKING;
-  /// df/dd, N/m, of the same; symmetric, since f is the gradient of an energy. Real-time: yes.
-  [[nodiscard]] Mat3 stiffness(const PositionMix& mix, const Vec3& d) const noexcept PALPATE_NONBLOCKING;
-  /// d_max(s), m: the length of d up to which the series is trusted. Real-time: yes.
-  [[nodiscard]] double domainRadius(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
+  /// The series at s. Borrows this object. Cost O(C). Real-time: yes.
+  [[nodiscard]] ContactSeries at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
+  /// ContactSeries::limit() alone. Real-time: yes.
+  [[nodiscard]] double limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] Vec3 coefficient(const PositionMix& mix, int k) const noexcept PALPATE_NONBLOCKING;
-
-  std::span<const double> force_;
-  std::span<const double> domain_radius_;
-  MonomialBasis basis_;
-  double reference_displacement_;
+  ParameterFunctions functions_;
+  std::span<const double> coefficient_;  // [M][size][3]
+  std::span<const double> limit_;        // [M]
 };
 
 }  // namespace palpate

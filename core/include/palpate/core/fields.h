@@ -10,8 +10,8 @@
 
 namespace palpate {
 
-/// The far field: u(X; s, d) = sum_k X_k(X) y_k,  y_k = sum_b lambda_b sum_alpha x^alpha Y_{k,alpha}(p_b)
-///                                                                                              DESIGN 2.3
+/// The far field, and all of a load-driven model's:                                         DESIGN 2.1, 2.3
+///   u(X; s, p) = sum_k X_k(X) y_k,   y_k = sum_b lambda_b sum_alpha phi_alpha(p) Y_{k,alpha}(p_b)
 /// Linear in y: the y of several tools add up before the one product with X. Borrows the model's arrays.
 class SeparatedField {
  public:
@@ -19,8 +19,8 @@ class SeparatedField {
 
   [[nodiscard]] int modes() const noexcept { return modes_; }
   /// y += gain * (the mode amplitudes of one tool), m.
-  /// @param monomials  [C] of d / d_ref, @param y  [n]. Cost O(C n). Real-time: yes.
-  void addAmplitudes(const PositionMix& mix, std::span<const double> monomials, double gain,
+  /// @param phi  [C] ParameterFunctions at p, @param y  [n]. Cost O(C n). Real-time: yes.
+  void addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
   /// u = X^T y, m (overwrites). @param u  [Ns][3]. Cost O(n Ns), bound by reading X. Real-time: yes.
   void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
@@ -39,8 +39,8 @@ class NearField {
   /// Numbers of scratch that add() needs: 3 * the largest K_m.
   [[nodiscard]] int scratchSize() const noexcept { return scratch_size_; }
   /// u += gain * (the near blocks of one tool), m.
-  /// @param monomials  [C] of d / d_ref, @param scratch  scratchSize(), @param u  [Ns][3]. Real-time: yes.
-  void add(const PositionMix& mix, std::span<const double> monomials, double gain, std::span<float> scratch,
+  /// @param phi  [C] ParameterFunctions at p, @param scratch  scratchSize(), @param u  [Ns][3]. Real-time: yes.
+  void add(const PositionMix& mix, std::span<const double> phi, double gain, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;
 
  private:

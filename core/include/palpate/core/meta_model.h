@@ -8,7 +8,7 @@
 #include "palpate/core/fields.h"
 #include "palpate/core/load_error.h"
 #include "palpate/core/model_view.h"
-#include "palpate/core/multi_index.h"
+#include "palpate/core/parameter_functions.h"
 #include "palpate/core/sealed_image.h"
 #include "palpate/core/surface_mesh.h"
 
@@ -24,7 +24,8 @@ class MetaModel {
 
   [[nodiscard]] const ModelAttributes& attributes() const noexcept { return attributes_; }
   [[nodiscard]] const ModelView& view() const noexcept { return view_; }
-  [[nodiscard]] const MonomialBasis& basis() const noexcept { return basis_; }
+  /// The functions of the parameter that the fields are sums of.
+  [[nodiscard]] const ParameterFunctions& functions() const noexcept { return functions_; }
   [[nodiscard]] const SurfaceMesh& surface() const noexcept { return surface_; }
   [[nodiscard]] const ContactResponse& response() const noexcept { return response_; }
   [[nodiscard]] const SeparatedField& farField() const noexcept { return far_field_; }
@@ -40,7 +41,7 @@ class MetaModel {
   SealedImage image_;
   ModelAttributes attributes_;
   ModelView view_;
-  MonomialBasis basis_;
+  ParameterFunctions functions_;
   SurfaceMesh surface_;
   ContactResponse response_;
   SeparatedField far_field_;

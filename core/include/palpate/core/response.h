@@ -21,16 +21,28 @@ struct Response {
   Vec3 force = Vec3::Zero();         ///< f, of the tool on the organ, W, N
   Mat3 stiffness = Mat3::Zero();     ///< df/dd, N/m; beyond the domain that of the clamped map
   Vec3 displacement = Vec3::Zero();  ///< the d that was used, m
-  double domain_radius{0.0};         ///< d_max(s), m
+  double domain_radius{0.0};         ///< d_max(s), m; of a load-driven model that along the load's direction
+  Vec3 parameter = Vec3::Zero();     ///< what evaluateField() takes: the clamped d, m; f, N; or (t, 0, 0)
 };
 
 /// Reaction of the organ to a tool that displaced its contact patch at s by d            DESIGN 2.2, 3.1
-/// |d| beyond domainRadius(s) is scaled to it; stiffness then is df/dd through that projection.
+/// |d| beyond the domain is scaled to it; stiffness then is df/dd through that projection.
+/// A "force" model is searched for the f with d(s, f) = d (bounded Newton), a "level" model for the t with
+/// e . d(s, t) = e . d, e the load's direction; where there is none the nearest is answered, kClamped.
 /// @param[in]  s  contact point of this model's surface, @param[in]  d  W, m, finite
 /// @param[out] out  always written; zero when not accessible
-/// @return kOk, kClamped, or kNoAnswer (the model has no answer at s). Cost O(C). Real-time: yes.
+/// @return kOk, kClamped, or kNoAnswer (the model has no answer at s). Real-time: yes.
+/// Cost O(C); "force": some 5 times that, at most 72 Newton steps; "level": at most 18 evaluations.
 [[nodiscard]] ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                      Response& out) noexcept PALPATE_NONBLOCKING;
+
+/// What a load-driven model says when its load is given.                                     DESIGN 2.1
+/// @param[in]  load  f in W, N, of a "force" model, clamped to f_max(s); (t, 0, 0) of a "level" model, t clamped
+///             to [0, t_max(s)]
+/// @param[out] out  always written; stiffness is (dd/df)^-1
+/// @return kOk, kClamped, or kNoAnswer (no answer at s, or a "displacement" model). Cost O(C). Real-time: yes.
+[[nodiscard]] ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, const Vec3& load,
+                                           Response& out) noexcept PALPATE_NONBLOCKING;
 
 /// Scratch of the field evaluation; one per thread, allocated before the loop.
 struct FieldScratch {
@@ -42,8 +54,8 @@ struct FieldScratch {
 /// One tool's part in a field.
 struct FieldSource {
   ContactPoint s;
-  Vec3 d = Vec3::Zero();  ///< m, clamped to the domain like respond() does
-  double gain{1.0};       ///< 0 to 1
+  Vec3 parameter = Vec3::Zero();  ///< Response::parameter; clamped to the domain
+  double gain{1.0};               ///< 0 to 1
 };
 
 /// Displacement of the surface nodes, far plus near field, superposed over the tools (DESIGN 2.3).
@@ -51,7 +63,7 @@ struct FieldSource {
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;
 
-/// The same for one tool.
+/// The same for one tool that imposes d: the field of respond()'s parameter. @param d  W, m
 void evaluateField(const MetaModel& model, const ContactPoint& s, const Vec3& d, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;
 

@@ -15,11 +15,26 @@ namespace {
 
 using modelfile::ModelData;
 
+const Vec3 kLoadDirection(0.0, 0.6, -0.8);
+
+/// What the polynomials are ones in, and the size of an energy.
+struct Scale {
+  double reference;  ///< d_ref, m, or f_ref, N
+  double energy;     ///< J
+};
+
+Scale scaleOf(const SyntheticOptions& o) {
+  const double d = o.reference_displacement, f = o.reference_force;
+  if (o.parameters == Parameters::kForce) return {f, f * f / o.stiffness};
+  return {d, o.stiffness * d * d};
+}
+
 /// Coefficient of x^beta, x = d / d_ref, in the energy at X, J: quadratic part (k/2)(|d|^2 + (n.d)^2 / 2),
-/// and small smooth higher terms that differ from place to place.
+/// and small smooth higher terms that differ from place to place. The same of f / f_ref in the complementary
+/// energy.
 double energyCoefficient(const SyntheticOptions& o, const Vec3& X, const MultiIndex& beta) {
   const Vec3 n = X.normalized();
-  const double scale = o.stiffness * o.reference_displacement * o.reference_displacement;
+  const double scale = scaleOf(o).energy;
   const int degree = beta[0] + beta[1] + beta[2];
   if (degree == 1) return 0.0;
   if (degree > 2) {
@@ -65,34 +80,58 @@ void fillSurface(const SyntheticOptions& o, const Icosphere& sphere, ModelData& 
     }
     data.contact_node.push_back(node);
     data.contact_accessible.push_back(n.z() < o.helper_below ? 0 : 1);
-    data.contact_domain_radius.push_back(o.domain_radius);
+    data.contact_domain_radius.push_back(o.parameters == Parameters::kForce   ? o.domain_force
+                                         : o.parameters == Parameters::kLevel ? o.domain_level
+                                                                              : o.domain_radius);
   }
   for (const auto& triangle : sphere.triangles)
     data.surface_triangles.insert(data.surface_triangles.end(), triangle.begin(), triangle.end());
 }
 
-void fillForce(const SyntheticOptions& o, const Vec3& X, const MonomialBasis& basis, ModelData& data) {
+/// The gradient of the energy, coefficient by coefficient: f of d, or d of f.
+void fillContact(const SyntheticOptions& o, const Vec3& X, const MonomialBasis& basis,
+                 std::vector<double>& values) {
   for (int k = 0; k < basis.size(); ++k)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       MultiIndex beta = basis[k];
       ++beta[axis];  // f_i = dW/dd_i: the coefficient of x^alpha is (alpha_i + 1) w_{alpha + e_i} / d_ref
-      data.contact_force.push_back(beta[axis] * energyCoefficient(o, X, beta) / o.reference_displacement);
+      values.push_back(beta[axis] * energyCoefficient(o, X, beta) / scaleOf(o).reference);
     }
 }
 
-void fillModes(const SyntheticOptions& o, const Icosphere& sphere, const MonomialBasis& basis,
-               ModelData& data) {
+/// d_q, m: mostly along the load, the first the largest.
+void fillLevelContact(const SyntheticOptions& o, const Vec3& X, std::vector<double>& values) {
+  for (int q = 0; q < o.level_functions; ++q) {
+    const Vec3 d = o.load / o.stiffness * (kLoadDirection + 0.2 * X.normalized()) * (q == 0 ? 1.0 : 0.2 / q);
+    values.insert(values.end(), {d.x(), d.y(), d.z()});
+  }
+}
+
+void fillLevels(const SyntheticOptions& o, ModelData& data) {
+  data.attributes.load = o.load;
+  data.attributes.load_direction = {kLoadDirection.x(), kLoadDirection.y(), kLoadDirection.z()};
+  for (int q = 0; q < o.level_functions; ++q)
+    for (int step = 0; step <= o.level_steps; ++step)
+      data.levels_Z.push_back(std::pow(double(step) / o.level_steps, q + 1));
+}
+
+void fillModes(const SyntheticOptions& o, const Icosphere& sphere, int coefficients, ModelData& data) {
   for (int mode = 0; mode < o.modes; ++mode)
     for (const Vec3& n : sphere.nodes)
       for (int axis = 0; axis < 3; ++axis)
         data.modes_X.push_back(static_cast<float>(0.1 * std::cos((mode + 1) * n[(axis + mode) % 3] + axis)));
   for (const std::int32_t node : data.contact_node)
-    for (int k = 0; k < basis.size(); ++k)
+    for (int k = 0; k < coefficients; ++k)
       for (int mode = 0; mode < o.modes; ++mode) {
         const Vec3& n = sphere.nodes[static_cast<std::size_t>(node)];
         const double y = std::sin(n.x() + 2.0 * n.y() + 3.0 * n.z() + mode) / ((k + 1.0) * (mode + 1.0));
         data.modes_Y.push_back(static_cast<float>(o.reference_displacement * y));
       }
+}
+
+void fillNoNear(ModelData& data) {
+  data.attributes.near_radius = 0.0;
+  data.near_offset.assign(data.contact_node.size() + 1, 0);
 }
 
 void fillNear(const SyntheticOptions& o, const Icosphere& sphere, const MonomialBasis& basis,
@@ -142,11 +181,23 @@ ModelData syntheticModel(const SyntheticOptions& o) {
                      o.near_radius,
                      o.reference_displacement};
   data.attributes.force_order = force_basis.order();
+  data.attributes.parameters = o.parameters;
+  data.attributes.reference_force = o.reference_force;
+  const bool level = o.parameters == Parameters::kLevel, force = o.parameters == Parameters::kForce;
   fillSurface(o, sphere, data);
-  for (const std::int32_t node : data.contact_node)
-    fillForce(o, o.radius * sphere.nodes[static_cast<std::size_t>(node)], force_basis, data);
-  fillModes(o, sphere, basis, data);
-  fillNear(o, sphere, basis, data);
+  for (const std::int32_t node : data.contact_node) {
+    const Vec3 X = o.radius * sphere.nodes[static_cast<std::size_t>(node)];
+    if (level)
+      fillLevelContact(o, X, data.contact_displacement);
+    else
+      fillContact(o, X, force_basis, force ? data.contact_displacement : data.contact_force);
+  }
+  if (level) fillLevels(o, data);
+  fillModes(o, sphere, level ? o.level_functions : basis.size(), data);
+  if (level || force)
+    fillNoNear(data);
+  else
+    fillNear(o, sphere, basis, data);
   fillMesh(sphere, data);
   return data;
 }
@@ -158,7 +209,7 @@ void writeSyntheticModel(const std::filesystem::path& path, const SyntheticOptio
 double syntheticEnergy(const SyntheticOptions& o, const Vec3& X, const Vec3& d) {
   const MonomialBasis basis(forceOrder(o) + 1);
   std::vector<double> monomial(static_cast<std::size_t>(basis.size()));
-  basis.evaluate(d / o.reference_displacement, monomial);
+  basis.evaluate(d / scaleOf(o).reference, monomial);
   double energy = 0.0;
   for (int k = 0; k < basis.size(); ++k)
     energy += energyCoefficient(o, X, basis[k]) * monomial[static_cast<std::size_t>(k)];

@@ -8,26 +8,30 @@
 
 namespace palpate::modelfile {
 
-/// Degree of the force in the file: as given, or that of the fields.
+/// Degree of the contact's answer in the file: as given, or that of the fields.
 [[nodiscard]] inline int forceOrder(const ModelAttributes& a) {
   return a.force_order == 0 ? a.order : a.force_order;
 }
 
 /// Everything that a model file holds, as vectors. Shapes are row-major as in core/README.md "The model
-/// file"; Ns surface nodes, T triangles, M contact positions, C = MonomialBasis::size(order) coefficients, n
-/// modes, N volume nodes, V tetrahedra. Stored coefficient = true coefficient * d_ref^|alpha|. Indices are
-/// 0-based.
+/// file"; Ns surface nodes, T triangles, M contact positions, C coefficients of the fields
+/// (MonomialBasis::size(order), or the number of level functions), n modes, N volume nodes, V tetrahedra.
+/// attributes.parameters chooses the kind; what belongs to the other kinds stays empty. Stored coefficient =
+/// true coefficient * d_ref^|alpha|, or f_ref^|alpha|. Indices are 0-based.
 struct ModelData {
   ModelAttributes attributes;  ///< law "stvk"; provenance is the text of a JSON object
 
-  std::vector<double> surface_positions;           ///< [Ns][3] m
-  std::vector<std::int32_t> surface_triangles;     ///< [T][3] counter-clockwise from outside
-  std::vector<std::int64_t> surface_mesh_tag;      ///< [Ns]
-  std::vector<std::int32_t> position_of_node;      ///< [Ns] or -1
-  std::vector<std::int32_t> contact_node;          ///< [M]
-  std::vector<std::uint8_t> contact_accessible;    ///< [M] 0 or 1
-  std::vector<double> contact_force;               ///< [M][Cf][3] N, Cf = size(force_order)
-  std::vector<double> contact_domain_radius;       ///< [M] m
+  std::vector<double> surface_positions;         ///< [Ns][3] m
+  std::vector<std::int32_t> surface_triangles;   ///< [T][3] counter-clockwise from outside
+  std::vector<std::int64_t> surface_mesh_tag;    ///< [Ns]
+  std::vector<std::int32_t> position_of_node;    ///< [Ns] or -1
+  std::vector<std::int32_t> contact_node;        ///< [M]
+  std::vector<std::uint8_t> contact_accessible;  ///< [M] 0 or 1
+  std::vector<double> contact_force;  ///< [M][Cf][3] N, Cf = size(force_order); "displacement" only
+  std::vector<double>
+      contact_displacement;  ///< [M][C][3] m, d_alpha(s) as the modes give it; "force", "level"
+  std::vector<double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
+  std::vector<double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::vector<float> modes_X;                      ///< [n][3 Ns]
   std::vector<float> modes_Y;                      ///< [M][C][n] m
   std::vector<std::int64_t> near_offset;           ///< [M+1]

@@ -14,7 +14,8 @@ class ModelFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes a model file, version 1 (core/README.md): contiguous, early-allocated, aligned to 4096 bytes.
+/// Writes a model file (core/README.md): version 1 for "displacement", version 2 for "force" and "level".
+/// Contiguous, early-allocated, aligned to 4096 bytes.
 /// Written to `path.tmp-PID` beside the target, synced, renamed: a reader sees the old file or the new one,
 /// never a part.
 /// @throw ModelFileError naming the dataset when sizes do not fit each other, or the file that cannot be

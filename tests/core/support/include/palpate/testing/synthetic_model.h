@@ -22,6 +22,13 @@ struct SyntheticOptions {
   double nonlinearity{0.1};              ///< size of the higher terms at d_ref
   double fixed_below{-0.7};    ///< z / radius below which nodes are fixed and have no contact position
   double helper_below{-0.55};  ///< z / radius below which contact positions are helpers, not accessible
+  Parameters parameters{Parameters::kDisplacement};  ///< the other kinds have no near field
+  double reference_force{0.8};                       ///< f_ref of a "force" model, N
+  double domain_force{1.2};                          ///< f_max of a "force" model, N
+  double load{1.5};                                  ///< of a "level" model at t = 1, N, along (0, 0.6, -0.8)
+  int level_functions{3};                            ///< Z_q(t) = t^(q + 1) at the steps
+  int level_steps{10};                               ///< L
+  double domain_level{0.85};                         ///< t_max of a "level" model
 };
 
 /// All datasets. Surface node i is volume node i; the last volume node is the centre. Outward normal at X is
@@ -31,7 +38,8 @@ struct SyntheticOptions {
 /// Writes them with writeModel().
 void writeSyntheticModel(const std::filesystem::path& path, const SyntheticOptions& options = {});
 
-/// The energy W_s(d) at surface point X, J, whose gradient the model's force is at a node that lies at X.
+/// The energy W_s(d) at surface point X, J, whose gradient the model's force is at a node that lies at X; of a
+/// "force" model the complementary energy W*_s(f), whose gradient the displacement is. @param d  m, or f, N
 [[nodiscard]] double syntheticEnergy(const SyntheticOptions& options, const Vec3& X, const Vec3& d);
 
 /// A file name in the system's temporary folder that is this process's own; what lies there is removed at the

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "palpate/core/model_view.h"
+#include "palpate/core/multi_index.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// The functions phi_k of the parameter p that the coefficients of a model belong to:
+///   "displacement": phi_alpha(d) = (d / d_ref)^alpha                                         DESIGN 2.2
+///   "force":        phi_alpha(f) = (f / f_ref)^alpha
+///   "level":        phi_q(t) = Z_q(t), piecewise linear, zero at t = 0                       DESIGN 2.1
+/// p is a vector in every case; a level is (t, 0, 0). Borrows the model's arrays.
+class ParameterFunctions {
+ public:
+  /// @param order  degree of the monomials: of the fields, or of the contact's answer; unused for "level"
+  ParameterFunctions(const ModelView& view, const ModelAttributes& attributes, int order);
+
+  [[nodiscard]] int size() const noexcept { return size_; }
+  /// L, the number of steps of the level; 0 for monomials.
+  [[nodiscard]] int levelSteps() const noexcept { return level_steps_; }
+  /// values[k] = phi_k(p). @param[out] values  size() numbers. Real-time: yes.
+  void evaluate(const Vec3& p, std::span<double> values) const noexcept PALPATE_NONBLOCKING;
+  /// gradient[k] = dphi_k/dp, one over the parameter's unit; of a level that of the segment which begins at or
+  /// before t. @param[out] gradient  size() vectors. Real-time: yes.
+  void gradient(const Vec3& p, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  /// Where t lies among the steps: Z(t) = (1 - weight) Z[step] + weight Z[step + 1].
+  struct Place {
+    std::size_t step;
+    double weight;
+  };
+  [[nodiscard]] Place place(double t) const noexcept;
+  [[nodiscard]] const double* row(int q) const noexcept;
+
+  MonomialBasis basis_;
+  double reference_;
+  std::span<const double> Z_;
+  int level_steps_{0};
+  int size_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/parameter_functions.h"
+
+#include <algorithm>
+
+namespace palpate {
+
+ParameterFunctions::ParameterFunctions(const ModelView& view, const ModelAttributes& attributes, int order)
+    : basis_(attributes.parameters == Parameters::kLevel ? 1 : order),
+      reference_(attributes.parameters == Parameters::kForce ? attributes.reference_force
+                                                             : attributes.reference_displacement),
+      size_(basis_.size()) {
+  if (attributes.parameters != Parameters::kLevel) return;
+  Z_ = view.levels_Z;
+  size_ = static_cast<int>(view.level_functions);
+  level_steps_ = static_cast<int>(Z_.size() / view.level_functions) - 1;
+}
+
+ParameterFunctions::Place ParameterFunctions::place(double t) const noexcept {
+  const double at = std::clamp(t, 0.0, 1.0) * level_steps_;
+  const int step = std::min(static_cast<int>(at), level_steps_ - 1);
+  return {static_cast<std::size_t>(step), at - step};
+}
+
+const double* ParameterFunctions::row(int q) const noexcept {
+  return Z_.data() + static_cast<std::size_t>(q) * (static_cast<std::size_t>(level_steps_) + 1);
+}
+
+void ParameterFunctions::evaluate(const Vec3& p,
+                                  std::span<double> values) const noexcept PALPATE_NONBLOCKING {
+  if (level_steps_ == 0) return basis_.evaluate(p / reference_, values);
+  const auto [step, weight] = place(p.x());
+  for (int q = 0; q < size_; ++q) {
+    const double* const z = row(q) + step;
+    values[static_cast<std::size_t>(q)] = (1.0 - weight) * z[0] + weight * z[1];
+  }
+}
+
+void ParameterFunctions::gradient(const Vec3& p,
+                                  std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING {
+  if (level_steps_ == 0) {
+    basis_.gradient(p / reference_, gradient);
+    for (Vec3& g : gradient.first(static_cast<std::size_t>(size_))) g /= reference_;
+    return;
+  }
+  const std::size_t step = place(p.x()).step;
+  for (int q = 0; q < size_; ++q) {
+    const double* const z = row(q) + step;
+    gradient[static_cast<std::size_t>(q)] = Vec3((z[1] - z[0]) * level_steps_, 0.0, 0.0);
+  }
+}
+
+}  // namespace palpate

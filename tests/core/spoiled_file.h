@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "palpate/core/hdf5_handle.h"
+#include "palpate/core/meta_model.h"
+
+namespace palpate::testing {
+
+/// What load() says about a file; empty when it says nothing.
+inline std::string complaint(const std::filesystem::path& path) {
+  try {
+    const MetaModel model = MetaModel::load(path);
+    return {};
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+}
+
+inline void expectRefused(const std::filesystem::path& path, const std::string& expected) {
+  const std::string text = complaint(path);
+  EXPECT_THAT(text, ::testing::HasSubstr(expected));
+  EXPECT_THAT(text, ::testing::HasSubstr(path.string()));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 0) << "one line, not " << text;
+}
+
+/// Opens a good file for spoiling, with the alignment of the writer.
+inline Hdf5Handle openForSpoiling(const std::filesystem::path& path, hsize_t alignment = 4096) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_alignment(access.get(), 0, alignment);
+  return {H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose};
+}
+
+template <typename T>
+void setNumber(const std::filesystem::path& path, const char* name, hid_t type, T value) {
+  const Hdf5Handle file = openForSpoiling(path);
+  H5Adelete(file.get(), name);
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle attribute(H5Acreate2(file.get(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  H5Awrite(attribute.get(), type, &value);
+}
+
+inline void deleteThing(const std::filesystem::path& path, const char* attribute, const char* link) {
+  const Hdf5Handle file = openForSpoiling(path);
+  if (attribute != nullptr) H5Adelete(file.get(), attribute);
+  if (link != nullptr) H5Ldelete(file.get(), link, H5P_DEFAULT);
+}
+
+}  // namespace palpate::testing
