@@ -20,14 +20,20 @@ Eigen::MatrixXd gaussian(Eigen::Index rows, Eigen::Index columns, unsigned seed)
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
 
-/// K X for a symmetric K: rows of X are contiguous, so that one pass over K serves all columns.
+/// K X for a symmetric K: rows of X are contiguous, so that one pass over K serves all columns, four entries of
+/// a row of K at a time.
 void multiply(const TangentTable::View& K, const RowMatrix& X, RowMatrix& product) {
   product.resize(X.rows(), X.cols());
+  const int* const starts = K.outerIndexPtr();
   for (Eigen::Index row = 0; row < K.outerSize(); ++row) {
     auto sum = product.row(row);
     sum.setZero();
-    for (TangentTable::View::InnerIterator entry(K, row); entry; ++entry)
-      sum += entry.value() * X.row(entry.index());
+    const double* k = K.valuePtr() + starts[row];
+    const int* at = K.innerIndexPtr() + starts[row];
+    const int* const end = K.innerIndexPtr() + starts[row + 1];
+    for (; at + 4 <= end; at += 4, k += 4)
+      sum += k[0] * X.row(at[0]) + k[1] * X.row(at[1]) + k[2] * X.row(at[2]) + k[3] * X.row(at[3]);
+    for (; at < end; ++at, ++k) sum += k[0] * X.row(at[0]);
   }
 }
 
@@ -48,7 +54,7 @@ SeparatedIncrement::SeparatedIncrement(const ParametricProblem& problem, const E
       workers_(options.workers > 0 ? options.workers : machineThreads()),
       K0_(problem.stiffness()),
       mean_(problem.stiffness()),
-      tangents_(problem, options.tangent_bytes, workers_, options.scheme == LoadStepping::kConstantTangent),
+      tangents_(problem, options.tangent_bytes, workers_),
       X_(problem.dofs(), 0),
       Y_(0, problem.positions()),
       D_(0, problem.positions()),
@@ -98,6 +104,7 @@ void SeparatedIncrement::begin(double from, double to) {
   from_ = from;
   to_ = to;
   start_ = pairs();
+  tangents_.holdConstant(start_ == 0 || options_.scheme == LoadStepping::kConstantTangent);
   D_.resize(start_, problem_.positions());
   b_.resize(start_, problem_.positions());
   parallelFor(workers_, static_cast<std::size_t>(problem_.positions()),
@@ -154,6 +161,10 @@ double SeparatedIncrement::normalize(Eigen::VectorXd& R) const {
 
 /// S from R, then R from S, in one pass over the tangents.                      paper Sections 2.1 and 2.2
 Eigen::VectorXd SeparatedIncrement::sweep(const Eigen::VectorXd& R) {
+  if (tangents_.constant()) {  // the length of R is of no account, and every K_s R is the same
+    const Eigen::VectorXd S = rho_.transpose() * R;
+    return K0_.solve(rho_ * v_.cwiseProduct(S));
+  }
   const Eigen::Index nonzeros = problem_.stiffness().nonZeros();
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(nonzeros, workers_);
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(problem_.dofs(), workers_);

@@ -14,13 +14,12 @@ TangentTable::View viewOf(const SparseMatrix& pattern, const double* values) {
 
 }  // namespace
 
-TangentTable::TangentTable(const ParametricProblem& problem, double bytes, int workers, bool constant)
-    : problem_(problem), constant_(constant) {
-  if (constant) return;
+TangentTable::TangentTable(const ParametricProblem& problem, double bytes, int workers) : problem_(problem) {
   work_.assign(static_cast<std::size_t>(workers), problem.stiffness());
   const double each =
       static_cast<double>(sizeof(double)) * static_cast<double>(problem.stiffness().nonZeros());
-  values_.resize(static_cast<std::size_t>(std::min(bytes / each, double(problem.positions()))));
+  if (bytes >= each)
+    values_.resize(static_cast<std::size_t>(std::min(bytes / each, double(problem.positions()))));
 }
 
 TangentTable::View TangentTable::view(int worker, int s) const {

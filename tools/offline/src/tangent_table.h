@@ -15,8 +15,12 @@ class TangentTable {
  public:
   using View = Eigen::Map<const SparseMatrix>;
 
-  /// @param bytes  what the kept values may take  @param constant  K_T(0) for every u
-  TangentTable(const ParametricProblem& problem, double bytes, int workers, bool constant);
+  /// @param bytes  what the kept values may take
+  TangentTable(const ParametricProblem& problem, double bytes, int workers);
+
+  /// From now on K_T(0) for every displacement, or no longer.
+  void holdConstant(bool constant) noexcept { constant_ = constant; }
+  [[nodiscard]] bool constant() const noexcept { return constant_; }
 
   /// Assembles K_T(u) for position s. The view holds until this worker's next call.
   View assemble(int worker, int s, const Eigen::VectorXd& u);
@@ -25,14 +29,13 @@ class TangentTable {
   View at(int worker, int s, const Displacement& u) {
     return constant_ || s < kept() ? view(worker, s) : assemble(worker, s, u());
   }
-  [[nodiscard]] bool constant() const noexcept { return constant_; }
 
  private:
   [[nodiscard]] int kept() const noexcept { return static_cast<int>(values_.size()); }
   [[nodiscard]] View view(int worker, int s) const;
 
   const ParametricProblem& problem_;
-  bool constant_;
+  bool constant_{true};
   std::vector<Eigen::VectorXd> values_;  ///< of the first positions
   std::vector<SparseMatrix> work_;       ///< one a worker
 };
