@@ -117,6 +117,17 @@ TEST(LoadStepping, ForwardEulerBendsLessThanNewton) {
   EXPECT_LT(euler, 0.95 * beam.newton(tip).norm());
 }
 
+TEST(LoadStepping, ConstantTangentDivergesUnderLargeRotationAndSaysWhere) {
+  const Beam beam{kBeam, 10.0};
+  const BodyProblem body = beam.problem();
+  try {
+    (void)solveExplicit(body, quietly(LoadStepping::kConstantTangent, 50, 0.1));
+    FAIL() << "a tangent of the beam at rest has found a solution at its tip";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("at load level 0."), std::string::npos) << error.what();
+  }
+}
+
 // Without PGD: each position by itself, K_T D = t l - f_int.
 Eigen::MatrixXd tenTermsAt(const BodyProblem& body, int s, int steps) {
   Eigen::MatrixXd levels = Eigen::MatrixXd::Zero(body.dofs(), steps + 1);

@@ -57,7 +57,7 @@ bool recompress(SeparatedIncrement& increment, LevelHistory& history, double tol
 void requireFinite(const Eigen::MatrixXd& Y, double level) {
   if (!Y.allFinite())
     throw std::runtime_error("load stepping: the solution is not finite at load level " +
-                             std::to_string(level) + "; take more steps or less load");
+                             std::to_string(level) + "; the scheme diverges under this load");
 }
 
 }  // namespace
