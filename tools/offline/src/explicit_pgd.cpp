@@ -30,7 +30,8 @@ void check(const ExplicitOptions& options) {
 }
 
 /// Adds pairs until the residual of this step is small, or X is full. @return the residual
-double enrich(SeparatedIncrement& increment, const ExplicitOptions& options, int full) {
+double enrich(SeparatedIncrement& increment, const ExplicitOptions& options) {
+  const int full = std::min(options.max_pairs, static_cast<int>(increment.X().rows()));
   double residual = increment.residual();
   while (residual > options.tolerance && increment.pairs() < full && increment.enrich())
     residual = increment.residual();
@@ -54,10 +55,20 @@ bool recompress(SeparatedIncrement& increment, LevelHistory& history, double tol
   return true;
 }
 
-void requireFinite(const Eigen::MatrixXd& Y, double level) {
-  if (!Y.allFinite())
-    throw std::runtime_error("load stepping: the solution is not finite at load level " +
-                             std::to_string(level) + "; the scheme diverges under this load");
+/// One load step. @return its residual
+double walk(SeparatedIncrement& increment, const ExplicitOptions& options, double from, double to) {
+  const std::string where = "load stepping: at load level " + std::to_string(to) + " ";
+  double residual = 0.0;
+  try {
+    increment.begin(from, to);
+    residual = enrich(increment, options);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(where + "of 1: " + error.what());
+  }
+  increment.finish();
+  if (!increment.Y().allFinite())
+    throw std::runtime_error(where + "the solution is not finite; the scheme diverges under this load");
+  return residual;
 }
 
 }  // namespace
@@ -66,7 +77,6 @@ LevelSolution solveExplicit(const ParametricProblem& problem, const ExplicitOpti
   check(options);
   Progress progress("load steps", static_cast<std::size_t>(options.steps), options.quiet);
   SeparatedIncrement increment(problem, options);
-  const int full = std::min(options.max_pairs, problem.dofs());
   LevelHistory history;
   std::vector<int> born;
   std::vector<double> residuals;
@@ -74,10 +84,7 @@ LevelSolution solveExplicit(const ParametricProblem& problem, const ExplicitOpti
   for (int j = 1; j <= options.steps; ++j) {
     const double level = static_cast<double>(j) / options.steps;
     const int before = increment.pairs();
-    increment.begin(static_cast<double>(j - 1) / options.steps, level);
-    residuals.push_back(enrich(increment, options, full));
-    increment.finish();
-    requireFinite(increment.Y(), level);
+    residuals.push_back(walk(increment, options, static_cast<double>(j - 1) / options.steps, level));
     history.Y.push_back(increment.Y());
     born.push_back(increment.pairs() - before);
     if (residuals.back() > options.tolerance && recompress(increment, history, options.tolerance))
