@@ -38,10 +38,12 @@ int waitForSignal() {
 
 void logModel(const MetaModel& model, const ServerConfig& config) {
   const ModelView& view = model.view();
-  spdlog::info("model {}: {} surface nodes, {} contact positions, {} modes, order {}, {:.1f} MB, id {}",
-               config.model.string(), view.surfaceNodes(), view.positions(), view.modes(),
-               model.attributes().order, 1e-6 * static_cast<double>(model.bytes()),
-               model.attributes().model_id);
+  spdlog::info(
+      "model {}: driven by {}, {} surface nodes, {} contact positions, {} modes, {} coefficients, {:.1f} MB, "
+      "id {}",
+      config.model.string(), toString(model.attributes().parameters), view.surfaceNodes(), view.positions(),
+      view.modes(), model.functions().size(), 1e-6 * static_cast<double>(model.bytes()),
+      model.attributes().model_id);
 }
 
 int serve(int argc, char** argv) {

@@ -16,6 +16,8 @@
 #include <string>
 
 #include "../idl/test_domain.h"
+#include "palpate/core/meta_model.h"
+#include "palpate/core/response.h"
 #include "palpate/testing/synthetic_model.h"
 #include "server_process.h"
 #include "test_client.h"
@@ -107,6 +109,36 @@ TEST_F(ServerEndToEnd, PushesBackAndEchoesThePose) {
   EXPECT_GT(force.pose_stamp_ns, 0);
   EXPECT_NEAR(force.penetration, 0.001, 1e-4);
   EXPECT_EQ(client_->waitForDisplacement(1e-4), 3 * target_.nodes);
+}
+
+// A model that is driven by force is searched for the force; the client sees no difference.
+TEST_F(ServerEndToEnd, AForceModelAnswersAPressWithTheForceThatGivesTheDisplacement) {
+  palpate::testing::writeSyntheticModel(model_, {.parameters = Parameters::kForce});
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  const dds::ToolForce force = client_->forces().back();
+  EXPECT_EQ(force.flags, dds::flag::kInContact);
+  const MetaModel model = MetaModel::load(model_);
+  const Vec3 anchor(force.anchor[0], force.anchor[1], force.anchor[2]);
+  const Vec3 d(force.displacement[0], force.displacement[1], force.displacement[2]);
+  Response out;
+  ASSERT_EQ(respond(model, model.surface().closestPoint(anchor).s, d, out), ResponseStatus::kOk);
+  const Vec3 on_tool(force.force[0], force.force[1], force.force[2]);
+  EXPECT_GT(dot(target_.normal, force.force), 0.0);
+  EXPECT_LT((on_tool + out.force).norm(), 1e-6 * out.force.norm());
+  EXPECT_NEAR(force.domain_radius, out.domain_radius, 1e-9);
+  EXPECT_EQ(client_->waitForDisplacement(1e-4), 3 * target_.nodes);
+}
+
+TEST_F(ServerEndToEnd, ALevelModelAnswersAPressAlongItsLoad) {
+  palpate::testing::writeSyntheticModel(model_, {.parameters = Parameters::kLevel});
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  const dds::ToolForce force = client_->forces().back();
+  EXPECT_EQ(force.flags, dds::flag::kInContact);
+  EXPECT_NEAR(force.force[0], 0.0, 1e-12);
+  EXPECT_NEAR(force.force[1] * 0.8, -force.force[2] * 0.6, 1e-9) << "the load is along (0, 0.6, -0.8)";
+  EXPECT_GT(force.force[2], 0.0);
 }
 
 TEST_F(ServerEndToEnd, EveryTickIsAnsweredOnceAndInOrder) {

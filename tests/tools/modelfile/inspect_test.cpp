@@ -42,6 +42,7 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   const Outcome run = inspect("--json " + file.path().string());
   ASSERT_EQ(run.code, 0);
   const auto json = nlohmann::json::parse(run.output);
+  EXPECT_EQ(json["parameters"], "displacement");
   EXPECT_EQ(json["nodes"], 163);
   EXPECT_EQ(json["tetrahedra"], 320);
   EXPECT_EQ(json["surface_nodes"], 162);
@@ -59,6 +60,36 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   EXPECT_DOUBLE_EQ(json["domain_radius"]["p05"], 0.008);
   EXPECT_EQ(json["bytes"]["far_field"],
             4U * (4U * 3U * 162U + json["contact_positions"].get<unsigned>() * 19U * 4U));
+}
+
+TEST(Inspect, TellsWhatAForceModelIsTrustedFor) {
+  const TemporaryFile file("inspect-force.h5");
+  writeSyntheticModel(file.path(), {.subdivisions = 1, .parameters = Parameters::kForce});
+  const auto json = nlohmann::json::parse(inspect("--json " + file.path().string()).output);
+  EXPECT_EQ(json["parameters"], "force");
+  EXPECT_EQ(json["order"], 3);
+  EXPECT_DOUBLE_EQ(json["reference_force"], 0.8);
+  for (const char* quantile : {"min", "p05", "median", "max"})
+    EXPECT_DOUBLE_EQ(json["force_radius"][quantile], 1.2);
+  EXPECT_TRUE(json["domain_radius"].is_null());
+  EXPECT_FALSE(json.contains("load"));
+}
+
+TEST(Inspect, TellsTheLoadOfALevelModel) {
+  const TemporaryFile file("inspect-level.h5");
+  writeSyntheticModel(file.path(), {.subdivisions = 1, .parameters = Parameters::kLevel});
+  const auto json = nlohmann::json::parse(inspect("--json " + file.path().string()).output);
+  EXPECT_EQ(json["parameters"], "level");
+  EXPECT_DOUBLE_EQ(json["load"]["size"], 1.5);
+  EXPECT_EQ(json["load"]["direction"], nlohmann::json({0.0, 0.6, -0.8}));
+  EXPECT_EQ(json["load"]["level_functions"], 3);
+  EXPECT_EQ(json["load"]["level_steps"], 10);
+  EXPECT_EQ(json["coefficients"], 3);
+  EXPECT_DOUBLE_EQ(json["level_radius"]["median"], 0.85);
+  EXPECT_TRUE(json["order"].is_null());
+  const Outcome table = inspect(file.path().string());
+  EXPECT_THAT(table.output, HasSubstr("parameters                level\n"));
+  EXPECT_THAT(table.output, HasSubstr("load.direction            [0.0,0.6,-0.8]\n"));
 }
 
 TEST(Inspect, TableIsForPeople) {

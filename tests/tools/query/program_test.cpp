@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "box_model.h"
+#include "load_models.h"
 #include "parsed_deck.h"
 #include "run_program.h"
 #include "well_formed.h"
@@ -15,8 +16,9 @@ namespace {
 using palpate::testing::ProgramResult;
 using palpate::testing::runProgram;
 
-ProgramResult query(const BoxModel& box, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), box.path.string());
+template <typename Model>
+ProgramResult query(const Model& model, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), model.path.string());
   return runProgram("palpate-query", arguments);
 }
 
@@ -73,7 +75,7 @@ TEST(Program, ComparesWithNewtonAndWritesFiles) {
   const Vec3 d(0.0, 0.0, -0.002);
   const Anchor anchor = anchorNear(box.model, {0.083, 0.031, 0.06});
   const FullSolution truth = box.solve(anchor, d);
-  const Errors errors = errorsOf(ask(box.model, anchor, d), truth, box.organ, d);
+  const Errors errors = errorsOf(ask(box.model, anchor, d), truth, box.organ);
   const auto newton = nlohmann::json::parse(result.out).at("newton");
   EXPECT_LT((vectorOf(newton.at("force")) - truth.state.force).norm(), 1e-7 * truth.state.force.norm());
   EXPECT_NEAR(newton.at("force_error"), errors.force, 1e-6);
@@ -97,6 +99,78 @@ TEST(Program, TellsAPersonTheSame) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
 }
 
+TEST(Program, AnswersAForceAndChecksItByNewton) {
+  const LoadModel box(Parameters::kForce);
+  const auto deck = box.folder / "deck.inp";
+  const std::string node = std::to_string(BoxMesh::number(4, 2, 2));
+  const ProgramResult result =
+      query(box, {"--node", node, "--force", "-.02,0.01,-0.04", "--ccx", deck.string(), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  const Vec3 f(-0.02, 0.01, -0.04);
+  EXPECT_EQ(json.at("parameters"), "force");
+  EXPECT_EQ(json.at("status"), "ok");
+  EXPECT_EQ(vectorOf(json.at("force")), f);
+  EXPECT_FALSE(json.contains("load_level"));
+  const auto newton = json.at("newton");
+  EXPECT_EQ(vectorOf(newton.at("force")), f);
+  const Vec3 d = vectorOf(json.at("displacement")), full = vectorOf(newton.at("displacement"));
+  EXPECT_NEAR(newton.at("displacement_error"), (d - full).norm() / full.norm(), 1e-12);
+  EXPECT_LT(newton.at("displacement_error"), 0.01);
+  EXPECT_LT(newton.at("field_error_max"), 0.02);
+  EXPECT_LT(newton.at("field_error_l2"), 0.01);
+  EXPECT_GT(newton.at("min_det_f"), 0.0);
+  EXPECT_EQ(vectorOf(newton.at("anchor_displacement")).size(), 3);
+  EXPECT_FALSE(newton.contains("force_error"));
+  EXPECT_NE(contentOf(deck).find("force -.02,0.01,-0.04 N"), std::string::npos);
+  const auto far = nlohmann::json::parse(query(box, {"--node", node, "--force", "0,0,-99", "--json"}).out);
+  EXPECT_EQ(far.at("status"), "clamped");
+  const std::string told = query(box, {"--node", node, "--force", "0,0,-99"}).out;
+  EXPECT_NE(told.find("clamped: asked for 99 N, beyond the domain"), std::string::npos) << told;
+}
+
+TEST(Program, ForceModelAnswersAnImposedDisplacement) {
+  const LoadModel box(Parameters::kForce);
+  const std::string node = std::to_string(BoxMesh::number(4, 2, 2));
+  const ProgramResult result =
+      query(box, {"--node", node, "--displacement", "0,0,-0.001", "--newton", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_LT((vectorOf(json.at("displacement")) - Vec3(0.0, 0.0, -0.001)).norm(), 1e-11);
+  EXPECT_LT(json.at("newton").at("force_error"), 0.01);
+  EXPECT_FALSE(json.at("newton").contains("displacement_error"));
+}
+
+TEST(Program, AnswersALoadLevel) {
+  const LoadModel box(Parameters::kLevel);
+  const std::string node = std::to_string(BoxMesh::number(4, 2, 2));
+  const ProgramResult result = query(box, {"--node", node, "--load-level", "0.1", "--newton", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("parameters"), "level");
+  EXPECT_EQ(json.at("load_level"), 0.1);
+  const Vec3 load = 0.1 * LoadModel::kLoad * LoadModel::direction();
+  EXPECT_LT((vectorOf(json.at("force")) - load).norm(), 1e-15);
+  EXPECT_LT((vectorOf(json.at("newton").at("force")) - load).norm(), 1e-15);
+  EXPECT_LT(json.at("newton").at("displacement_error"), 0.01);
+  const std::string told = query(box, {"--node", node, "--load-level", "0.1", "--newton"}).out;
+  EXPECT_NE(told.find("load level"), std::string::npos) << told;
+  EXPECT_NE(told.find("model is off"), std::string::npos) << told;
+}
+
+TEST(Program, RefusesALoadThatTheModelDoesNotTake) {
+  const LoadModel box(Parameters::kLevel);
+  const std::string node = std::to_string(BoxMesh::number(4, 2, 2));
+  expectOneLineError(query(box, {"--node", node, "--force", "0,0,-1"}), "use --load-level or --displacement");
+  expectOneLineError(query(box, {"--node", node, "--load-level", "1.5"}), "--load-level");
+  expectOneLineError(query(box, {"--node", node, "--load-level", "-0.5"}), "--load-level");
+  expectOneLineError(query(box, {"--node", node, "--load-level", "nan"}), "--load-level");
+  expectOneLineError(query(box, {"--node", node, "--load-level", "0.5", "--force", "0,0,0"}),
+                     "--displacement,--force,--load-level");
+  expectOneLineError(query(box, {"--node", node, "--force", "0,0"}), "--force is '0,0'");
+  expectOneLineError(query(box, {"--node", node, "--force="}), "--force");
+}
+
 TEST(Program, SaysWhenAPointIsNotAccessible) {
   const BoxModel box;
   const ProgramResult result =
@@ -118,7 +192,7 @@ TEST(Program, RefusesBadArgumentsInOneLine) {
   expectOneLineError(query(box, {"--at", "0,0,nan", "--displacement", "0,0,0"}), "--at is '0,0,nan'");
   expectOneLineError(query(box, {"--displacement", "0,0,0"}), "--node,--at");
   expectOneLineError(query(box, {"--node", node, "--at", "0,0,0", "--displacement", "0,0,0"}), "--node,--at");
-  expectOneLineError(query(box, {"--node", node}), "--displacement is required");
+  expectOneLineError(query(box, {"--node", node}), "--displacement,--force,--load-level");
   expectOneLineError(query(box, {"--node", "four", "--displacement", "0,0,0"}), "--node = four");
   expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,0", "--newton", "--steps", "0"}),
                      "--steps");

@@ -21,8 +21,8 @@ Json bytesOfParts(const ModelView& v) {
   Json bytes;
   bytes["surface"] =
       bytesOf(v.surface_positions, v.surface_triangles, v.surface_mesh_tag, v.position_of_node);
-  bytes["contact_response"] =
-      bytesOf(v.contact_node, v.contact_accessible, v.contact_force, v.contact_domain_radius);
+  bytes["contact_response"] = bytesOf(v.contact_node, v.contact_accessible, v.contact_force,
+                                      v.contact_displacement, v.contact_domain_radius, v.levels_Z);
   bytes["far_field"] = bytesOf(v.modes_X, v.modes_Y);
   bytes["near_field"] = bytesOf(v.near_offset, v.near_node, v.near_field);
   bytes["mesh"] = bytesOf(v.mesh_nodes, v.mesh_tetrahedra, v.mesh_node_tag, v.mesh_tetrahedron_tag,
@@ -36,16 +36,34 @@ double quantile(const std::vector<double>& sorted, double q) {
   return sorted[static_cast<std::size_t>(rank + 0.5)];
 }
 
-Json domainRadii(const ModelView& v) {
-  std::vector<double> radii;
+/// Quantiles of /contact/domain_radius over the accessible positions: m, N, or a level.
+Json radii(const ModelView& v) {
+  std::vector<double> values;
   for (std::size_t m = 0; m < v.positions(); ++m)
-    if (v.contact_accessible[m] != 0) radii.push_back(v.contact_domain_radius[m]);
-  if (radii.empty()) return nullptr;
-  std::sort(radii.begin(), radii.end());
-  return {{"min", radii.front()},
-          {"p05", quantile(radii, 0.05)},
-          {"median", quantile(radii, 0.5)},
-          {"max", radii.back()}};
+    if (v.contact_accessible[m] != 0) values.push_back(v.contact_domain_radius[m]);
+  if (values.empty()) return nullptr;
+  std::sort(values.begin(), values.end());
+  return {{"min", values.front()},
+          {"p05", quantile(values, 0.05)},
+          {"median", quantile(values, 0.5)},
+          {"max", values.back()}};
+}
+
+/// What the model is trusted for, and the load of the load-driven kinds.
+void describeDomain(const MetaModel& model, Json& out) {
+  const ModelView& v = model.view();
+  const ModelAttributes& a = model.attributes();
+  out["domain_radius"] = a.parameters == Parameters::kDisplacement ? radii(v) : Json(nullptr);
+  if (a.parameters == Parameters::kForce) {
+    out["reference_force"] = a.reference_force;
+    out["force_radius"] = radii(v);
+  }
+  if (a.parameters != Parameters::kLevel) return;
+  out["level_radius"] = radii(v);
+  out["load"] = {{"size", a.load},
+                 {"direction", a.load_direction},
+                 {"level_functions", v.level_functions},
+                 {"level_steps", model.functions().levelSteps()}};
 }
 
 Json provenanceOf(const std::string& text) {
@@ -65,6 +83,7 @@ Json describe(const MetaModel& model) {
   const ModelAttributes& a = model.attributes();
   Json out;
   out["model_id"] = a.model_id;
+  out["parameters"] = toString(a.parameters);
   out["nodes"] = v.mesh_node_tag.size();
   out["tetrahedra"] = v.mesh_tetrahedron_tag.size();
   out["surface_nodes"] = v.surfaceNodes();
@@ -72,14 +91,15 @@ Json describe(const MetaModel& model) {
   out["accessible_nodes"] = std::count(v.contact_accessible.begin(), v.contact_accessible.end(), 1);
   out["contact_positions"] = v.positions();
   out["modes"] = v.modes();
-  out["order"] = a.order;
-  out["force_order"] = a.force_order;
+  const bool polynomial = a.parameters != Parameters::kLevel;
+  out["order"] = polynomial ? Json(a.order) : Json(nullptr);
+  out["force_order"] = polynomial ? Json(a.force_order) : Json(nullptr);
   out["coefficients"] = model.functions().size();
   out["patch_radius"] = a.patch_radius;
   out["near_radius"] = a.near_radius;
   out["near_nodes_mean"] = static_cast<double>(v.near_node.size()) / static_cast<double>(v.positions());
   out["reference_displacement"] = a.reference_displacement;
-  out["domain_radius"] = domainRadii(v);
+  describeDomain(model, out);
   out["material"] = {{"law", a.law}, {"E", a.E}, {"nu", a.nu}};
   out["file_bytes"] = model.bytes();
   out["bytes"] = bytesOfParts(v);

@@ -8,8 +8,8 @@
 
 namespace palpate::inspect {
 
-/// All that palpate-inspect says about a model: sizes, material, bytes of each part, quantiles of the domain
-/// radius over the accessible positions (m), provenance. SI units.
+/// All that palpate-inspect says about a model: kind, sizes, material, bytes of each part, quantiles over the
+/// accessible positions of what is trusted (m, N, or a load level), provenance. SI units.
 [[nodiscard]] nlohmann::ordered_json describe(const MetaModel& model);
 
 /// The same for a person to read, several lines.

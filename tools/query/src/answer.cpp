@@ -2,6 +2,7 @@
 #include "palpate/query/answer.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -54,6 +55,18 @@ ContactPoint touchableAt(const MetaModel& model, int node) {
   return model.surface().atNode(node);
 }
 
+const char* optionOf(Parameters parameters) {
+  switch (parameters) {
+    case Parameters::kForce:
+      return "--force";
+    case Parameters::kLevel:
+      return "--load-level";
+    case Parameters::kDisplacement:
+      break;
+  }
+  return "--displacement";
+}
+
 }  // namespace
 
 Anchor anchorAtNode(const MetaModel& model, std::int64_t number) {
@@ -69,14 +82,36 @@ Anchor anchorNear(const MetaModel& model, const Vec3& c) {
   return {nearest.s, nearest.position, nearestNode(model, nearest.position)};
 }
 
-Answer ask(const MetaModel& model, const Anchor& anchor, const Vec3& d) {
+void checkQuestion(const MetaModel& model, const Question& question) {
+  const Parameters kind = model.attributes().parameters;
+  if (question.prescribed == Parameters::kDisplacement || question.prescribed == kind) return;
+  const std::string asked = optionOf(question.prescribed), own = optionOf(kind);
+  throw QueryError(asked + " asks a model driven by " + std::string(toString(question.prescribed)) +
+                   ", this one is driven by " + std::string(toString(kind)) + ": use " +
+                   (kind == Parameters::kDisplacement ? own : own + " or --displacement"));
+}
+
+Vec3 forceOf(const MetaModel& model, const Question& question) {
+  if (question.prescribed == Parameters::kForce) return question.value;
+  const ModelAttributes& a = model.attributes();
+  return question.value.x() * a.load * Eigen::Map<const Vec3>(a.load_direction.data());
+}
+
+Answer ask(const MetaModel& model, const Anchor& anchor, const Question& question) {
   Answer answer;
   answer.field.assign(3 * static_cast<std::size_t>(model.surface().nodes()), 0.0F);
   if (!model.surface().accessible(anchor.s.triangle)) return answer;
-  answer.status = respond(model, anchor.s, d, answer.response);
+  answer.status = question.prescribed == Parameters::kDisplacement
+                      ? respond(model, anchor.s, question.value, answer.response)
+                      : respondToLoad(model, anchor.s, question.value, answer.response);
   FieldScratch scratch(model);
-  evaluateField(model, anchor.s, d, scratch, answer.field);
+  const std::array<FieldSource, 1> source{FieldSource{anchor.s, answer.response.parameter, 1.0}};
+  evaluateField(model, source, scratch, answer.field);
   return answer;
+}
+
+Answer ask(const MetaModel& model, const Anchor& anchor, const Vec3& d) {
+  return ask(model, anchor, Question{Parameters::kDisplacement, d});
 }
 
 }  // namespace palpate::query

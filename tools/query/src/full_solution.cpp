@@ -41,6 +41,40 @@ std::string text(const Vec3& v) {
   return out.str();
 }
 
+/// The nodal forces of a point load: the corners' shape functions, free nodes only.
+offline::Patch pointPatch(const Organ& organ, const ContactPoint& s) {
+  offline::Patch patch;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t corner = organ.surface.triangles[static_cast<std::size_t>(s.triangle)][k];
+    const std::int32_t node = organ.surface.nodes[static_cast<std::size_t>(corner)];
+    if (s.barycentric[k] <= 0.0 || !organ.body.isFree(node)) continue;
+    patch.nodes.push_back(node);
+    patch.weights.push_back(s.barycentric[k]);
+    patch.free_share += s.barycentric[k];
+  }
+  for (double& weight : patch.weights) weight /= patch.free_share;
+  return patch;
+}
+
+/// @throw QueryError when the patch is all clamped
+offline::Patch patchAt(const Organ& organ, const Anchor& anchor, double patch_radius) {
+  constexpr double kLeastRadius = 1e-9;  // m; below, its square vanishes, and no mesh is that fine
+  const offline::SurfacePoint s{anchor.s.triangle, anchor.s.barycentric};
+  offline::Patch patch =
+      offline::makePatch(organ.body, organ.surface, s, std::max(patch_radius, kLeastRadius));
+  if (patch.nodes.empty()) patch = pointPatch(organ, anchor.s);
+  if (patch.nodes.empty())
+    throw QueryError("the contact patch at " + text(anchor.position) +
+                     " lies on clamped nodes only: nothing to solve");
+  return patch;
+}
+
+offline::NewtonOptions stepsOf(int steps) {
+  offline::NewtonOptions options;
+  options.steps = steps;
+  return options;
+}
+
 double ratio(double error, double reference) {
   return error == 0.0 ? 0.0 : error / reference;
 }
@@ -56,15 +90,10 @@ Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh) {
 FullSolution solveFully(const Organ& organ, const Anchor& anchor, double patch_radius, const Vec3& d,
                         int steps) {
   FullSolution solution;
-  solution.patch =
-      offline::makePatch(organ.body, organ.surface, {anchor.s.triangle, anchor.s.barycentric}, patch_radius);
-  if (solution.patch.nodes.empty())
-    throw QueryError("the contact patch at " + text(anchor.position) +
-                     " lies on clamped nodes only: nothing to solve");
-  offline::NewtonOptions options;
-  options.steps = steps;
+  solution.patch = patchAt(organ, anchor, patch_radius);
+  solution.d = d;
   try {
-    solution.state = offline::NewtonSolver(organ.body).solvePatch(solution.patch, d, options);
+    solution.state = offline::NewtonSolver(organ.body).solvePatch(solution.patch, d, stepsOf(steps));
   } catch (const std::runtime_error& error) {
     throw QueryError("displacement " + text(d) + " m: " + error.what());
   }
@@ -72,7 +101,24 @@ FullSolution solveFully(const Organ& organ, const Anchor& anchor, double patch_r
   return solution;
 }
 
-Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ, const Vec3& d) {
+FullSolution solveUnderLoad(const Organ& organ, const Anchor& anchor, double patch_radius, const Vec3& f,
+                            int steps) {
+  FullSolution solution;
+  solution.patch = patchAt(organ, anchor, patch_radius);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * organ.body.nodeCount());
+  solution.patch.addForce(f, load);
+  try {
+    solution.state = offline::NewtonSolver(organ.body).solveLoad(load, stepsOf(steps));
+  } catch (const std::runtime_error& error) {
+    throw QueryError("force " + text(f) + " N: " + error.what());
+  }
+  solution.state.force = f;
+  solution.d = solution.patch.average(solution.state.u);
+  solution.min_det_f = organ.body.minDetF(solution.state.u);
+  return solution;
+}
+
+Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ) {
   double largest = 0.0, error2 = 0.0, truth2 = 0.0;
   for (std::size_t i = 0; i < organ.surface.nodes.size(); ++i) {
     const Vec3 u = Eigen::Map<const Eigen::Vector3f>(answer.field.data() + 3 * i).cast<double>();
@@ -82,8 +128,9 @@ Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& or
     truth2 += organ.surface.areas[i] * u_full.squaredNorm();
   }
   const Vec3& f = truth.state.force;
-  return {ratio((answer.response.force - f).norm(), f.norm()), ratio(largest, d.norm()),
-          std::sqrt(ratio(error2, truth2))};
+  return {ratio((answer.response.force - f).norm(), f.norm()),
+          ratio((answer.response.displacement - truth.d).norm(), truth.d.norm()),
+          ratio(largest, truth.d.norm()), std::sqrt(ratio(error2, truth2))};
 }
 
 }  // namespace palpate::query

@@ -4,6 +4,8 @@
 // Sample runs:  palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002
 //               palpate-query liver.h5 --at 0.05,0.01,0.06 --displacement -0.001,0,-0.002 --newton --json
 //               palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002 --ccx deck.inp --field touch.vtu
+//               palpate-query force.h5 --node 1204 --force 0,0,-0.5 --newton
+//               palpate-query level.h5 --node 1204 --load-level 0.75 --newton
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -21,8 +23,10 @@ namespace {
 using namespace palpate;
 
 struct Options {
-  std::string model, at, displacement;
+  std::string model, at;
+  std::optional<std::string> displacement, force;
   std::optional<std::int64_t> node;
+  std::optional<double> level;
   std::string deck, field;
   int steps{1};
   bool newton{false};
@@ -39,8 +43,12 @@ void describe(CLI::App& app, Options& options) {
   where->add_option("--node", options.node, "touch this surface node, by its number in the mesh file");
   where->add_option("--at", options.at, "touch the surface point nearest to x,y,z, m");
   where->require_option(1);
-  app.add_option("--displacement", options.displacement, "displacement dx,dy,dz of the contact patch, m")
-      ->required();
+  CLI::Option_group* const what = app.add_option_group("what");
+  what->add_option("--displacement", options.displacement, "displacement dx,dy,dz of the contact patch, m");
+  what->add_option("--force", options.force, "force fx,fy,fz of the tool, N (models driven by force)");
+  what->add_option("--load-level", options.level, "part of the model's load, 0 to 1 (models driven by level)")
+      ->check(CLI::Range(0.0, 1.0));
+  what->require_option(1);
   app.add_flag("--newton", options.newton, "solve the full problem too, and tell how far the model is off");
   app.add_option("--steps", options.steps, "load steps of the full solution to begin with")
       ->check(CLI::Range(1, 1000))
@@ -52,7 +60,7 @@ void describe(CLI::App& app, Options& options) {
 
 /// The command line without the program's name, last word first as CLI11 takes it.
 std::vector<std::string> reversedWords(int argc, char** argv) {
-  static constexpr std::array<const char*, 2> kVectors{"--at", "--displacement"};
+  static constexpr std::array<const char*, 3> kVectors{"--at", "--displacement", "--force"};
   const std::vector<const char*> words(argv + std::min(argc, 1), argv + argc);
   std::vector<std::string> joined = query::joinVectors(words, kVectors);
   std::reverse(joined.begin(), joined.end());
@@ -62,6 +70,27 @@ std::vector<std::string> reversedWords(int argc, char** argv) {
 query::Anchor anchorOf(const MetaModel& model, const Options& options) {
   return options.node ? query::anchorAtNode(model, *options.node)
                       : query::anchorNear(model, query::parseVector("--at", options.at));
+}
+
+query::Question questionOf(const Options& options) {
+  if (options.level) return {Parameters::kLevel, {*options.level, 0.0, 0.0}};
+  if (options.force) return {Parameters::kForce, query::parseVector("--force", *options.force)};
+  return {Parameters::kDisplacement, query::parseVector("--displacement", *options.displacement)};
+}
+
+query::FullSolution solve(const MetaModel& model, const query::Organ& organ, const query::Anchor& anchor,
+                          const query::Question& question, int steps) {
+  const double a = model.attributes().patch_radius;
+  if (question.prescribed == Parameters::kDisplacement)
+    return query::solveFully(organ, anchor, a, question.value, steps);
+  return query::solveUnderLoad(organ, anchor, a, query::forceOf(model, question), steps);
+}
+
+/// For the head of the deck.
+std::string about(const Options& options) {
+  if (options.level) return "load level " + std::to_string(*options.level);
+  if (options.force) return "force " + *options.force + " N";
+  return "patch displacement " + *options.displacement + " m";
 }
 
 void warn(const query::Findings& found) {
@@ -76,27 +105,27 @@ void writeFiles(const Options& options, const query::Findings& found) {
   if (!options.field.empty())
     query::writeText(options.field, query::fieldVtu(found.model, found.answer, found.organ, found.truth));
   if (!options.deck.empty())
-    query::writeText(options.deck,
-                     query::ccxDeck(*found.organ, *found.truth,
-                                    "patch displacement " + options.displacement + " m", options.steps));
+    query::writeText(options.deck, query::ccxDeck(*found.organ, *found.truth, about(options), options.steps));
 }
 
 void run(const Options& options) {
   // 1. The question.
-  const Vec3 d = query::parseVector("--displacement", options.displacement);
+  const query::Question question = questionOf(options);
   const MetaModel model = MetaModel::load(options.model);
+  query::checkQuestion(model, question);
   const query::Anchor anchor = anchorOf(model, options);
   // 2. The model's answer.
-  const query::Answer answer = query::ask(model, anchor, d);
+  const query::Answer answer = query::ask(model, anchor, question);
   // 3. The truth.
   std::optional<query::Organ> organ;
   std::optional<query::FullSolution> truth;
   if (options.newton || !options.deck.empty()) {
     organ.emplace(query::organOf(model, modelfile::readVolumeMesh(options.model)));
-    truth = query::solveFully(*organ, anchor, model.attributes().patch_radius, d, options.steps);
+    truth = solve(model, *organ, anchor, question, options.steps);
   }
   // 4. Files, then the report.
-  const query::Findings found{model, anchor, d, answer, organ ? &*organ : nullptr, truth ? &*truth : nullptr};
+  const query::Findings found{
+      model, anchor, question, answer, organ ? &*organ : nullptr, truth ? &*truth : nullptr};
   writeFiles(options, found);
   warn(found);
   std::cout << (options.json ? query::toJson(found).dump(2) + "\n" : query::toText(found));

@@ -13,7 +13,7 @@ namespace palpate::query {
 struct Findings {
   const MetaModel& model;
   const Anchor& anchor;
-  const Vec3& d;  ///< as asked for, m
+  const Question& question;  ///< as asked for
   const Answer& answer;
   const Organ* organ;         ///< with truth, else null
   const FullSolution* truth;  ///< null: not asked for

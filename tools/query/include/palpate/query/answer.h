@@ -16,6 +16,12 @@ struct Anchor {
   int node{0};                   ///< surface node, 0-based
 };
 
+/// What is prescribed at the contact: d in m, f in N, or (t, 0, 0).
+struct Question {
+  Parameters prescribed{Parameters::kDisplacement};
+  Vec3 value = Vec3::Zero();
+};
+
 /// What the model answers, from the code that the server runs.
 struct Answer {
   ResponseStatus status{ResponseStatus::kNoAnswer};
@@ -30,9 +36,19 @@ struct Answer {
 /// s as the nearest point of the rest surface. @param c  m, finite
 [[nodiscard]] Anchor anchorNear(const MetaModel& model, const Vec3& c);
 
-/// f(s, d), df/dd and u(X; s, d) without release, friction and limiter                     DESIGN 2.2, 2.3
+/// Whether this kind of model has an answer: to a displacement every kind, to a force and to a load level only
+/// the model that is driven by it. @throw QueryError naming the option, the kind and what to use instead
+void checkQuestion(const MetaModel& model, const Question& question);
+
+/// The force of the tool that a prescribed load stands for, N, not clamped. @param question  no displacement
+[[nodiscard]] Vec3 forceOf(const MetaModel& model, const Question& question);
+
+/// f, d, df/dd and u at s without release, friction and limiter                       DESIGN 2.1, 2.2, 2.3
 /// kNoAnswer where the server does not answer either: no node of the triangle is accessible.
-/// @param d  m, clamped to the domain like in the server
+/// @param question  passed by checkQuestion(); clamped to the domain like in the server
+[[nodiscard]] Answer ask(const MetaModel& model, const Anchor& anchor, const Question& question);
+
+/// The same for a displacement. @param d  m
 [[nodiscard]] Answer ask(const MetaModel& model, const Anchor& anchor, const Vec3& d);
 
 }  // namespace palpate::query

@@ -26,6 +26,7 @@ struct Organ {
 struct FullSolution {
   offline::Patch patch;         ///< volume nodes and their w_i
   offline::NewtonResult state;  ///< u of all volume nodes, m; f, N
+  Vec3 d = Vec3::Zero();        ///< G_s^T u, or the d that was asked for, m
   double min_det_f{1.0};        ///< over all tetrahedra; <= 0 where one is inside out
 
   /// u at a surface node, m.
@@ -39,15 +40,23 @@ struct FullSolution {
 [[nodiscard]] FullSolution solveFully(const Organ& organ, const Anchor& anchor, double patch_radius,
                                       const Vec3& d, int steps);
 
+/// The organ under a given force: f_int(u) = G_s f, a dead load on the patch centred at s itself.   DESIGN 2.1
+/// A patch narrower than the mesh is the point load's own: the node at s, or the triangle's corners by their
+/// barycentric weights. @param f  N, not clamped  @param steps  load steps, >= 1
+/// @throw QueryError like solveFully(). Seconds.
+[[nodiscard]] FullSolution solveUnderLoad(const Organ& organ, const Anchor& anchor, double patch_radius,
+                                          const Vec3& f, int steps);
+
 /// How far the model is off.
 struct Errors {
-  double force{0.0};      ///< |f - f_Newton| / |f_Newton|
-  double field_max{0.0};  ///< largest |u - u_Newton| over the surface nodes / |d|
-  double field_l2{0.0};   ///< area-weighted L2 of u - u_Newton over the surface / that of u_Newton
+  double force{0.0};         ///< |f - f_Newton| / |f_Newton|
+  double displacement{0.0};  ///< |d - d_Newton| / |d_Newton|
+  double field_max{0.0};     ///< largest |u - u_Newton| over the surface nodes / |d_Newton|
+  double field_l2{0.0};      ///< area-weighted L2 of u - u_Newton over the surface / that of u_Newton
 };
 
-/// @param d  as asked for, m. All errors are 0 where model and truth are both at rest.
-[[nodiscard]] Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ,
-                              const Vec3& d);
+/// d_Newton is what was asked for where a displacement was. All errors are 0 where model and truth are both at
+/// rest.
+[[nodiscard]] Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ);
 
 }  // namespace palpate::query
