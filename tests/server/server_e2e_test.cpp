@@ -127,7 +127,7 @@ TEST_F(ServerEndToEnd, AForceModelAnswersAPressWithTheForceThatGivesTheDisplacem
   EXPECT_GT(dot(target_.normal, force.force), 0.0);
   EXPECT_LT((on_tool + out.force).norm(), 1e-6 * out.force.norm());
   EXPECT_NEAR(force.domain_radius, out.domain_radius, 1e-9);
-  EXPECT_EQ(client_->waitForDisplacement(1e-4), 3 * target_.nodes);
+  EXPECT_EQ(client_->waitForDisplacement(1e-5), 3 * target_.nodes);
 }
 
 TEST_F(ServerEndToEnd, ALevelModelAnswersAPressAlongItsLoad) {

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 #include "palpate/query/arguments.h"
 #include "palpate/query/ccx_deck.h"
 #include "palpate/query/field_file.h"
+#include "palpate/query/query_error.h"
 #include "report.h"
 
 namespace {
@@ -73,8 +75,11 @@ query::Anchor anchorOf(const MetaModel& model, const Options& options) {
 }
 
 query::Question questionOf(const Options& options) {
+  if (options.level && std::isnan(*options.level))
+    throw query::QueryError("--load-level is nan, expected 0 to 1");
   if (options.level) return {Parameters::kLevel, {*options.level, 0.0, 0.0}};
   if (options.force) return {Parameters::kForce, query::parseVector("--force", *options.force)};
+  if (!options.displacement) throw query::QueryError("--displacement or --force is empty, expected x,y,z");
   return {Parameters::kDisplacement, query::parseVector("--displacement", *options.displacement)};
 }
 
