@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palpate/offline/parametric_problem.h"
+#include "palpate/offline/separated_solution.h"
+
+namespace palpate::offline {
+
+enum class Separation {
+  kScalar,    ///< u = sum X_k(x) Y_k(s): one operator, a block power iteration for the energy-norm SVD
+  kHadamard,  ///< u_j = sum X_k,j(x) Y_k,j(s), component by component: one factorization a sweep
+};
+
+struct LinearPgdOptions {
+  Separation separation{Separation::kScalar};
+  std::vector<int> components;  ///< of every unknown, Hadamard only; empty: unknown i belongs to i % 3
+  int load_terms{0};            ///< m of Eq. (2), >= 0; 0: the load is not truncated
+  int max_pairs{250};           ///< n, >= 1
+  double tolerance{1e-3};       ///< stop at this dual norm of the residual over that of the loads, [0, 1)
+  int max_sweeps{3};            ///< alternating directions for a pair (or block), >= 1
+  double pair_tolerance{1e-2};  ///< stop a pair at this change of the normalized pair in a sweep, >= 0
+  int update{8};                ///< all Y again for fixed X every so many pairs, >= 0; 0: never
+  int block{8};                 ///< pairs iterated at once, >= 1; scalar only, Hadamard takes one at a time
+  int residual_every{8};        ///< pairs between estimates of the residual, >= 1
+  int probes{24};  ///< random combinations of positions that the residual is estimated with, >= 2
+  int workers{1};  ///< threads of the solves, >= 1
+  unsigned seed{1};
+  bool quiet{false};
+};
+
+/// Components of the unknowns of a body: x, y, z in turn.
+[[nodiscard]] std::vector<int> bodyComponents(int dofs);
+
+/// Linear parametric PGD: K u_s = l_s for all s at once, by greedy enrichment with alternating directions;
+/// no full solution at a load position is ever formed.                      paper Eqs. (1)-(12), DESIGN 2.1
+/// Differs from the paper: a pair stops on its change and the enrichment on the energy norm of the residual;
+/// pairs may be iterated in blocks, and all Y computed again (Galerkin) for fixed X.
+/// The residual's dual norm (the energy norm of the error) is estimated without bias from solutions for a
+/// few random combinations of the loads; EnrichmentStep::spread says how sharply. It is that of the problem
+/// with the truncated load.
+/// @throw std::invalid_argument naming the option that is out of range, std::runtime_error when K is singular
+/// Memory O((dofs + M) n). Cost a pair and sweep: one solve, O((dofs + M) n); Hadamard: one factorization.
+[[nodiscard]] SeparatedSolution solveLinearPgd(const ParametricProblem& problem,
+                                               const LinearPgdOptions& options);
+
+}  // namespace palpate::offline

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "palpate/offline/cholesky.h"
+#include "palpate/offline/separated_solution.h"
+
+namespace palpate::offline {
+
+/// v -> A v, columns at a time, for a symmetric A >= 0 that measures lengths: |v|^2 = v^T A v.
+using InnerProduct = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
+
+/// Energy product a(u, v) = u^T K v. K must outlive the result.
+[[nodiscard]] InnerProduct energyProduct(const SparseMatrix& K);
+/// Weighted product, say by the areas of surface rows.
+[[nodiscard]] InnerProduct diagonalProduct(Eigen::VectorXd weights);
+
+struct OrthonormalBasis {
+  Eigen::MatrixXd Q;  ///< rows x n; orthonormal, but for columns of zeros where V depends on earlier ones
+  Eigen::MatrixXd R;  ///< n x n, upper triangular: V = Q R
+};
+
+/// V = Q R with Q^T A Q = 1, by blocked Gram-Schmidt, every block twice.
+/// Cost 4 rows n^2, two products with A a column.
+[[nodiscard]] OrthonormalBasis orthonormalize(const Eigen::MatrixXd& V, const InnerProduct& A);
+
+struct Recompressed {
+  ScalarPairs pairs;                ///< X orthonormal in the inner product; rows of Y orthogonal, by energy
+  Eigen::VectorXd singular_values;  ///< of what came in, falling; the norms of the rows of Y come first
+
+  /// Norm of what n pairs leave out over that of what came in.
+  [[nodiscard]] double truncation(Eigen::Index n) const;
+};
+
+/// The best n pairs of what given pairs stand for: QR of both factors, SVD of the small core, cut.  DESIGN 2.1
+/// @param pairs  X rows x k, Y k x columns: positions, or positions times coefficients
+/// @param product  in x  @param weights  of the columns of Y, > 0  @param n  at most; fewer where the rank is less
+/// @throw std::invalid_argument when sizes do not fit or n < 1
+/// Cost O((rows + columns) k^2 + k^3).
+[[nodiscard]] Recompressed recompress(const ScalarPairs& pairs, const InnerProduct& product,
+                                      const Eigen::VectorXd& weights, Eigen::Index n);
+
+}  // namespace palpate::offline
