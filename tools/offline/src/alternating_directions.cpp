@@ -89,8 +89,8 @@ void AlternatingDirections::stepScalarR(const SeparatedSolution& u, NewPairs& pa
   const MatrixXd basis =
       independentColumns(orthonormalize(pairs.S[0].transpose(), diagonalProduct(weights_)).Q);
   const MatrixXd P = weights_.asDiagonal() * basis;
-  const MatrixXd rhs =
-      load_.times(P) - (u.pairs() > 0 ? K_ * u.times(P) : MatrixXd::Zero(K_.rows(), P.cols()));
+  MatrixXd rhs = load_.times(P);
+  if (u.pairs() > 0) rhs -= K_ * u.times(P);
   pairs.R = independentColumns(orthonormalize(solve(rhs), energyProduct(K_)).Q);
 }
 
