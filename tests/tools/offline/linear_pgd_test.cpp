@@ -152,7 +152,7 @@ TEST_F(LinearPgd, TruncatedLoadGivesTheSolutionOfTheTruncatedLoad) {
 }
 
 TEST(LinearPgdOfARod, OneComponentNeedsNoThree) {
-  const LinearProblem problem = rod(20);
+  const LinearProblem problem = springRod(20);
   for (const Separation separation : {Separation::kScalar, Separation::kHadamard}) {
     LinearPgdOptions options = quiet(20);
     options.separation = separation;
@@ -166,7 +166,7 @@ TEST(LinearPgdOfARod, OneComponentNeedsNoThree) {
 }
 
 TEST(LinearPgdOptionsTest, NamesTheFirstBadField) {
-  const LinearProblem problem = rod(5);
+  const LinearProblem problem = springRod(5);
   const auto refused = [&](auto change, const std::string& field) {
     LinearPgdOptions options = quiet(3);
     change(options);

@@ -27,7 +27,7 @@ class LinearProblem final : public ParametricProblem {
 };
 
 /// A rod of n equal springs, clamped at one end, a unit force at each of its nodes: u = min(x, s).
-inline LinearProblem rod(int n) {
+inline LinearProblem springRod(int n) {
   std::vector<Eigen::Triplet<double>> entries, forces;
   for (int i = 0; i < n; ++i) {
     entries.emplace_back(i, i, i + 1 < n ? 2.0 : 1.0);

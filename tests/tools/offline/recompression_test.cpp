@@ -20,7 +20,7 @@ MatrixXd product(const ScalarPairs& pairs) {
 }
 
 TEST(Orthonormalize, MakesAnOrthonormalBasisOfTheSameSpan) {
-  const LinearProblem problem = rod(60);
+  const LinearProblem problem = springRod(60);
   MatrixXd V = MatrixXd::Random(60, 50);
   V.col(40) = 1e3 * V.col(3) - V.col(7);                   // dependent
   V.col(20) = V.col(19) + 1e-9 * MatrixXd::Random(60, 1);  // nearly so
@@ -33,14 +33,14 @@ TEST(Orthonormalize, MakesAnOrthonormalBasisOfTheSameSpan) {
 }
 
 TEST(Recompress, WithoutCuttingChangesNothing) {
-  const LinearProblem problem = rod(30);
+  const LinearProblem problem = springRod(30);
   const ScalarPairs pairs{MatrixXd::Random(30, 12), MatrixXd::Random(12, 30)};
   const Recompressed r = recompress(pairs, energyProduct(problem.stiffness()), problem.weights(), 12);
   EXPECT_LT((product(r.pairs) - product(pairs)).norm(), 1e-12 * product(pairs).norm());
 }
 
 TEST(Recompress, ErrorIsTheTruncationOfTheSingularValues) {
-  const LinearProblem problem = rod(30);
+  const LinearProblem problem = springRod(30);
   const ScalarPairs pairs{MatrixXd::Random(30, 12), MatrixXd::Random(12, 30)};
   const auto norm = [&](const MatrixXd& u) {
     return std::sqrt((u.cwiseProduct(problem.stiffness() * u)).colwise().sum().dot(problem.weights()));
@@ -55,7 +55,7 @@ TEST(Recompress, ErrorIsTheTruncationOfTheSingularValues) {
 }
 
 TEST(Recompress, MeetsTheBestErrorWhenThePairsSpanTheSolution) {
-  const LinearProblem problem = rod(40);
+  const LinearProblem problem = springRod(40);
   ScalarPairs pairs{MatrixXd::Random(40, 40), MatrixXd()};
   const MatrixXd solution = Cholesky(problem.stiffness()).solve(MatrixXd(problem.loads()));
   pairs.Y = pairs.X.fullPivLu().solve(solution);
