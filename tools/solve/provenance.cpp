@@ -7,6 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "summary.h"
+
 namespace palpate::solve {
 
 namespace {
@@ -57,24 +59,32 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
   hash.add(data.surface_positions);
   hash.add(data.surface_triangles);
   hash.add(data.contact_force);
+  hash.add(data.contact_displacement);
   hash.add(data.contact_domain_radius);
+  hash.add(data.levels_Z);
   hash.add(data.modes_X);
   hash.add(data.modes_Y);
   hash.add(data.near_field);
   data.attributes.model_id = hash.text();
-  const nlohmann::json provenance{
-      {"program", "palpate-solve"},
-      {"version", PALPATE_VERSION},
-      {"created", utcNow()},
-      {"mesh", c.mesh.filename().string()},
-      {"mesh_hash", fileHash(c.mesh)},
-      {"case", c.text},
-      {"fixed", c.fixed},
-      {"accessible", c.accessible.value_or("")},
-      {"sweeps", c.sweeps},
-      {"fit_errors", report.fit_errors},
-      {"seconds",
-       {{"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}}}};
+  nlohmann::json provenance{{"program", "palpate-solve"},
+                            {"version", PALPATE_VERSION},
+                            {"created", utcNow()},
+                            {"mesh", c.mesh.filename().string()},
+                            {"mesh_hash", fileHash(c.mesh)},
+                            {"case", c.text},
+                            {"fixed", c.fixed},
+                            {"accessible", c.accessible.value_or("")},
+                            {"method", toString(c.method)},
+                            {"seconds", stages(c.method, report)}};
+  if (report.fit_errors.empty()) {
+    provenance["load"] = loadOf(c, report);
+    provenance["pairs"] = report.greedy_pairs;
+    provenance["residual"] = report.residual;
+    provenance["recompression_error"] = report.truncation;
+  } else {
+    provenance["sweeps"] = c.sweepsOrDefault();
+    provenance["fit_errors"] = report.fit_errors;
+  }
   data.attributes.provenance = provenance.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -61,7 +61,7 @@ sweeps = 3
   EXPECT_EQ(c.patch_radius.value(), 0.008);
   EXPECT_EQ(c.order, 4);
   EXPECT_EQ(c.modes, 60);
-  EXPECT_EQ(c.near_radius, 0.02);
+  EXPECT_EQ(c.near_radius.value(), 0.02);
   EXPECT_EQ(c.sweeps, 3);
 }
 
@@ -69,7 +69,7 @@ TEST_F(CaseFile, LeavesDefaultsWhereAKeyIsAbsent) {
   const Case c = readCase(write("mesh = \"organ.msh\"\n"));
   EXPECT_EQ(c.E, 160e3);
   EXPECT_EQ(c.nu, 0.48);
-  EXPECT_EQ(c.order, 3);
+  EXPECT_EQ(c.orderOrDefault(), 3);
   EXPECT_FALSE(c.accessible.has_value());
   EXPECT_FALSE(c.patch_radius.has_value());
 }
@@ -112,6 +112,133 @@ TEST_F(CaseFile, RefusesTextThatIsNotToml) {
 }
 TEST_F(CaseFile, RefusesAFileThatIsNotThere) {
   EXPECT_THROW((void)readCase("/nowhere/case.toml"), CaseError);
+}
+
+TEST_F(CaseFile, ReadsEveryKeyOfALoadAndOfThePgd) {
+  const Case c = readCase(write(R"(mesh = "organ.msh"
+[model]
+method = "pgd-linear"
+modes = 50
+[load]
+direction = [0, 3, -4.0]
+magnitude = 2
+steps = 40
+kind = "node"
+truncation = 12
+[pgd]
+separation = "hadamard"
+tolerance = 1e-4
+greedy_pairs = 90
+sweeps = 5
+update = 4
+block = 1
+)"));
+  EXPECT_EQ(c.method, Method::kPgdLinear);
+  EXPECT_LT((c.load.unitDirection() - Vec3(0.0, 0.6, -0.8)).norm(), 1e-15);
+  EXPECT_EQ(c.load.magnitude.value(), 2.0);
+  EXPECT_EQ(c.load.steps.value(), 40);
+  EXPECT_TRUE(c.nodalLoad());
+  EXPECT_EQ(c.load.truncation.value(), 12);
+  EXPECT_TRUE(c.pgd.hadamard.value());
+  EXPECT_EQ(c.pgd.tolerance.value(), 1e-4);
+  EXPECT_EQ(c.pgd.greedy_pairs.value(), 90);
+  EXPECT_EQ(c.pgd.sweeps.value(), 5);
+  EXPECT_EQ(c.pgd.update.value(), 4);
+  EXPECT_EQ(c.pgd.block.value(), 1);
+}
+
+TEST_F(CaseFile, ALoadPointsDownWhereNothingElseIsSaid) {
+  EXPECT_EQ(readCase(write("mesh = \"a\"\n")).load.unitDirection(), Vec3(0.0, 0.0, -1.0));
+}
+TEST_F(CaseFile, LoadDrivenModelsHaveThePapersNumberOfPairs) {
+  EXPECT_EQ(readCase(write("mesh = \"a\"\n")).modesOrDefault(), 120);
+  for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"})
+    EXPECT_EQ(
+        readCase(write("mesh = \"a\"\nmodel.method = \"" + std::string(method) + "\"\n")).modesOrDefault(),
+        167);
+}
+TEST_F(CaseFile, RefusesAnUnknownMethodAndListsThoseThereAre) {
+  expectRefusal("mesh = \"a\"\n[model]\nmethod = \"pod\"\n", ".toml:3: model.method",
+                "\"pod\" is not known (known: series-displacement, series-force, pgd-linear");
+}
+TEST_F(CaseFile, RefusesADirectionThatIsNone) {
+  for (const char* direction : {"[0, 0, 0]", "[1, 2]", "\"up\"", "[1, 2, \"x\"]", "[nan, 0, 1]", "4"})
+    expectRefusal("mesh = \"a\"\n[load]\ndirection = " + std::string(direction) + "\n",
+                  ".toml:3: load.direction", "neither three numbers, not all zero, nor \"any\"");
+}
+TEST_F(CaseFile, RefusesALoadOfNothing) {
+  expectRefusal("mesh = \"a\"\n[load]\nmagnitude = 0\n", ".toml:3: load.magnitude", "0 is out of range");
+}
+TEST_F(CaseFile, RefusesAnUnknownKindOfLoad) {
+  expectRefusal("mesh = \"a\"\n[load]\nkind = \"line\"\n", ".toml:3: load.kind", "known: patch, node");
+}
+
+/// What checkCase says to keys of a method.
+class CaseCheck : public CaseFile {
+ protected:
+  void expectRefused(const std::string& method, const std::string& keys, const std::string& key,
+                     const std::string& why) const {
+    const Case c = readCase(write("mesh = \"a\"\nmodel.method = \"" + method + "\"\n" + keys + "\n"));
+    try {
+      checkCase(c);
+      FAIL() << method << " took " << keys;
+    } catch (const CaseError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(key, 0), 0U) << error.what();
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  }
+};
+
+TEST_F(CaseCheck, TakesEveryMethodWithNothingButAMesh) {
+  for (const char* method :
+       {"series-displacement", "series-force", "pgd-linear", "pgd-explicit", "pgd-euler"})
+    EXPECT_NO_THROW(
+        checkCase(readCase(write("mesh = \"a\"\nmodel.method = \"" + std::string(method) + "\"\n"))));
+}
+TEST_F(CaseCheck, TheOrderIsThatOfASeries) {
+  for (const char* method : {"pgd-linear", "pgd-explicit", "pgd-euler"})
+    expectRefused(method, "model.order = 3", "model.order", "it is for series-displacement, series-force");
+}
+TEST_F(CaseCheck, OnlyTheThreePartModelHasANearField) {
+  for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"})
+    expectRefused(method, "model.near_radius = 0.02", "model.near_radius", "it is for series-displacement");
+}
+TEST_F(CaseCheck, ASeriesHoldsEveryLoad) {
+  for (const char* method : {"series-displacement", "series-force"})
+    for (const char* key : {"load.direction = [1, 0, 0]", "load.direction = \"any\"", "load.magnitude = 1",
+                            "load.kind = \"node\"", "load.steps = 3", "load.truncation = 3"}) {
+      const std::string name = std::string(key).substr(0, std::string(key).find(' '));
+      expectRefused(method, key, name, "says nothing to method " + std::string(method));
+    }
+}
+TEST_F(CaseCheck, ASeriesEnrichesNoPairs) {
+  for (const char* key : {"separation = \"scalar\"", "tolerance = 0.1", "greedy_pairs = 300", "sweeps = 3",
+                          "update = 3", "block = 1"})
+    expectRefused("series-force", "pgd." + std::string(key), "pgd.", "says nothing to method series-force");
+}
+TEST_F(CaseCheck, TheLinearPgdTakesNoSteps) {
+  expectRefused("pgd-linear", "load.steps = 10", "load.steps", "no load steps");
+}
+TEST_F(CaseCheck, LoadSteppingTakesTheLoadAndItsPairsAsTheyAre) {
+  for (const char* key :
+       {"load.truncation = 5", "pgd.separation = \"hadamard\"", "pgd.update = 3", "pgd.block = 2"})
+    expectRefused("pgd-explicit", key, "", "it is for pgd-linear");
+}
+TEST_F(CaseCheck, ANonlinearAnswerToAnyDirectionIsForTheForceSeries) {
+  for (const char* method : {"pgd-explicit", "pgd-euler"})
+    expectRefused(method, "load.direction = \"any\"", "load.direction",
+                  "method series-force holds every direction");
+}
+TEST_F(CaseCheck, HadamardPairsComeOneAtATime) {
+  expectRefused("pgd-linear", "pgd.separation = \"hadamard\"\npgd.block = 4", "pgd.block = 4",
+                "one at a time");
+}
+TEST_F(CaseCheck, ANodalLoadHasNoPatch) {
+  expectRefused("pgd-linear", "load.kind = \"node\"\nmodel.patch_radius = 0.01", "model.patch_radius",
+                "no patch");
+}
+TEST_F(CaseCheck, PairsAreNotRecompressedToMore) {
+  expectRefused("pgd-linear", "model.modes = 20\npgd.greedy_pairs = 10", "pgd.greedy_pairs = 10", "20 modes");
 }
 
 }  // namespace

@@ -2,16 +2,12 @@
 #include "palpate/offline/build_model.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
+#include "build_model_parts.h"
 #include "palpate/offline/far_field.h"
-#include "palpate/offline/lanes.h"
 #include "palpate/offline/parallel.h"
-#include "palpate/offline/progress.h"
-#include "palpate/offline/series.h"
 
 namespace palpate::offline {
 
@@ -19,10 +15,6 @@ namespace {
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::string text(double x) {
@@ -38,7 +30,6 @@ class Builder {
   modelfile::ModelData run();
 
  private:
-  void solveSeries(const Cholesky& factor, FieldTable& table);
   void storePosition(const SeriesSolver& series, int lane, std::size_t position, double radius);
   void fit(const FieldTable& table);
   void storeNearField(const FieldTable& table, const FarField& far);
@@ -64,7 +55,7 @@ void checkNearBytes(const Case& c, std::span<const NearNodes> near, int coeffici
   double bytes = 0.0;
   for (const NearNodes& nodes : near) bytes += 12.0 * coefficients * static_cast<double>(nodes.nodes.size());
   if (bytes > kMost)
-    throw CaseError("model.near_radius = " + text(c.near_radius) + " m makes a near field of " +
+    throw CaseError("model.near_radius = " + text(c.nearRadiusOrDefault()) + " m makes a near field of " +
                     text(1e-6 * bytes) + " MB, at most " + text(1e-6 * kMost) + " MB are taken");
 }
 
@@ -73,12 +64,12 @@ Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& o
       mesh_(mesh),
       options_(options),
       report_(report),
-      basis_(c.order),
-      force_basis_(SeriesSolver::answerOrder(c.order)),
+      basis_(c.orderOrDefault()),
+      force_basis_(SeriesSolver::answerOrder(c.orderOrDefault())),
       setup_(c, mesh),
       d_ref_(0.5 * setup_.patch_radius) {
   for (const std::int32_t node : setup_.positions.nodes)
-    near_.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], c.near_radius));
+    near_.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], c.nearRadiusOrDefault()));
   checkNearBytes(c, near_, basis_.size());
   const std::size_t coefficients = static_cast<std::size_t>(force_basis_.size());
   data_.contact_force.resize(setup_.positions.nodes.size() * coefficients * 3);
@@ -86,11 +77,6 @@ Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& o
 }
 
 void Builder::storePosition(const SeriesSolver& series, int lane, std::size_t position, double radius) {
-  if (!(radius > 0.0))
-    throw std::runtime_error(
-        case_.mesh.string() + ": node " +
-        std::to_string(mesh_.node_tags[at(setup_.surface.nodes[at(setup_.positions.nodes[position])])]) +
-        ": the series has no domain; is the organ held by \"" + case_.fixed + "\"?");
   data_.contact_domain_radius[position] = radius;
   const std::size_t coefficients = at(force_basis_.size());
   for (int k = 0; k < force_basis_.size(); ++k) {
@@ -99,41 +85,17 @@ void Builder::storePosition(const SeriesSolver& series, int lane, std::size_t po
   }
 }
 
-void Builder::solveSeries(const Cholesky& factor, FieldTable& table) {
-  const std::size_t count = setup_.positions.nodes.size();
-  const std::size_t chunks = (count + kLanes - 1) / kLanes;
-  Progress progress("series, contact positions", count, options_.quiet);
-  std::vector<std::unique_ptr<SeriesSolver>> solvers(at(options_.workers));
-  parallelFor(options_.workers, chunks, [&](int worker, std::size_t chunk) {
-    auto& solver = solvers[at(worker)];
-    if (!solver) solver = std::make_unique<SeriesSolver>(setup_.model, factor, basis_.order());
-    const std::size_t first = chunk * kLanes;
-    const std::size_t lanes = std::min<std::size_t>(kLanes, count - first);
-    solver->solve(std::span(setup_.positions.patches).subspan(first, lanes));
-    const std::vector<double> radii = solver->domainRadii({});
-    std::vector<float> fields(at(basis_.size()) * setup_.surface.nodes.size() * 3);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      storePosition(*solver, static_cast<int>(lane), first + lane, radii[lane]);
-      float* out = fields.data();
-      for (int k = 0; k < basis_.size(); ++k)
-        for (const std::int32_t node : setup_.surface.nodes) {
-          const Vec3 u = solver->displacement(static_cast<int>(lane), k, node);
-          for (int c = 0; c < 3; ++c) *out++ = static_cast<float>(u[c]);
-        }
-      table.write(first + lane, fields);
-    }
-    progress.advance(lanes);
-  });
-}
-
 void Builder::fit(const FieldTable& table) {
   std::vector<FitWeights> weights;
   for (const std::int32_t node : setup_.positions.nodes)
-    weights.push_back(fitWeights(setup_.surface, setup_.surface.positions[at(node)], case_.near_radius));
-  const FitProblem problem{table, basis_, setup_.surface.areas, weights, data_.contact_domain_radius, d_ref_};
+    weights.push_back(
+        fitWeights(setup_.surface, setup_.surface.positions[at(node)], case_.nearRadiusOrDefault()));
+  std::vector<double> ball;  // what is rarely reached must not cost accuracy at small travel
+  for (const double radius : data_.contact_domain_radius) ball.push_back(std::min(d_ref_, radius));
+  const FitProblem problem{table, basis_, setup_.surface.areas, weights, ball, d_ref_};
   FitOptions options;
-  options.modes = case_.modes;
-  options.sweeps = case_.sweeps;
+  options.modes = case_.modesOrDefault();
+  options.sweeps = case_.sweepsOrDefault();
   options.workers = options_.workers;
   options.quiet = options_.quiet;
   const FarField far = fitFarField(problem, options);
@@ -172,34 +134,30 @@ void Builder::storeNearField(const FieldTable& table, const FarField& far) {
 }
 
 modelfile::ModelData Builder::run() {
-  auto start = std::chrono::steady_clock::now();
+  const Stopwatch factor_watch;
   Cholesky factor(setup_.model);
-  factor.factorize(Eigen::VectorXd::Zero(3 * setup_.model.nodeCount()));
-  if (!factor.positiveDefinite())
-    throw std::runtime_error(case_.mesh.string() +
-                             ": the stiffness is not positive definite; is the organ held by \"" +
-                             case_.fixed + "\"?");
-  report_.factor_seconds = secondsSince(start);
+  factorizeAtRest(factor, setup_, case_);
+  report_.factor_seconds = factor_watch.seconds();
 
-  start = std::chrono::steady_clock::now();
+  const Stopwatch series_watch;
   FieldTable table(options_.scratch, setup_.positions.nodes.size(), at(basis_.size()),
                    3 * setup_.surface.nodes.size());
-  solveSeries(factor, table);
-  report_.series_seconds = secondsSince(start);
+  solveAllSeries(setup_, mesh_, case_, factor, SeriesKind::kDisplacement, options_, table,
+                 [&](const SeriesSolver& series, int lane, std::size_t position, double radius) {
+                   storePosition(series, lane, position, radius);
+                 });
+  report_.series_seconds = series_watch.seconds();
 
-  start = std::chrono::steady_clock::now();
+  const Stopwatch fit_watch;
   fit(table);
-  report_.fit_seconds = secondsSince(start);
+  report_.fit_seconds = fit_watch.seconds();
 
   storeOrgan(setup_, mesh_, data_);
   ModelAttributes& a = data_.attributes;
-  a.law = case_.law;
-  a.E = case_.E;
-  a.nu = case_.nu;
-  a.order = case_.order;
+  storeAttributes(case_, setup_, a);
+  a.order = basis_.order();
   a.force_order = force_basis_.order();
-  a.patch_radius = setup_.patch_radius;
-  a.near_radius = case_.near_radius;
+  a.near_radius = case_.nearRadiusOrDefault();
   a.reference_displacement = d_ref_;
   return std::move(data_);
 }
@@ -208,7 +166,18 @@ modelfile::ModelData Builder::run() {
 
 modelfile::ModelData buildModel(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options,
                                 BuildReport& report) {
-  return Builder(c, mesh, options, report).run();
+  checkCase(c);
+  switch (c.method) {
+    case Method::kSeriesDisplacement:
+      return Builder(c, mesh, options, report).run();
+    case Method::kSeriesForce:
+      return buildForceSeries(c, mesh, options, report);
+    case Method::kPgdLinear:
+    case Method::kPgdExplicit:
+    case Method::kPgdEuler:
+      return buildPgd(c, mesh, options, report);
+  }
+  throw CaseError("method is not known");
 }
 
 }  // namespace palpate::offline

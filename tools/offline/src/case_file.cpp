@@ -60,6 +60,11 @@ class Section {
     return node == nullptr ? nullptr : node->as_table();
   }
 
+  const toml::node* find(const std::string& key) {
+    known_.insert(key);
+    return table_.get(key);
+  }
+
   void refuseTheRest() const {
     for (const auto& [key, node] : table_) {
       if (known_.count(std::string(key.str())) != 0) continue;
@@ -106,11 +111,69 @@ void readMaterial(const std::string& file, const toml::table& table, Case& c) {
 
 void readModel(const std::string& file, const toml::table& table, Case& c) {
   Section section(file, "model", table);
-  assign(c.patch_radius, section.number("patch_radius", 0.0, false, 1.0));
-  assign(c.order, section.integer("order", 1, 7));
-  assign(c.modes, section.integer("modes", 1, 2000));
-  assign(c.near_radius, section.number("near_radius", 0.0, true, 1.0));
-  assign(c.sweeps, section.integer("sweeps", 1, 1000));
+  if (const auto name = section.take<std::string>("method", "a string")) {
+    try {
+      c.method = methodOf(*name);
+    } catch (const CaseError& error) {
+      section.refuse(section.node("method"), "method", error.what());
+    }
+  }
+  c.patch_radius = section.number("patch_radius", 0.0, false, 1.0);
+  c.order = section.integer("order", 1, 7);
+  c.modes = section.integer("modes", 1, 2000);
+  c.near_radius = section.number("near_radius", 0.0, true, 1.0);
+  c.sweeps = section.integer("sweeps", 1, 1000);
+  section.refuseTheRest();
+}
+
+/// One of two words. @return whether it is the second
+std::optional<bool> choice(Section& section, const std::string& key, const std::string& no,
+                           const std::string& yes) {
+  const std::optional<std::string> word = section.take<std::string>(key, "a string");
+  if (word && *word != no && *word != yes)
+    section.refuse(section.node(key), key,
+                   "= \"" + *word + "\" is not known (known: " + no + ", " + yes + ")");
+  return word ? std::optional<bool>(*word == yes) : std::nullopt;
+}
+
+/// Three numbers, not all zero, or "any".
+void readDirection(Section& section, LoadCase& load) {
+  const toml::node* node = section.find("direction");
+  if (node == nullptr) return;
+  if (node->value_exact<std::string>() == "any") {
+    load.any_direction = true;
+    return;
+  }
+  const toml::array* list = node->as_array();
+  Vec3 x = Vec3::Zero();
+  bool good = list != nullptr && list->size() == 3;
+  for (std::size_t i = 0; good && i < 3; ++i) {
+    good = (*list)[i].is_number();
+    if (good) x[static_cast<Eigen::Index>(i)] = *(*list)[i].value<double>();
+  }
+  if (!good || !x.allFinite() || !(x.norm() > 0.0))
+    section.refuse(*node, "direction", "is neither three numbers, not all zero, nor \"any\"");
+  load.direction = x.stableNormalized();
+}
+
+void readLoad(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "load", table);
+  readDirection(section, c.load);
+  c.load.magnitude = section.number("magnitude", 0.0, false, 1e6);
+  c.load.steps = section.integer("steps", 1, 100000);
+  c.load.node = choice(section, "kind", "patch", "node");
+  c.load.truncation = section.integer("truncation", 0, 100000);
+  section.refuseTheRest();
+}
+
+void readPgd(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "pgd", table);
+  c.pgd.hadamard = choice(section, "separation", "scalar", "hadamard");
+  c.pgd.tolerance = section.number("tolerance", 0.0, true, 0.999);
+  c.pgd.greedy_pairs = section.integer("greedy_pairs", 1, 100000);
+  c.pgd.sweeps = section.integer("sweeps", 1, 1000);
+  c.pgd.update = section.integer("update", 0, 100000);
+  c.pgd.block = section.integer("block", 1, 1000);
   section.refuseTheRest();
 }
 
@@ -140,6 +203,8 @@ Case readCase(const std::filesystem::path& path) {
   if (const toml::table* t = section.table("boundary")) readBoundary(file, *t, c);
   if (const toml::table* t = section.table("material")) readMaterial(file, *t, c);
   if (const toml::table* t = section.table("model")) readModel(file, *t, c);
+  if (const toml::table* t = section.table("load")) readLoad(file, *t, c);
+  if (const toml::table* t = section.table("pgd")) readPgd(file, *t, c);
   section.refuseTheRest();
   if (!mesh) throw CaseError(file + ": mesh is missing");
   c.mesh = path.parent_path() / *mesh;

@@ -84,24 +84,26 @@ Fit::Fit(const FitProblem& problem, const FitOptions& options)
   result_.Y = MatrixXf::Zero(modes_, static_cast<Eigen::Index>(positions_) * coefficients_);
 }
 
-/// Columns position * C + k, scaled by d_ref^|alpha|: metres.
+/// Columns position * C + k, scaled by reference^|alpha|: metres.
 Eigen::Map<MatrixXf> Fit::readChunk(Worker& worker, std::size_t first, std::size_t count) const {
   problem_.table.read(first, count, worker.fields);
   Eigen::Map<MatrixXf> A(worker.fields.data(), rows_, static_cast<Eigen::Index>(count) * coefficients_);
   for (Eigen::Index column = 0; column < A.cols(); ++column) {
     const MultiIndex& a = problem_.basis[static_cast<int>(column % coefficients_)];
-    A.col(column) *= static_cast<float>(std::pow(problem_.reference_displacement, a[0] + a[1] + a[2]));
+    A.col(column) *= static_cast<float>(std::pow(problem_.reference, a[0] + a[1] + a[2]));
   }
   return A;
 }
 
-/// C x C: times this, the columns of one position are orthonormal in the mean over the ball, relative to |d|.
+/// C x C: times this, the columns of one position are orthonormal in the mean over its ball,
+/// relative to |d| (or to the size of its displacements times |f| / f_ref).
 MatrixXf Fit::whitening(std::size_t position) const {
-  const double travel = std::min(1.0, problem_.domain_radius[position] / problem_.reference_displacement);
+  const double travel = problem_.ball_radius[position] / problem_.reference;
+  const double size = problem_.size.empty() ? problem_.reference : problem_.size[position];
   MatrixXd D = moment_factor_;
   for (Eigen::Index k = 0; k < coefficients_; ++k) {
     const MultiIndex& a = problem_.basis[static_cast<int>(k)];
-    D.row(k) *= std::pow(std::max(travel, 1e-3), a[0] + a[1] + a[2] - 1) / problem_.reference_displacement;
+    D.row(k) *= std::pow(std::max(travel, 1e-3), a[0] + a[1] + a[2] - 1) / size;
   }
   return D.cast<float>();
 }
@@ -139,8 +141,7 @@ void Fit::orthonormalize(MatrixXd X) {
   result_.X = X.cast<float>();
 }
 
-/// Y-step: for each position n x n normal equations, those of the areas changed at the nodes that count
-/// otherwise; shared by its coefficients.
+/// Y-step: n x n normal equations a position, those of the areas changed at the nodes that count otherwise.
 void Fit::solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker) {
   const MatrixXf weighted = row_area_.cast<float>().asDiagonal() * result_.X;
   const MatrixXf rhs = weighted.transpose() * A;
@@ -207,8 +208,7 @@ void Fit::feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t co
   worker.row_rhs += product.cast<double>();
 }
 
-/// X-step: one n x n system a node, that of all positions changed at those for which the node counts
-/// otherwise.
+/// X-step: one n x n system a node, that of all positions changed where the node counts otherwise.
 void Fit::solveX(const MatrixXd& rhs) {
   MatrixXf Z(result_.Y.rows(), result_.Y.cols());
   for (std::size_t s = 0; s < positions_; ++s) {
@@ -250,8 +250,7 @@ void Fit::sweep(bool last) {
     solveY(A, first, count, worker);
     if (!last) feedX(A, first, count, worker);
   });
-  double error = 0.0;
-  double energy = 0.0;
+  double error = 0.0, energy = 0.0;
   for (const Worker& worker : workers_) {
     error += worker.error;
     energy += worker.energy;

@@ -48,9 +48,15 @@ std::string text(double x) {
   return buffer;
 }
 
+/// The patch of a nodal load: so narrow that it holds the node alone.
+double nodalRadius(const ContactSurface& surface) {
+  return 1e-6 * surface.medianEdge();
+}
+
 /// a as given or by default; a patch that reaches no neighbour is a point load, one as wide as the organ no
 /// contact.
 double patchRadius(const Case& c, const ContactSurface& surface) {
+  if (c.nodalLoad()) return nodalRadius(surface);
   const double edge = surface.medianEdge();
   const double a = c.patch_radius.value_or(1.3 * edge);
   Vec3 low = surface.positions.front(), high = low;

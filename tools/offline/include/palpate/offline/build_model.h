@@ -17,14 +17,21 @@ struct BuildOptions {
   bool quiet{false};
 };
 
-/// Where the time went and how well the modes fit.
+/// Where the time went and how well the modes fit. What a method does not have stays 0, or empty.
 struct BuildReport {
   double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
-  std::vector<double> fit_errors;  ///< after each sweep, see FarField::errors
+  double pgd_seconds{0}, recompression_seconds{0};
+  std::vector<double> fit_errors;  ///< series methods: after each sweep, see FarField::errors
+  int greedy_pairs{0};             ///< PGD methods: pairs before recompression
+  double residual{0};              ///< PGD methods: of the last enrichment, dual norm, relative, an estimate
+  double truncation{0};            ///< PGD methods: energy norm of what recompression left out, relative
+  double load_truncation{0};       ///< pgd-linear: relative error of the load, Eq. (2)
+  double load{0};                  ///< PGD methods: N
+  int weak_positions{0};           ///< load-driven: positions where the modes are too few to invert dd/df
 };
 
-/// The production track of DESIGN 2.2 and 2.3: series over all contact positions on all cores, far field,
-/// near field. Memory is bounded by model and workers; the table of all fields goes through a scratch file.
+/// The model of an organ by c.method: a table of methods is in tools/solve/README.md.
+/// The series methods bound memory by model and workers; the table of all fields goes through a scratch file.
 /// @param mesh  checked  @throw CaseError, std::runtime_error
 [[nodiscard]] modelfile::ModelData buildModel(const Case& c, const mesh::TetMesh& mesh,
                                               const BuildOptions& options, BuildReport& report);

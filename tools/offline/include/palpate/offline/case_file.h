@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "palpate/offline/fe_model.h"
 
 namespace palpate::offline {
 
@@ -14,7 +17,45 @@ class CaseError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What to solve: the contents of a case file, or the defaults for a bare mesh. SI units.
+/// How the model is computed, and what it is a function of beside s.                            DESIGN 2.1, 2.2
+enum class Method : std::uint8_t {
+  kSeriesDisplacement,  ///< series in d, three parts: u(X; s, d), f(s, d)
+  kSeriesForce,         ///< series in f, modes only: u(X; s, f)
+  kPgdLinear,           ///< linear PGD: u(X; s, t), or u(X; s, f) for any direction
+  kPgdExplicit,         ///< load stepping with the ten terms of Eq. (19): u(X; s, t)
+  kPgdEuler,            ///< the same without the residual (Remark 2)
+};
+
+/// "series-displacement", "series-force", "pgd-linear", "pgd-explicit", "pgd-euler".
+[[nodiscard]] std::string toString(Method method);
+/// @throw CaseError naming the methods there are
+[[nodiscard]] Method methodOf(const std::string& name);
+
+/// The load of the PGD methods.
+struct LoadCase {
+  std::optional<Vec3> direction;    ///< unit vector; absent: -z
+  bool any_direction{false};        ///< the three Cartesian directions as right-hand sides of their own
+  std::optional<double> magnitude;  ///< N, (0, 1e6]; absent: one that moves the contact by 2 mm
+  std::optional<int> steps;         ///< of the load, 1 to 100000; absent: 30
+  std::optional<bool> node;         ///< on the node alone, not on its patch; absent: patch
+  std::optional<int> truncation;    ///< m of Eq. (2), 0 to 100000; absent or 0: none
+
+  [[nodiscard]] Vec3 unitDirection() const { return direction.value_or(Vec3(0.0, 0.0, -1.0)); }
+  [[nodiscard]] int stepsOrDefault() const { return steps.value_or(30); }
+};
+
+/// How the PGD methods enrich. Absent keys: the defaults of LinearPgdOptions and ExplicitPgdOptions.
+struct PgdCase {
+  std::optional<bool> hadamard;     ///< component-wise pairs, Eq. (3)
+  std::optional<double> tolerance;  ///< of the residual, relative, [0, 1)
+  std::optional<int> greedy_pairs;  ///< before recompression, modes to 100000; absent: 1.5 modes
+  std::optional<int> sweeps;        ///< alternating directions a pair, 1 to 1000
+  std::optional<int> update;        ///< all Y again every so many pairs, 0 to 100000; 0: never
+  std::optional<int> block;         ///< pairs iterated at once, 1 to 1000
+};
+
+/// What to solve: the contents of a case file, or the defaults for a bare mesh. SI units. Absent keys have
+/// defaults that depend on the method.
 struct Case {
   std::filesystem::path mesh;  ///< volume mesh in metres; relative paths start at the case file
   std::string fixed{"fixed"};  ///< physical group of the clamped nodes
@@ -23,15 +64,31 @@ struct Case {
   std::string law{"stvk"};  ///< "stvk"
   double E{160e3};          ///< Pa, (0, 1e12]
   double nu{0.48};          ///< [-0.99, 0.4999]
+  Method method{Method::kSeriesDisplacement};
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges
-  int order{3};                        ///< p, 1 to 7
-  int modes{120};                      ///< n, 1 to 2000
-  double near_radius{0.025};           ///< rho, m, [0, 1]
-  int sweeps{6};                       ///< of the far-field fit, 1 to 1000
-  std::string text;                    ///< the case file as read, for the provenance
+  std::optional<int> order;            ///< p, 1 to 7; absent: 3
+  std::optional<int> modes;            ///< n, 1 to 2000; absent: 120 beside a near field, else 167
+  std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 0.025
+  std::optional<int> sweeps;           ///< of the fit of the modes, 1 to 1000; absent: 6
+  LoadCase load;
+  PgdCase pgd;
+  std::string text;  ///< the case file as read, for the provenance
+
+  [[nodiscard]] int orderOrDefault() const { return order.value_or(3); }
+  [[nodiscard]] int modesOrDefault() const {
+    return modes.value_or(method == Method::kSeriesDisplacement ? 120 : 167);
+  }
+  [[nodiscard]] double nearRadiusOrDefault() const { return near_radius.value_or(0.025); }
+  [[nodiscard]] int sweepsOrDefault() const { return sweeps.value_or(6); }
+  [[nodiscard]] bool nodalLoad() const { return load.node.value_or(false); }
 };
 
+/// Refuses what makes no sense together, above all keys that mean nothing to the method.
+/// @throw CaseError naming the key, the method and the reason
+void checkCase(const Case& c);
+
 /// Reads a case file (TOML). Every key is known, of its type and in range, or it is refused by name and line.
+/// Whether keys fit the method is for checkCase() to say, when the command line has had its say.
 /// @throw CaseError
 [[nodiscard]] Case readCase(const std::filesystem::path& path);
 

@@ -15,10 +15,12 @@ namespace palpate::offline {
 struct FitProblem {
   const FieldTable& table;
   const MonomialBasis& basis;
-  std::span<const double> areas;          ///< Ns, m^2
-  std::span<const FitWeights> weights;    ///< M
-  std::span<const double> domain_radius;  ///< M, m
-  double reference_displacement;          ///< d_ref, m
+  std::span<const double> areas;        ///< Ns, m^2
+  std::span<const FitWeights> weights;  ///< M
+  std::span<const double> ball_radius;  ///< M, m (N): the mean is over this ball
+  double reference;                     ///< d_ref, m (f_ref, N): polynomials are ones in d / d_ref
+  /// M, m: the displacement that the errors of each position are measured by; empty: d_ref for all
+  std::span<const double> size{};
 };
 
 struct FitOptions {
@@ -37,7 +39,7 @@ struct FarField {
 
 /// Weighted alternating directions: least squares in X and Y in turn of what remains wrong after the near
 /// field has done its part, the weight of node i for position s being A_i (1 - window(r_is))^2 g(r_is); over
-/// d uniform in the ball |d| <= min(d_ref, d_max(s)), relative to |d|. Entries under a window of 1 are free.
+/// d uniform in the ball of each position, relative to |d|. Entries under a window of 1 are free.
 /// Source: DESIGN 2.3; g and the mean over the ball are ours. Reads the table once a sweep.
 /// @throw std::runtime_error on a bad table
 [[nodiscard]] FarField fitFarField(const FitProblem& problem, const FitOptions& options);

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <functional>
+
+#include "palpate/offline/build_model.h"
+#include "palpate/offline/cholesky.h"
+#include "palpate/offline/field_table.h"
+#include "palpate/offline/series.h"
+
+namespace palpate::offline {
+
+// What the ways to a model share. buildModel() chooses among the last two and its own.
+
+/// Wall-clock time since it was made, s.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
+};
+
+/// Factorizes K_T(0). @throw std::runtime_error when it is not positive definite
+void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const Case& c);
+
+/// What becomes of the series of one position. Called from several threads, once a position.
+using SeriesSink =
+    std::function<void(const SeriesSolver& series, int lane, std::size_t position, double radius)>;
+
+/// Solves the series of all contact positions on all workers; surface fields go to the table.
+/// @param table  positions x coefficients of the fields x 3 Ns
+/// @throw std::runtime_error naming the node whose series has no domain
+void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,
+                    const Cholesky& factor, SeriesKind kind, const BuildOptions& options, FieldTable& table,
+                    const SeriesSink& sink);
+
+/// Attributes that every kind of model has.
+void storeAttributes(const Case& c, const SolverSetup& setup, ModelAttributes& attributes);
+
+/// Modes, an empty near field, and the contact displacement d_alpha(s) = G_s^T sum_k X_k Y_k,alpha(s): what
+/// the modes give, so that the field that is shown and the contact agree.
+/// @param X  3 Ns x n  @param Y  n x (M C), column position * C + alpha, m
+void storeModes(const SolverSetup& setup, const Eigen::MatrixXf& X, const Eigen::MatrixXf& Y,
+                modelfile::ModelData& data);
+
+/// Method series-force: u(X; s, f) = sum_k X_k(X) sum_alpha (f / f_ref)^alpha Y_k,alpha(s).
+[[nodiscard]] modelfile::ModelData buildForceSeries(const Case& c, const mesh::TetMesh& mesh,
+                                                    const BuildOptions& options, BuildReport& report);
+
+/// Methods pgd-linear, pgd-explicit, pgd-euler.                                     paper Sections 2 and 3
+[[nodiscard]] modelfile::ModelData buildPgd(const Case& c, const mesh::TetMesh& mesh,
+                                            const BuildOptions& options, BuildReport& report);
+
+}  // namespace palpate::offline

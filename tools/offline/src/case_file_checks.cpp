@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <initializer_list>
+
+#include "palpate/offline/case_file.h"
+
+namespace palpate::offline {
+
+namespace {
+
+constexpr std::array<Method, 5> kMethods{Method::kSeriesDisplacement, Method::kSeriesForce,
+                                         Method::kPgdLinear, Method::kPgdExplicit, Method::kPgdEuler};
+
+constexpr unsigned bit(Method method) {
+  return 1U << static_cast<unsigned>(method);
+}
+constexpr unsigned kSeries = bit(Method::kSeriesDisplacement) | bit(Method::kSeriesForce);
+constexpr unsigned kStepped = bit(Method::kPgdExplicit) | bit(Method::kPgdEuler);
+constexpr unsigned kPgd = bit(Method::kPgdLinear) | kStepped;
+
+/// A key that means something to some methods only.
+struct Rule {
+  const char* key;
+  bool given;
+  unsigned methods;  ///< bits
+  const char* reason;
+};
+
+void check(const Case& c, const Rule& rule) {
+  if (!rule.given || (rule.methods & bit(c.method)) != 0) return;
+  std::string list;
+  for (const Method method : kMethods)
+    if ((rule.methods & bit(method)) != 0) list += (list.empty() ? "" : ", ") + toString(method);
+  throw CaseError(std::string(rule.key) + " says nothing to method " + toString(c.method) + ": " +
+                  rule.reason + " (it is for " + list + ")");
+}
+
+void checkKeys(const Case& c) {
+  constexpr unsigned kDisplacement = bit(Method::kSeriesDisplacement), kLinear = bit(Method::kPgdLinear);
+  const char* const any_load = "a series holds every load of its domain";
+  const char* const no_pairs = "no pair is enriched";
+  const bool direction = c.load.direction || c.load.any_direction;
+  for (const Rule& rule : std::initializer_list<Rule>{
+           {"model.order", c.order.has_value(), kSeries, "it is the degree of a series"},
+           {"model.near_radius", c.near_radius.has_value(), kDisplacement, "its model is modes only"},
+           {"model.sweeps", c.sweeps.has_value(), kSeries,
+            "no table of fields is fitted; pgd.sweeps are those of a pair"},
+           {"load.direction", direction, kPgd, any_load},
+           {"load.magnitude", c.load.magnitude.has_value(), kPgd, any_load},
+           {"load.kind", c.load.node.has_value(), kPgd, "a series is that of a contact patch"},
+           {"load.steps", c.load.steps.has_value(), kStepped, "it takes no load steps"},
+           {"load.truncation", c.load.truncation.has_value(), kLinear, "it takes the load as it is"},
+           {"pgd.separation", c.pgd.hadamard.has_value(), kLinear, "its pairs are scalar, if it has any"},
+           {"pgd.tolerance", c.pgd.tolerance.has_value(), kPgd, no_pairs},
+           {"pgd.greedy_pairs", c.pgd.greedy_pairs.has_value(), kPgd, no_pairs},
+           {"pgd.sweeps", c.pgd.sweeps.has_value(), kPgd, no_pairs},
+           {"pgd.update", c.pgd.update.has_value(), kLinear, "it updates in a way of its own, if at all"},
+           {"pgd.block", c.pgd.block.has_value(), kLinear, "it finds pairs one at a time, if any"}})
+    check(c, rule);
+}
+
+}  // namespace
+
+std::string toString(Method method) {
+  switch (method) {
+    case Method::kSeriesDisplacement:
+      return "series-displacement";
+    case Method::kSeriesForce:
+      return "series-force";
+    case Method::kPgdLinear:
+      return "pgd-linear";
+    case Method::kPgdExplicit:
+      return "pgd-explicit";
+    case Method::kPgdEuler:
+      return "pgd-euler";
+  }
+  return "unknown";
+}
+
+Method methodOf(const std::string& name) {
+  std::string list;
+  for (const Method method : kMethods) {
+    if (toString(method) == name) return method;
+    list += (list.empty() ? "" : ", ") + toString(method);
+  }
+  throw CaseError("= \"" + name + "\" is not known (known: " + list + ")");
+}
+
+void checkCase(const Case& c) {
+  checkKeys(c);
+  if (c.load.any_direction && c.method != Method::kPgdLinear)
+    throw CaseError("load.direction = \"any\" does not go with method " + toString(c.method) +
+                    ": the answer is not linear in the force; method series-force holds every direction");
+  if (c.pgd.hadamard.value_or(false) && c.pgd.block.value_or(1) > 1)
+    throw CaseError("pgd.block = " + std::to_string(*c.pgd.block) +
+                    " does not go with pgd.separation = \"hadamard\": such pairs are found one at a time");
+  if (c.nodalLoad() && c.patch_radius)
+    throw CaseError("model.patch_radius does not go with load.kind = \"node\": such a load has no patch");
+  if (c.pgd.greedy_pairs && *c.pgd.greedy_pairs < c.modesOrDefault())
+    throw CaseError("pgd.greedy_pairs = " + std::to_string(*c.pgd.greedy_pairs) +
+                    " cannot be recompressed to " + std::to_string(c.modesOrDefault()) +
+                    " modes; give as many or more");
+}
+
+}  // namespace palpate::offline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "palpate/offline/case_file.h"
+#include "palpate/offline/parallel.h"
+
+namespace palpate::solve {
+
+/// The command line. What it gives of the case overrides the case file.
+struct Options {
+  std::filesystem::path input;
+  std::filesystem::path output{"model.h5"};
+  std::filesystem::path scratch;
+  int threads{offline::machineThreads()};
+  bool json{false};
+  bool quiet{false};
+
+  std::optional<std::string> method;
+  std::optional<int> modes, order, steps;
+  std::optional<std::string> direction;  ///< "x,y,z" or "any"
+  std::optional<double> load;            ///< N
+};
+
+/// Adds every option to the parser.
+void describe(CLI::App& app, Options& options);
+
+/// The case of a case file, or the defaults for a bare mesh, with the command line's say.
+/// @throw CaseError also where keys do not fit the method
+[[nodiscard]] offline::Case readCase(const Options& options);
+
+}  // namespace palpate::solve

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "summary.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace palpate::solve {
+
+namespace {
+
+using nlohmann::json;
+using offline::Method;
+
+bool isSeries(Method method) {
+  return method == Method::kSeriesDisplacement || method == Method::kSeriesForce;
+}
+
+double peakMemoryMiB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Name of the domain radius of each kind, as palpate-inspect names it.
+const char* radiusKey(Parameters parameters) {
+  switch (parameters) {
+    case Parameters::kForce:
+      return "force_radius";
+    case Parameters::kLevel:
+      return "level_radius";
+    default:
+      return "domain_radius";
+  }
+}
+
+/// Of what a tool may touch, helpers left out.
+json radii(const modelfile::ModelData& data) {
+  std::vector<double> list;
+  for (std::size_t i = 0; i < data.contact_domain_radius.size(); ++i)
+    if (data.contact_accessible[i] != 0) list.push_back(data.contact_domain_radius[i]);
+  std::sort(list.begin(), list.end());
+  const auto quantile = [&](double q) {
+    return list[static_cast<std::size_t>(q * static_cast<double>(list.size() - 1) + 0.5)];
+  };
+  return {{"min", list.front()}, {"p05", quantile(0.05)}, {"median", quantile(0.5)}};
+}
+
+void printTimes(const json& seconds) {
+  std::string line = "time:";
+  const std::pair<const char*, const char*> names[] = {{"factor", "factor"},
+                                                       {"series", "series"},
+                                                       {"fit", "fit"},
+                                                       {"pgd", "PGD"},
+                                                       {"recompression", "recompression"},
+                                                       {"write", "writing"},
+                                                       {"total", "together"}};
+  for (const auto& [key, name] : names) {
+    if (!seconds.contains(key)) continue;
+    char part[64];
+    std::snprintf(part, sizeof part, "%s %s %.1f s", line.back() == ':' ? "" : ",", name,
+                  seconds[key].get<double>());
+    line += part;
+  }
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+void printRadius(const json& s) {
+  const auto line = [](const json& radius, const char* name, double scale, const char* unit) {
+    std::fprintf(stderr, "%s: 5 %% quantile %.4g %s, median %.4g %s; ", name,
+                 scale * radius["p05"].get<double>(), unit, scale * radius["median"].get<double>(), unit);
+  };
+  if (s.contains("domain_radius")) line(s["domain_radius"], "domain radius", 1e3, "mm");
+  if (s.contains("force_radius")) line(s["force_radius"], "largest force", 1.0, "N");
+  if (s.contains("level_radius")) line(s["level_radius"], "largest load level", 1.0, "of the load");
+  if (s.contains("fit_error"))
+    std::fprintf(stderr, "RMS error of the fit %.2f %%", 100.0 * s["fit_error"].get<double>());
+  else
+    std::fprintf(stderr, "%d pairs before recompression, their residual %.2e", s["pairs"].get<int>(),
+                 s["residual"].get<double>());
+  if (s.value("weak_positions", 0) > 0)
+    std::fprintf(stderr, "; %d positions need more modes", s["weak_positions"].get<int>());
+  std::fputc('\n', stderr);
+}
+
+}  // namespace
+
+json stages(Method method, const offline::BuildReport& report) {
+  if (isSeries(method))
+    return {
+        {"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}};
+  json seconds{{"factor", report.factor_seconds}, {"pgd", report.pgd_seconds}};
+  if (method == Method::kPgdLinear) seconds["recompression"] = report.recompression_seconds;
+  return seconds;
+}
+
+json loadOf(const offline::Case& c, const offline::BuildReport& report) {
+  if (isSeries(c.method)) return json::object();
+  const offline::Vec3 e = c.load.unitDirection();
+  json load{{"magnitude", report.load}, {"kind", c.nodalLoad() ? "node" : "patch"}};
+  load["direction"] = c.load.any_direction ? json("any") : json{e[0], e[1], e[2]};
+  if (c.method == Method::kPgdLinear)
+    load["truncation"] = c.load.truncation.value_or(0);
+  else
+    load["steps"] = c.load.stepsOrDefault();
+  return load;
+}
+
+json summarize(const std::filesystem::path& output, const offline::Case& c, const modelfile::ModelData& data,
+               const offline::BuildReport& report, double write_seconds, double total_seconds) {
+  json seconds = stages(c.method, report);
+  seconds["write"] = write_seconds;
+  seconds["total"] = total_seconds;
+  const Parameters parameters = data.attributes.parameters;
+  json s{{"model", output.string()},
+         {"method", toString(c.method)},
+         {"parameters", std::string(toString(parameters))},
+         {"nodes", data.mesh_node_tag.size()},
+         {"tetrahedra", data.mesh_tetrahedron_tag.size()},
+         {"surface_nodes", data.surface_mesh_tag.size()},
+         {"contact_positions", data.contact_node.size()},
+         {"patch_radius", data.attributes.patch_radius},
+         {"modes", data.modes_X.size() / (3 * data.surface_mesh_tag.size())},
+         {radiusKey(parameters), radii(data)},
+         {"seconds", seconds},
+         {"file_bytes", std::filesystem::file_size(output)},
+         {"peak_memory_MiB", peakMemoryMiB()}};
+  if (parameters != Parameters::kLevel) s["order"] = data.attributes.order;
+  if (parameters == Parameters::kForce) {
+    s["reference_force"] = data.attributes.reference_force;
+    s["weak_positions"] = report.weak_positions;
+  }
+  if (isSeries(c.method)) {
+    s["fit_error"] = report.fit_errors.back();
+    return s;
+  }
+  s["load"] = loadOf(c, report);
+  s["pairs"] = report.greedy_pairs;
+  s["residual"] = report.residual;
+  s["recompression_error"] = report.truncation;
+  return s;
+}
+
+void print(const json& s) {
+  std::fprintf(
+      stderr,
+      "%s: %zu nodes, %zu tetrahedra, %zu surface nodes; %zu contact positions, patch radius %.2f mm, ",
+      s["method"].get<std::string>().c_str(), s["nodes"].get<std::size_t>(),
+      s["tetrahedra"].get<std::size_t>(), s["surface_nodes"].get<std::size_t>(),
+      s["contact_positions"].get<std::size_t>(), 1e3 * s["patch_radius"].get<double>());
+  if (s.contains("order")) std::fprintf(stderr, "order %d, ", s["order"].get<int>());
+  std::fprintf(stderr, "%zu modes\n", s["modes"].get<std::size_t>());
+  printTimes(s["seconds"]);
+  printRadius(s);
+  std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
+               1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());
+}
+
+}  // namespace palpate::solve

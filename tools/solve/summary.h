@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "palpate/modelfile/model_data.h"
+#include "palpate/offline/build_model.h"
+#include "palpate/offline/case_file.h"
+
+namespace palpate::solve {
+
+/// Seconds by what was done, in the method's own stages.
+[[nodiscard]] nlohmann::json stages(offline::Method method, const offline::BuildReport& report);
+
+/// The load of a load-driven model: N, direction (three numbers or "any"), and what the PGD made of it.
+/// Empty for the series methods.
+[[nodiscard]] nlohmann::json loadOf(const offline::Case& c, const offline::BuildReport& report);
+
+/// What came out, as --json prints it (tools/solve/README.md). The model has been written.
+[[nodiscard]] nlohmann::json summarize(const std::filesystem::path& output, const offline::Case& c,
+                                       const modelfile::ModelData& data, const offline::BuildReport& report,
+                                       double write_seconds, double total_seconds);
+
+/// The same in four lines on standard error.
+void print(const nlohmann::json& summary);
+
+}  // namespace palpate::solve
