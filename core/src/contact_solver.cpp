@@ -14,12 +14,16 @@ Vec3 outwardDirection(const NearestPoint& nearest, const Vec3& c, const Vec3& no
   return std::abs(distance) > kTinyDistance ? Vec3((c - nearest.position) / distance) : normal;
 }
 
-/// Looks up the organ's answer to the contact's d. @return false when the organ would have to pull the tool.
+/// Looks up the organ's answer to the contact's d. @return false when the organ would have to pull the tool, or
+/// gives no force to one that is withdrawn: a load that only pushes (Parameters::kLevel) cannot pull.
 bool answer(const MetaModel& model, Contact& contact) noexcept {
   const ResponseStatus status = respond(model, contact.s, contact.displacement, contact.response);
   contact.flags = kInContact;
   if (status == ResponseStatus::kClamped) contact.flags |= kBeyondDomain;
-  return status != ResponseStatus::kNoAnswer && contact.response.force.dot(contact.normal) <= 0.0;
+  if (status == ResponseStatus::kNoAnswer) return false;
+  const Vec3& f = contact.response.force;
+  if (f == Vec3::Zero() && contact.displacement.dot(contact.normal) > 0.0) return false;
+  return f.dot(contact.normal) <= 0.0;
 }
 
 }  // namespace

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models whose parameter is the load: the force, or the level of a load of fixed direction.
-#include <gtest/gtest.h>
-
+// Models whose parameter is the force.
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <random>
 
-#include "driver.h"
+#include "load_driven.h"
 #include "palpate/modelfile/model_file.h"
 
 namespace palpate::testing {
@@ -23,11 +20,6 @@ const MetaModel& forceModel() {
   return model;
 }
 
-const MetaModel& levelModel() {
-  static const MetaModel model = loadSynthetic({.subdivisions = 2, .parameters = Parameters::kLevel});
-  return model;
-}
-
 /// A model whose data are spoiled before they are written.
 MetaModel spoiled(const SyntheticOptions& options, const std::function<void(modelfile::ModelData&)>& spoil) {
   modelfile::ModelData data = syntheticModel(options);
@@ -37,57 +29,12 @@ MetaModel spoiled(const SyntheticOptions& options, const std::function<void(mode
   return MetaModel::load(file.path());
 }
 
-class Random {
- public:
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3 vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-  Vec3 inBall(double radius) {
-    for (;;)
-      if (const Vec3 v = vector(radius); v.norm() < radius) return v;
-  }
-  ContactPoint contactPoint(const MetaModel& model) {
-    for (;;) {
-      const auto triangle = static_cast<int>(engine_() % static_cast<unsigned>(model.surface().triangles()));
-      const double a = uniform(0.0, 1.0), b = uniform(0.0, 1.0 - a);
-      if (model.surface().accessible(triangle)) return {triangle, {1.0 - a - b, a, b}};
-    }
-  }
-
- private:
-  std::mt19937 engine_{17};
-};
-
-Response answerTo(const MetaModel& model, const ContactPoint& s, const Vec3& d, ResponseStatus expected) {
-  Response out;
-  EXPECT_EQ(respond(model, s, d, out), expected) << d.transpose();
-  return out;
-}
-
-Response underLoad(const MetaModel& model, const ContactPoint& s, const Vec3& load) {
-  Response out;
-  EXPECT_NE(respondToLoad(model, s, load, out), ResponseStatus::kNoAnswer);
-  return out;
-}
-
-/// The contact point that is contact position m.
-ContactPoint atPosition(const MetaModel& model, std::size_t m) {
-  return model.surface().atNode(model.view().contact_node[m]);
-}
-
 std::vector<float> field(const MetaModel& model, const ContactPoint& s, const Vec3& parameter) {
   FieldScratch scratch(model);
   std::vector<float> u(model.view().surface_positions.size());
   const std::array<FieldSource, 1> source{FieldSource{s, parameter, 1.0}};
   evaluateField(model, source, scratch, u);
   return u;
-}
-
-/// A tool's centre, at a depth below the top of the organ.
-Vec3 above(const MetaModel& model, double depth) {
-  const NearestPoint top = model.surface().closestPoint(Vec3(0.0, 0.0, 1.0));
-  return top.position + Vec3(0.0, 0.0, StepConfig{}.tip_radius - depth);
 }
 
 }  // namespace
@@ -306,88 +253,6 @@ TEST(ForceModel, PressBeyondTheDomainIsHeldAndFlagged) {
   const ToolResult& tool = driver.settle(above(model, 0.015));
   EXPECT_EQ(tool.flags, kInContact | kBeyondDomain);
   EXPECT_NEAR(vec(tool.force).norm(), forceOptions().domain_force, 1e-9);
-}
-
-TEST(LevelModel, LevelThatIsFoundGivesTheDisplacementAlongTheLoad) {
-  Random random;
-  const MetaModel& model = levelModel();
-  const Vec3 e = Eigen::Map<const Vec3>(model.attributes().load_direction.data());
-  for (int trial = 0; trial < 200; ++trial) {
-    const ContactPoint s = random.contactPoint(model);
-    const double t = random.uniform(0.0, SyntheticOptions{}.domain_level);
-    const Response load = underLoad(model, s, {t, 0.0, 0.0});
-    EXPECT_LT((load.force - t * SyntheticOptions{}.load * e).norm(), 1e-15);
-    const Vec3 across = e.cross(random.vector(0.001));  // what the load's direction cannot see
-    const Response found = answerTo(model, s, load.displacement + across, ResponseStatus::kOk);
-    EXPECT_NEAR(found.parameter.x(), t, 1e-9);
-    EXPECT_LT((found.displacement - load.displacement).norm(), 1e-11);
-    EXPECT_LT((found.force - load.force).norm(), 1e-9);
-  }
-}
-
-TEST(LevelModel, LevelsBetweenStepsAreInterpolatedLinearly) {
-  const ContactPoint s = atPosition(levelModel(), 3);
-  const Vec3 below = underLoad(levelModel(), s, {0.3, 0.0, 0.0}).displacement;
-  const Vec3 above = underLoad(levelModel(), s, {0.4, 0.0, 0.0}).displacement;
-  const Vec3 between = underLoad(levelModel(), s, {0.325, 0.0, 0.0}).displacement;
-  EXPECT_LT((between - (0.75 * below + 0.25 * above)).norm(), 1e-15);
-}
-
-TEST(LevelModel, StiffnessIsTheDerivativeOfForce) {
-  Random random;
-  for (int trial = 0; trial < 50; ++trial) {
-    const ContactPoint s = random.contactPoint(levelModel());
-    const double t = random.uniform(0.01, 0.84);
-    if (std::abs(10.0 * t - std::round(10.0 * t)) < 1e-2) continue;  // a step's kink
-    const Vec3 d = underLoad(levelModel(), s, {t, 0.0, 0.0}).displacement;
-    const Response here = answerTo(levelModel(), s, d, ResponseStatus::kOk);
-    for (Eigen::Index j = 0; j < 3; ++j) {
-      const Vec3 h = 1e-7 * Vec3::Unit(j);
-      const Vec3 rise = answerTo(levelModel(), s, d + h, ResponseStatus::kOk).force -
-                        answerTo(levelModel(), s, d - h, ResponseStatus::kOk).force;
-      EXPECT_LT((here.stiffness.col(j) - rise / 2e-7).norm(), 1e-4);
-    }
-    EXPECT_LT((here.stiffness - underLoad(levelModel(), s, {t, 0.0, 0.0}).stiffness).norm(), 1e-6);
-  }
-}
-
-TEST(LevelModel, StaysAtItsLastLevelAndAtZero) {
-  Random random;
-  const ContactPoint s = random.contactPoint(levelModel());
-  const Vec3 e = Eigen::Map<const Vec3>(levelModel().attributes().load_direction.data());
-  const Response far = answerTo(levelModel(), s, 0.05 * e, ResponseStatus::kClamped);
-  EXPECT_EQ(far.parameter.x(), SyntheticOptions{}.domain_level);
-  EXPECT_EQ(far.stiffness, Mat3::Zero());
-  EXPECT_NEAR(far.displacement.norm(), far.domain_radius, 1e-15);
-  const Response edge = answerTo(levelModel(), s, far.displacement * (1.0 - 1e-9), ResponseStatus::kOk);
-  EXPECT_LT((edge.force - far.force).norm(), 1e-7);
-  const Response back = answerTo(levelModel(), s, -0.001 * e, ResponseStatus::kClamped);
-  EXPECT_EQ(back.force, Vec3::Zero());
-  const Response rest = answerTo(levelModel(), s, Vec3::Zero(), ResponseStatus::kOk);
-  EXPECT_EQ(rest.force, Vec3::Zero());
-  EXPECT_GT(rest.stiffness.trace(), 0.0);
-}
-
-TEST(LevelModel, FindsALevelAmongManySteps) {
-  const MetaModel model =
-      loadSynthetic({.subdivisions = 1, .parameters = Parameters::kLevel, .level_steps = 99'991});
-  const ContactPoint s = atPosition(model, 4);
-  for (const double t : {1e-7, 0.123456, 0.5, 0.849999}) {
-    const Vec3 d = underLoad(model, s, {t, 0.0, 0.0}).displacement;
-    EXPECT_NEAR(answerTo(model, s, d, ResponseStatus::kOk).parameter.x(), t, 1e-9);
-  }
-}
-
-TEST(LevelModel, PressIsAnsweredAlongTheLoad) {
-  const MetaModel& model = levelModel();
-  Driver driver(model);
-  driver.settle(above(model, -0.002));
-  for (double z = -0.002; z < 0.002; z += 1e-4) driver.at(above(model, z));
-  const ToolResult& tool = driver.settle(above(model, 0.002));
-  EXPECT_EQ(tool.flags, kInContact);
-  const Vec3 e = Eigen::Map<const Vec3>(model.attributes().load_direction.data());
-  EXPECT_LT(vec(tool.force).cross(e).norm(), 1e-12);
-  EXPECT_LT(vec(tool.force).dot(e), 0.0) << "the tool feels the opposite of the load";
 }
 
 }  // namespace palpate::testing
