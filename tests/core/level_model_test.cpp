@@ -104,7 +104,7 @@ TEST(LevelModel, AToolThatIsWithdrawnIsLetGo) {
   for (double z = -0.002; z < 0.001; z += 1e-4) driver.at(above(model, z));
   driver.settle(above(model, 0.001));
   const ToolResult& tool = driver.settle(above(model, -2e-4));
-  EXPECT_EQ(tool.state, ContactState::kFree);
+  EXPECT_EQ(tool.state, static_cast<std::uint32_t>(ContactState::kFree));
   EXPECT_EQ(tool.flags, 0U);
 }
 

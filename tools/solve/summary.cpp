@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "palpate/modelfile/quantile.h"
+
 namespace palpate::solve {
 
 namespace {
@@ -43,10 +45,9 @@ json radii(const modelfile::ModelData& data) {
   for (std::size_t i = 0; i < data.contact_domain_radius.size(); ++i)
     if (data.contact_accessible[i] != 0) list.push_back(data.contact_domain_radius[i]);
   std::sort(list.begin(), list.end());
-  const auto quantile = [&](double q) {
-    return list[static_cast<std::size_t>(q * static_cast<double>(list.size() - 1) + 0.5)];
-  };
-  return {{"min", list.front()}, {"p05", quantile(0.05)}, {"median", quantile(0.5)}};
+  return {{"min", list.front()},
+          {"p05", modelfile::quantile(list, 0.05)},
+          {"median", modelfile::quantile(list, 0.5)}};
 }
 
 void printTimes(const json& seconds) {
@@ -81,6 +82,9 @@ void printRadius(const json& s) {
   else
     std::fprintf(stderr, "%d pairs before recompression, their residual %.2e", s["pairs"].get<int>(),
                  s["residual"].get<double>());
+  if (s.contains("load") && s["load"].value("truncation", 0) > 0)
+    std::fprintf(stderr, ", load of %d terms wrong by %.2e", s["load"]["truncation"].get<int>(),
+                 s["load"]["truncation_error"].get<double>());
   if (s.value("weak_positions", 0) > 0)
     std::fprintf(stderr, "; %d positions need more modes", s["weak_positions"].get<int>());
   std::fputc('\n', stderr);
@@ -103,7 +107,8 @@ json loadOf(const offline::Case& c, const offline::BuildReport& report) {
   json load{{"magnitude", report.load}, {"kind", c.nodalLoad() ? "node" : "patch"}};
   load["direction"] = c.load.any_direction ? json("any") : json{e[0], e[1], e[2]};
   if (c.method == Method::kPgdLinear)
-    load["truncation"] = c.load.truncation.value_or(0);
+    load.update(
+        {{"truncation", c.load.truncation.value_or(0)}, {"truncation_error", report.load_truncation}});
   else
     load["steps"] = c.load.stepsOrDefault();
   return load;

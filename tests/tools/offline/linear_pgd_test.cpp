@@ -8,6 +8,7 @@
 
 #include "linear_problems.h"
 #include "palpate/offline/energy_error.h"
+#include "palpate/offline/load_separation.h"
 #include "palpate/offline/recompression.h"
 
 namespace palpate::offline {
@@ -56,6 +57,15 @@ TEST_F(LinearPgd, ErrorFallsAsPairsAreAdded) {
       before = now;
     }
   }
+}
+
+TEST_F(LinearPgd, SaysWhatTheTruncatedLoadLeavesOut) {
+  EXPECT_EQ(solveLinearPgd(problem_, quiet(2)).load_error, 0.0);
+  LinearPgdOptions options = quiet(2);
+  options.load_terms = 5;
+  const SeparatedLoad load(problem_.loads(), problem_.weights(), 5, options.seed);
+  EXPECT_EQ(solveLinearPgd(problem_, options).load_error, load.truncationError());
+  EXPECT_GT(load.truncationError(), 0.01);
 }
 
 TEST_F(LinearPgd, FirstPairIsTheStrongestSingularPair) {

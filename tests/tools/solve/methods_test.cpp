@@ -95,6 +95,21 @@ TEST_F(SolveMethods, TheLoadIsWhatTheCommandLineSays) {
   EXPECT_EQ(load.dump().find("null"), std::string::npos) << load;
 }
 
+TEST_F(SolveMethods, ATruncatedLoadSaysWhatItLeavesOut) {
+  std::ofstream(folder_ / "case.toml")
+      << "mesh = \"block.msh\"\n[model]\nmethod = \"pgd-linear\"\nmodes = 20\n[load]\ntruncation = 12\n";
+  const ProgramResult result =
+      runProgram("palpate-solve", {path("case.toml"), "-o", path("out.h5"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json load = json::parse(result.out).at("load");
+  EXPECT_EQ(load.at("truncation"), 12);
+  EXPECT_GT(load.at("truncation_error"), 0.0);
+  EXPECT_LT(load.at("truncation_error"), 1.0);
+  EXPECT_EQ(inspected().at("provenance").at("load"), load);
+  EXPECT_NE(result.err.find("load of 12 terms"), std::string::npos) << result.err;
+  EXPECT_EQ(solved({"--method", "pgd-linear", "--modes", "20"}).at("load").at("truncation_error"), 0.0);
+}
+
 TEST_F(SolveMethods, TheCommandLineOverridesTheCaseFile) {
   std::ofstream(folder_ / "case.toml")
       << "mesh = \"block.msh\"\n[model]\nmethod = \"series-force\"\nmodes = 50\n"

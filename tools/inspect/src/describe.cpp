@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "palpate/modelfile/quantile.h"
+
 namespace palpate::inspect {
 
 namespace {
@@ -30,12 +32,6 @@ Json bytesOfParts(const ModelView& v) {
   return bytes;
 }
 
-/// The sorted value whose rank is nearest to the part q of the way from the first to the last.
-double quantile(const std::vector<double>& sorted, double q) {
-  const double rank = q * static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(rank + 0.5)];
-}
-
 /// Quantiles of /contact/domain_radius over the accessible positions: m, N, or a level.
 Json radii(const ModelView& v) {
   std::vector<double> values;
@@ -44,8 +40,8 @@ Json radii(const ModelView& v) {
   if (values.empty()) return nullptr;
   std::sort(values.begin(), values.end());
   return {{"min", values.front()},
-          {"p05", quantile(values, 0.05)},
-          {"median", quantile(values, 0.5)},
+          {"p05", modelfile::quantile(values, 0.05)},
+          {"median", modelfile::quantile(values, 0.5)},
           {"max", values.back()}};
 }
 

@@ -130,6 +130,7 @@ Pairs PgdBuilder::solveLinear(const BodyProblem& body) {
   const SeparatedSolution solution = solveLinearPgd(body, options);
   report_.pgd_seconds = watch.seconds();
   report_.greedy_pairs = static_cast<int>(solution.pairs());
+  report_.load_truncation = solution.load_error;
   if (!solution.history.empty()) report_.residual = solution.history.back().residual;
 
   const Stopwatch recompression_watch;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "domain.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace palpate::offline {
 
@@ -23,40 +22,60 @@ double remainder(double last, double previous, double before_previous) {
   return last * std::max(1.0, ratio / (1.0 - ratio));
 }
 
-struct Answer {
-  const MonomialBasis& basis;
-  std::span<const Vec3> coefficients;
-  int kept;          // degree that the model keeps
-  double tolerance;  // of what it leaves out
+/// The answer and its derivative along one ray, x = r e, degree by degree: summed over the monomials once, so
+/// that each r costs one term a degree.
+class Ray {
+ public:
+  Ray(const MonomialBasis& basis, std::span<const Vec3> coefficients, int kept, double tolerance,
+      const Vec3& direction);
+  [[nodiscard]] bool isTrusted(double r) const;
 
-  [[nodiscard]] bool isTrusted(const Vec3& x) const;
+ private:
+  std::size_t order_;
+  std::size_t kept_;                                       // degree that the model keeps
+  double tolerance_;                                       // of what it leaves out
+  std::array<Vec3, MonomialBasis::kMaxOrder + 1> terms_;   // of degree n at r = 1
+  std::array<Mat3, MonomialBasis::kMaxOrder + 1> slopes_;  // of those, symmetric part; kept degrees only
 };
 
-bool Answer::isTrusted(const Vec3& x) const {
+Ray::Ray(const MonomialBasis& basis, std::span<const Vec3> coefficients, int kept, double tolerance,
+         const Vec3& direction)
+    : order_(static_cast<std::size_t>(basis.order())),
+      kept_(static_cast<std::size_t>(kept)),
+      tolerance_(tolerance) {
   std::array<double, MonomialBasis::kMaxCoefficients> value{};
   std::array<Vec3, MonomialBasis::kMaxCoefficients> slope;
-  std::array<Vec3, MonomialBasis::kMaxOrder + 1> terms;
-  terms.fill(Vec3::Zero());
-  basis.evaluate(x, value);
-  basis.gradient(x, slope);
-  Mat3 K = Mat3::Zero();
+  basis.evaluate(direction, value);
+  basis.gradient(direction, slope);
+  terms_.fill(Vec3::Zero());
+  slopes_.fill(Mat3::Zero());
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
     const MultiIndex& a = basis[static_cast<int>(k)];
-    const int degree = a[0] + a[1] + a[2];
-    terms[static_cast<std::size_t>(degree)] += value[k] * coefficients[k];
-    if (degree <= kept) K += coefficients[k] * slope[k].transpose();
+    const auto degree = static_cast<std::size_t>(a[0] + a[1] + a[2]);
+    terms_[degree] += value[k] * coefficients[k];
+    if (degree <= kept_) slopes_[degree] += coefficients[k] * slope[k].transpose();
   }
-  const auto order = static_cast<std::size_t>(basis.order());
-  if (order > 1) {  // a series of order 1 has no higher terms to be judged by
-    const Vec3 whole = std::accumulate(terms.begin(), terms.end(), Vec3(Vec3::Zero()));
-    const Vec3 cut = std::accumulate(terms.begin() + kept + 1, terms.end(), Vec3(Vec3::Zero()));
-    const double before_previous =
-        order > 2 ? terms[order - 2].norm() : std::numeric_limits<double>::infinity();
-    const double tail = remainder(terms[order].norm(), terms[order - 1].norm(), before_previous);
-    if (cut.norm() + tail > tolerance * whole.norm()) return false;
+  for (Mat3& K : slopes_) K = (0.5 * (K + K.transpose())).eval();
+}
+
+bool Ray::isTrusted(double r) const {
+  std::array<double, MonomialBasis::kMaxOrder + 1> size{};  // of the terms of each degree
+  Vec3 whole = Vec3::Zero(), cut = Vec3::Zero();
+  Mat3 K = Mat3::Zero();
+  double power = 1.0;  // r^(n-1)
+  for (std::size_t n = 1; n <= order_; ++n, power *= r) {
+    const Vec3 term = power * r * terms_[n];
+    size[n] = term.norm();
+    whole += term;
+    if (n > kept_) cut += term;
+    K += power * slopes_[n];
   }
-  const Mat3 symmetric = 0.5 * (K + K.transpose());
-  return Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0.0;
+  if (order_ > 1) {  // what a linear answer leaves out, no term of it tells
+    const double before_previous = order_ > 2 ? size[order_ - 2] : std::numeric_limits<double>::infinity();
+    const double tail = remainder(size[order_], size[order_ - 1], before_previous);
+    if (cut.norm() + tail > tolerance_ * whole.norm()) return false;
+  }
+  return K.llt().info() == Eigen::Success;
 }
 
 /// x^alpha for x = radius * direction, per lane.
@@ -116,16 +135,16 @@ double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, in
                     double tolerance) {
   constexpr int kScan = 100;  // the radius is found by a scan, then by halving between two samples
   double radius = cap;
-  const Answer series{basis, answer, kept, tolerance};
   for (const Vec3& direction : sampledDirections()) {
-    const auto trusted = [&](double r) { return series.isTrusted(r * direction); };
+    const Ray ray(basis, answer, kept, tolerance, direction);
     double good = 0.0;
     const double step = cap / kScan;
-    while (good < radius && trusted(std::min(good + step, radius))) good = std::min(good + step, radius);
+    while (good < radius && ray.isTrusted(std::min(good + step, radius)))
+      good = std::min(good + step, radius);
     double bad = std::min(good + step, radius);
     for (int halving = 0; halving < 12 && good < radius; ++halving) {
       const double middle = 0.5 * (good + bad);
-      (trusted(middle) ? good : bad) = middle;
+      (ray.isTrusted(middle) ? good : bad) = middle;
       if (bad - good < 1e-3 * step) break;
     }
     radius = std::min(radius, good);

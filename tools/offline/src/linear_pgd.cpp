@@ -92,6 +92,7 @@ Greedy::Greedy(const ParametricProblem& problem, const LinearPgdOptions& options
   u_.X.resize(problem.dofs(), 0);
   u_.Y.assign(static_cast<std::size_t>(directions_.componentCount()), MatrixXd(0, weights_.size()));
   u_.components = components_;
+  u_.load_error = load_.truncationError();
 }
 
 MatrixXd Greedy::stackedY() const {

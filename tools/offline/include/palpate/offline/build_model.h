@@ -25,7 +25,7 @@ struct BuildReport {
   int greedy_pairs{0};             ///< PGD methods: pairs before recompression
   double residual{0};              ///< PGD methods: of the last enrichment, dual norm, relative, an estimate
   double truncation{0};            ///< PGD methods: energy norm of what recompression left out, relative
-  double load_truncation{0};       ///< pgd-linear: relative error of the load, Eq. (2)
+  double load_truncation{0};       ///< pgd-linear: of the load in m terms, Eq. (2), relative, in nodal forces
   double load{0};                  ///< PGD methods: N
   int weak_positions{0};           ///< load-driven: positions where the modes are too few to invert dd/df
 };

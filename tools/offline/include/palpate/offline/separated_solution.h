@@ -28,6 +28,7 @@ struct SeparatedSolution {
   std::vector<Eigen::MatrixXd> Y;  ///< 1 (scalar) or as many as components (Hadamard), n x M each
   std::vector<int> components;     ///< c(i) of every unknown; empty for scalar pairs
   std::vector<EnrichmentStep> history;
+  double load_error{0.0};  ///< of the truncated load, relative, SeparatedLoad::truncationError
 
   [[nodiscard]] Eigen::Index pairs() const noexcept { return X.cols(); }
   /// Scalar pairs that one pair stands for: the number of components.
