@@ -76,6 +76,18 @@ TEST_F(SmallBody, FactorRefusesAMatrixOfAnotherPatternOrSize) {
   EXPECT_THROW(factor.factorize(small), std::invalid_argument);
 }
 
+TEST_F(SmallBody, FactorRefusesAPatternThatEndsEarly) {
+  SparseMatrix full =
+      Eigen::MatrixXd(Eigen::MatrixXd::Constant(2, 2, 0.5) + Eigen::MatrixXd::Identity(2, 2)).sparseView();
+  Cholesky factor(full);
+  SparseMatrix diagonal(2, 2);
+  diagonal.insert(0, 0) = 1.0;
+  diagonal.insert(1, 1) = 1.0;
+  EXPECT_THROW(factor.factorize(diagonal), std::invalid_argument);
+  full.coeffRef(1, 1) = 2.0;
+  EXPECT_NO_THROW(factor.factorize(full));
+}
+
 TEST_F(SmallBody, LoadsAreForcesSpreadOverThePatch) {
   const std::vector<Vec3> forces{Vec3::UnitX(), Vec3(0.0, 2.0, -4.0)};
   const Eigen::MatrixXd loads = patchLoads(model_, {&patch_, 1}, forces);

@@ -9,6 +9,7 @@
 #include "palpate/offline/cholesky.h"
 #include "palpate/offline/field_table.h"
 #include "palpate/offline/series.h"
+#include "palpate/offline/store_modes.h"
 
 namespace palpate::offline {
 
@@ -41,12 +42,6 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
 
 /// Attributes that every kind of model has.
 void storeAttributes(const Case& c, const SolverSetup& setup, ModelAttributes& attributes);
-
-/// Modes, an empty near field, and the contact displacement d_alpha(s) = G_s^T sum_k X_k Y_k,alpha(s): what
-/// the modes give, so that the field that is shown and the contact agree.
-/// @param X  3 Ns x n  @param Y  n x (M C), column position * C + alpha, m
-void storeModes(const SolverSetup& setup, const Eigen::MatrixXf& X, const Eigen::MatrixXf& Y,
-                modelfile::ModelData& data);
 
 /// Method series-force: u(X; s, f) = sum_k X_k(X) sum_alpha (f / f_ref)^alpha Y_k,alpha(s).
 [[nodiscard]] modelfile::ModelData buildForceSeries(const Case& c, const mesh::TetMesh& mesh,

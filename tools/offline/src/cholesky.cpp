@@ -135,14 +135,18 @@ struct Cholesky::State {
   }
 
   void copy(const SparseMatrix& K) {
+    const auto require = [](bool same) {
+      if (!same) throw std::invalid_argument("a matrix of another pattern than the one that was analysed");
+    };
     std::size_t next = 0;
-    for (int column = 0; column < K.outerSize(); ++column)
+    for (int column = 0; column < K.outerSize(); ++column) {
       for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
         if (entry.row() < column) continue;
-        if (next >= values.size() || pattern.row[next] != entry.row())
-          throw std::invalid_argument("a matrix of another pattern than the one that was analysed");
+        require(next < values.size() && pattern.row[next] == entry.row());
         values[next++] = entry.value();
       }
+      require(static_cast<int>(next) == pattern.column_start[static_cast<std::size_t>(column) + 1]);
+    }
   }
   void factorize();
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The paper's benchmarks on small meshes: what must hold on any mesh, and the rod, which is small by itself.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_program.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing::ProgramResult;
+using testing::runProgram;
+
+class Reproduce : public ::testing::Test {
+ protected:
+  ~Reproduce() override { fs::remove_all(folder_); }
+
+  Json run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"-o", folder_.string(), "-q"});
+    const ProgramResult result = runProgram("palpate-reproduce", arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Json::parse(text("results.json"));
+  }
+  [[nodiscard]] std::string text(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    std::ostringstream out;
+    out << file.rdbuf();
+    return out.str();
+  }
+  /// Every picture that the report shows is there.
+  void expectPictures() const {
+    const std::string report = text("report.md");
+    ASSERT_FALSE(report.empty());
+    if (std::system("command -v gnuplot > /dev/null") != 0) return;
+    int pictures = 0;
+    for (std::size_t at = report.find("]("); at != std::string::npos; at = report.find("](", at + 1)) {
+      const std::string name = report.substr(at + 2, report.find(')', at) - at - 2);
+      EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+      ++pictures;
+    }
+    EXPECT_GT(pictures, 0);
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() /
+      (std::string("palpate_reproduce_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(Reproduce, RodConvergesWithTheOrdersOfItsSchemes) {
+  const Json rod = run({"rod", "--rod-elements", "10"});
+  EXPECT_NEAR(rod.at("exact_tip_mm").get<double>(), 63.88194110594539, 1e-10);
+  EXPECT_NEAR(rod.at("order").at("ten_term").get<double>(), 2.0, 0.1);
+  EXPECT_NEAR(rod.at("order").at("forward_euler").get<double>(), 1.0, 0.1);
+  EXPECT_NEAR(rod.at("order").at("constant_tangent").get<double>(), 1.0, 0.1);
+  const Json& finest = rod.at("ten_term").back();
+  EXPECT_NEAR(finest.at("dt").get<double>(), 1e-3, 1e-12);
+  EXPECT_LE(finest.at("tip_error").get<double>(), 5e-7);
+  EXPECT_EQ(finest.at("pairs"), 10);
+  const double euler = rod.at("forward_euler").back().at("tip_error").get<double>();
+  EXPECT_GE(euler, 1e-4);
+  EXPECT_LE(euler, 3e-4);
+  for (const Json& row : rod.at("series_displacement"))
+    if (row.at("order").get<int>() == 3) EXPECT_LE(row.at("tip_error").get<double>(), 1e-12);
+  expectPictures();
+}
+
+TEST_F(Reproduce, BeamAgreesWithNewtonAtEveryPosition) {
+  const Json beam = run({"beam", "--beam-nodes", "9,3,3", "--beam-steps", "20"});
+  ASSERT_EQ(beam.at("positions").size(), 24U);
+  for (const Json& position : beam.at("positions"))
+    EXPECT_LE(position.at("l2_error").get<double>(), 0.01) << position;
+  const Json& volume = beam.at("volume_change");
+  const double linear = volume.at("linear"), newton = volume.at("newton"), ten = volume.at("ten_term");
+  EXPECT_GT(linear, 5.0 * std::abs(newton));
+  EXPECT_LT(std::abs(ten - newton), 0.1 * linear);
+  expectPictures();
+}
+
+TEST_F(Reproduce, LiverErrorsFallAsPairsAreAdded) {
+  const Json liver = run({"liver", "--element-size", "0.02", "--coarse-element-size", "0", "--pairs",
+                          "10,20,40", "--samples", "10"});
+  double last = 1e9;
+  for (const Json& row : liver.at("modes_table")) {
+    EXPECT_LT(row.at("field_error_p95").get<double>(), last);
+    last = row.at("field_error_p95");
+  }
+  for (const Json& row : liver.at("linear").at("pairs_table")) {
+    EXPECT_LE(row.at("ratio").get<double>(), 1.1);
+    EXPECT_GE(row.at("ratio").get<double>(), 1.0 - 1e-6);
+    EXPECT_LE(row.at("greedy_pairs").get<double>(), 1.5 * row.at("pairs").get<double>());
+  }
+  EXPECT_LT(liver.at("three_part").at("contact_error_p95"),
+            liver.at("modes_table").back().at("contact_error_p95"));
+  EXPECT_GT(liver.at("evaluations_per_second").get<double>(), 25.0);
+  expectPictures();
+}
+
+TEST(ReproduceProgram, NamesWhatItDoesNotKnow) {
+  const ProgramResult result = runProgram("palpate-reproduce", {"kidney"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.err.find("kidney"), std::string::npos) << result.err;
+}
+
+TEST(ReproduceProgram, RefusesAMeshThatIsNotThere) {
+  const fs::path folder = fs::temp_directory_path() / "palpate_reproduce_nothing";
+  const ProgramResult result =
+      runProgram("palpate-reproduce", {"liver", "--mesh", "/nonexistent.msh", "-o", folder.string(), "-q"});
+  fs::remove_all(folder);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("/nonexistent.msh"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace palpate

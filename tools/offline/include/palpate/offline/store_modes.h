@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "palpate/modelfile/model_data.h"
+#include "palpate/offline/solver_setup.h"
+
+namespace palpate::offline {
+
+/// Modes, an empty near field, and the contact displacement d_alpha(s) = G_s^T sum_k X_k Y_k,alpha(s): what
+/// the modes give, so that the field that is shown and the contact agree.                           DESIGN 2.1
+/// @param X  3 Ns x n  @param Y  n x (M C), column position * C + alpha, m
+void storeModes(const SolverSetup& setup, const Eigen::MatrixXf& X, const Eigen::MatrixXf& Y,
+                modelfile::ModelData& data);
+
+}  // namespace palpate::offline

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace palpate::reproduce {
+
+using Json = nlohmann::ordered_json;
+
+/// A run that cannot go on: an option, a file or a folder. what() is one line that names it.
+class ReproduceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The folder that one benchmark fills, and the steps that it says it takes.
+class Output {
+ public:
+  /// Makes the folder. @throw ReproduceError when it cannot be made or written
+  Output(std::filesystem::path folder, bool quiet);
+
+  /// "3. text" on standard error, with the time since the start.
+  void step(const std::string& text);
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] bool quiet() const noexcept { return quiet_; }
+
+  /// Written beside the target and renamed. @throw ReproduceError naming the file
+  void writeText(const std::string& name, const std::string& text) const;
+  void writeJson(const std::string& name, const Json& json) const;
+  /// One line of column names, then the rows. @param rows  each as long as columns
+  void writeCsv(const std::string& name, std::initializer_list<const char*> columns,
+                const std::vector<std::vector<double>>& rows) const;
+
+ private:
+  std::filesystem::path folder_;
+  bool quiet_;
+  int steps_{0};
+  double start_;
+};
+
+/// Seconds of a steady clock.
+[[nodiscard]] double now();
+
+}  // namespace palpate::reproduce

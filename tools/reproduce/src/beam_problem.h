@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palpate/mesh/tet_mesh.h"
+#include "palpate/offline/parametric_problem.h"
+#include "palpate/reproduce/studies.h"
+
+namespace palpate::reproduce {
+
+/// The beam of Section 4.2: 400 x 40 x 40 mm, E = 1 MPa, nu = 0.25, clamped at x = 0; a single nodal force downward
+/// at any free node of the upper surface.                                                             DESIGN 2.1
+struct Beam {
+  mesh::TetMesh mesh;
+  offline::FeModel model;
+  offline::ContactSurface surface;
+  std::vector<std::int32_t> nodes;  ///< volume node of each position
+  offline::BodyProblem problem;     ///< weights: the nodes' share of the upper surface, m^2
+  int tip;                          ///< position nearest to the middle of the upper edge at the free end
+
+  std::vector<std::int32_t> axis;  ///< volume nodes nearest to the axis, from the clamp to the free end
+
+  explicit Beam(const BeamOptions& options);
+  Beam(const Beam&) = delete;
+  Beam& operator=(const Beam&) = delete;
+
+  /// E A, N.
+  [[nodiscard]] double axialStiffness() const;
+  [[nodiscard]] Eigen::VectorXd toUnknowns(const Eigen::VectorXd& nodal) const;
+};
+
+}  // namespace palpate::reproduce

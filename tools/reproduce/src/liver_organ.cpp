@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "liver_organ.h"
+
+#include <algorithm>
+
+namespace palpate::reproduce {
+
+offline::Case wholeBoundary(const std::filesystem::path& mesh) {
+  offline::Case c = offline::defaultCase(mesh);
+  c.E = 160e3;
+  c.nu = 0.48;
+  c.accessible.reset();
+  return c;
+}
+
+offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double& load) {
+  constexpr double kTravel = 2e-3;   // m
+  constexpr std::size_t kMost = 64;  // positions that the median is taken over
+  const offline::Vec3 down(0.0, 0.0, -1.0);
+  const offline::SparseMatrix unit = offline::patchLoads(setup.model, setup.positions.patches, {&down, 1});
+  const std::vector<double> areas = setup.positionAreas();
+  const Eigen::VectorXd weights = Eigen::Map<const Eigen::VectorXd>(areas.data(), Eigen::Index(areas.size()));
+  const offline::BodyProblem problem(setup.model, unit, weights);
+  const offline::Cholesky K0(problem.stiffness());
+  const std::size_t count = setup.positions.patches.size(), step = std::max<std::size_t>(1, count / kMost);
+  std::vector<double> moved;
+  for (std::size_t s = 0; s < count; s += step) {
+    const Eigen::VectorXd l = unit.col(Eigen::Index(s));
+    const Eigen::VectorXd u = K0.solve(l);
+    moved.push_back(setup.positions.patches[s].average(problem.toNodes(u)).norm());
+  }
+  std::nth_element(moved.begin(), moved.begin() + std::ptrdiff_t(moved.size() / 2), moved.end());
+  load = kTravel / moved[moved.size() / 2];
+  return {setup.model, load * unit, weights};
+}
+
+}  // namespace palpate::reproduce

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "palpate/offline/parametric_problem.h"
+#include "palpate/offline/solver_setup.h"
+
+namespace palpate::reproduce {
+
+/// The paper's liver: E = 160 kPa, nu = 0.48, every free node of the boundary accessible.               paper 4.3
+[[nodiscard]] offline::Case wholeBoundary(const std::filesystem::path& mesh);
+
+/// A load downward at every contact position, over its patch; weights are the nodes' areas.
+/// @param[out] load  N: moves the patch by 2 mm in the median over the positions, linear
+[[nodiscard]] offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double& load);
+
+}  // namespace palpate::reproduce

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// The liver of Section 4.3: separated solutions over the whole boundary against full Newton, pair by pair.
+#include <algorithm>
+
+#include "liver_linear.h"
+#include "liver_nonlinear.h"
+#include "liver_organ.h"
+#include "palpate/mesh/checks.h"
+#include "palpate/mesh/mesh_error.h"
+#include "palpate/mesh/read_mesh.h"
+#include "palpate/organ/liver.h"
+#include "palpate/reproduce/figures.h"
+
+namespace palpate::reproduce {
+
+namespace {
+
+constexpr double kTravel = 2e-3;  // m, most that a held-out load moves its contact, linear
+
+mesh::TetMesh readOrgan(const std::filesystem::path& path) {
+  mesh::TetMesh organ = mesh::readMesh(path);
+  try {
+    mesh::checkMesh(organ);
+    if (organ.groups.count("fixed") == 0)
+      throw mesh::MeshError("has no group \"fixed\" (palpate-organ import --fixed makes one)");
+    mesh::checkHeld(organ, "fixed");
+  } catch (const mesh::MeshError& error) {
+    throw mesh::MeshError(path.string() + ": " + error.what());
+  }
+  return organ;
+}
+
+Json problemOf(const LiverOptions& options, const offline::SolverSetup& setup, double load) {
+  const std::string mesh = options.mesh.empty() ? "The default organ" : options.mesh.filename().string();
+  return {{"mesh", mesh},
+          {"nodes", setup.model.nodeCount()},
+          {"tetrahedra", setup.model.elementCount()},
+          {"surface_nodes", setup.surface.nodes.size()},
+          {"fixed_nodes", setup.model.fixedNodes().size()},
+          {"positions_count", setup.positions.nodes.size()},
+          {"E_kPa", 1e-3 * setup.model.material().E},
+          {"nu", setup.model.material().nu},
+          {"patch_radius_mm", 1e3 * setup.patch_radius},
+          {"load_N", load},
+          {"samples", options.samples}};
+}
+
+SurfacePanel panelOf(const offline::SolverSetup& setup, const std::string& title,
+                     std::vector<double> values) {
+  return {title, setup.surface.positions, setup.surface.triangles, std::move(values)};
+}
+
+SurfaceFigure figureOf(const std::string& title, std::vector<SurfacePanel> panels) {
+  SurfaceFigure figure;
+  figure.title = title;
+  figure.panels = std::move(panels);
+  figure.elevation = 65;
+  figure.azimuth = 25;
+  figure.zoom = 2.2;
+  return figure;
+}
+
+/// Third component of the first six X_k on the boundary, and the first six Y_k.
+void writeFunctions(const offline::SolverSetup& setup, const offline::ScalarPairs& pairs, Output& out) {
+  std::vector<SurfacePanel> X, Y;
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(6, pairs.X.cols()); ++k) {
+    std::vector<double> x(setup.surface.nodes.size(), 0.0), y(setup.surface.nodes.size(), 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (setup.model.isFree(setup.surface.nodes[i]))
+        x[i] = pairs.X(setup.model.dof(setup.surface.nodes[i]) + 2, k);
+    for (std::size_t p = 0; p < setup.positions.nodes.size(); ++p)
+      y[static_cast<std::size_t>(setup.positions.nodes[p])] = pairs.Y(k, static_cast<Eigen::Index>(p));
+    X.push_back(panelOf(setup, "X_{3}^{" + std::to_string(k + 1) + "}(x)", std::move(x)));
+    Y.push_back(panelOf(setup, "Y^{" + std::to_string(k + 1) + "}(s)", std::move(y)));
+  }
+  drawSurfaces(out.file("figure-6-liver-x.png"),
+               figureOf("Liver: first six X (paper: Figure 6)", std::move(X)));
+  drawSurfaces(out.file("figure-7-liver-y.png"),
+               figureOf("Liver: first six Y (paper: Figure 7)", std::move(Y)));
+}
+
+void writeErrors(const Json& results, Output& out) {
+  Chart chart{"Liver: error against full Newton at held-out points, 95 %",
+              "pairs",
+              "relative to the contact displacement",
+              false,
+              true,
+              {}};
+  const std::pair<const char*, const char*> names[] = {
+      {"field_error_p95", "field"},
+      {"svd_field_error_p95", "field, best separation (SVD)"},
+      {"contact_error_p95", "contact displacement"},
+      {"force_error_p95", "force"}};
+  std::vector<std::vector<double>> rows;
+  for (const Json& row : results["modes_table"])
+    rows.push_back({row["pairs"], row["field_error_p95"], row["svd_field_error_p95"],
+                    row["contact_error_p95"], row["contact_error_max"], row["force_error_p95"]});
+  for (const auto& [key, name] : names) {
+    Curve curve{name, {}};
+    for (const Json& row : results["modes_table"]) curve.points.emplace_back(row["pairs"], row[key]);
+    chart.curves.push_back(curve);
+  }
+  for (const auto& [key, name] : {std::pair{"field_error_p95", "field, three-part model"},
+                                  {"contact_error_p95", "contact, three-part model"}}) {
+    Curve curve{name, {}, true, false};
+    for (const Json& row : results["modes_table"])
+      curve.points.emplace_back(row["pairs"], results["three_part"][key]);
+    chart.curves.push_back(curve);
+  }
+  out.writeCsv("figure-liver-errors.csv",
+               {"pairs", "field_error_p95", "svd_field_error_p95", "contact_error_p95", "contact_error_max",
+                "force_error_p95"},
+               rows);
+  drawChart(out.file("figure-liver-errors.svg"), chart);
+}
+
+}  // namespace
+
+Json reproduceLiver(const LiverOptions& options, Output& out) {
+  const double start = now();
+  out.step("the organ, its clamp and its load positions");
+  const mesh::TetMesh mesh =
+      options.mesh.empty() ? organ::makeLiver(options.element_size) : readOrgan(options.mesh);
+  const offline::Case c = wholeBoundary(options.mesh);
+  const offline::SolverSetup setup(c, mesh);
+  double load = 0.0;
+  const offline::BodyProblem problem = downwardProblem(setup, load);
+  Json results = problemOf(options, setup, load);
+  std::vector<Touch> touches = drawPoints(setup, options.samples, 2013);
+  const offline::ScalarPairs pairs = studyLinear(setup, problem, touches, options, out, results);
+  drawLoads(setup.model, offline::Cholesky(problem.stiffness()), kTravel, 586, touches);
+  studyNonlinear({c, mesh, setup, options}, touches, out, results);
+  studyTenTerms(options, out, results);
+  out.step("Figures 5 to 7");
+  SurfaceFigure model = figureOf("Liver: the mesh (paper: Figure 5)", {panelOf(setup, "", {})});
+  drawSurfaces(out.file("figure-5-liver-model.png"), model);
+  writeFunctions(setup, pairs, out);
+  writeErrors(results, out);
+  results["seconds"] = now() - start;
+  return results;
+}
+
+}  // namespace palpate::reproduce

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+
+#include "liver_nonlinear.h"
+#include "liver_organ.h"
+#include "palpate/offline/explicit_pgd.h"
+#include "palpate/organ/liver.h"
+
+namespace palpate::reproduce {
+
+namespace {
+
+using Eigen::VectorXd;
+
+/// Every so many-th position, as touches under the study's load.
+std::vector<Touch> someOf(const offline::SolverSetup& setup, const Vec3& load, int count,
+                          std::vector<int>& positions) {
+  const int M = static_cast<int>(setup.positions.nodes.size());
+  std::vector<Touch> touches;
+  for (int i = 0; i < std::min(count, M); ++i) {
+    positions.push_back(static_cast<int>(std::int64_t(i) * M / std::min(count, M)));
+    Touch touch;
+    touch.patch = setup.positions.patches[static_cast<std::size_t>(positions.back())];
+    touch.force = load;
+    touches.push_back(std::move(touch));
+  }
+  return touches;
+}
+
+TouchError errorOf(const offline::SolverSetup& setup, const Touch& touch, const VectorXd& nodal) {
+  TouchError error;
+  const double scale = touch.displacement.norm();
+  for (std::size_t i = 0; i < setup.surface.nodes.size(); ++i) {
+    const Vec3 off = nodal.segment<3>(3 * setup.surface.nodes[i]) -
+                     touch.surface.segment<3>(3 * static_cast<Eigen::Index>(i));
+    error.field = std::max(error.field, off.norm() / scale);
+  }
+  error.contact = (touch.patch.average(nodal) - touch.displacement).norm() / scale;
+  return error;
+}
+
+}  // namespace
+
+void studyTenTerms(const LiverOptions& options, Output& out, Json& results) {
+  if (!(options.coarse_element_size > 0.0)) return;
+  char size[32];
+  std::snprintf(size, sizeof size, "%.3g", 1e3 * options.coarse_element_size);
+  out.step("ten terms, Eq. (19), on a liver of " + std::string(size) + " mm elements");
+  Json& ten = results["ten_term"];
+  const mesh::TetMesh mesh = organ::makeLiver(options.coarse_element_size);
+  const offline::SolverSetup setup(wholeBoundary({}), mesh);
+  double load = 1.0;
+  const offline::BodyProblem problem = downwardProblem(setup, load);
+  offline::ExplicitOptions pgd;
+  pgd.steps = options.steps;
+  pgd.tolerance = 0.03;  // the dimples of an organ are a larger part of its displacement than those of a beam
+  pgd.workers = options.workers;
+  pgd.quiet = out.quiet();
+  const offline::LevelSolution solution = offline::solveExplicit(problem, pgd);
+  std::vector<int> positions;
+  std::vector<Touch> touches = someOf(setup, Vec3(0.0, 0.0, -load), options.samples, positions);
+  solveTouches(setup, options.workers, out.quiet(), touches);
+  const offline::Cholesky K0(problem.stiffness());
+  std::vector<TouchError> separated, linear;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const VectorXd u = offline::evaluate(solution, positions[i], 1.0);
+    const VectorXd u0 = K0.solve(VectorXd(problem.loads().col(positions[i])));
+    separated.push_back(errorOf(setup, touches[i], problem.toNodes(u)));
+    linear.push_back(errorOf(setup, touches[i], problem.toNodes(u0)));
+  }
+  ten = {{"nodes", setup.model.nodeCount()},
+         {"tetrahedra", setup.model.elementCount()},
+         {"positions", setup.positions.nodes.size()},
+         {"steps", options.steps},
+         {"load_N", load},
+         {"pairs", solution.pairs},
+         {"level_functions", solution.levels()},
+         {"seconds", solution.seconds},
+         {"samples", touches.size()},
+         {"field_error_p95", quantile(separated, &TouchError::field, 0.95)},
+         {"contact_error_p95", quantile(separated, &TouchError::contact, 0.95)},
+         {"linear_field_error_p95", quantile(linear, &TouchError::field, 0.95)},
+         {"linear_contact_error_p95", quantile(linear, &TouchError::contact, 0.95)}};
+}
+
+}  // namespace palpate::reproduce

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-reproduce: the paper's benchmarks, computed again and set beside the paper's figures.
+//
+// Sample runs:  palpate-reproduce rod -o rod
+//               palpate-reproduce liver -o liver --mesh organ.msh
+//               palpate-reproduce all -o reproduction
+#include <sys/utsname.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <thread>
+
+#include "palpate/offline/parallel.h"
+#include "palpate/reproduce/report.h"
+#include "palpate/reproduce/studies.h"
+
+namespace {
+
+using namespace palpate;
+using reproduce::Json;
+
+struct Options {
+  std::string what;
+  std::filesystem::path output{"reproduction"};
+  reproduce::RodOptions rod;
+  reproduce::BeamOptions beam;
+  reproduce::LiverOptions liver;
+  int threads{offline::machineThreads()};
+  bool json{false}, quiet{false};
+};
+
+void describe(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", PALPATE_VERSION);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "palpate-reproduce: " + std::string(error.what()) + " (see palpate-reproduce --help)\n";
+  });
+  app.add_option("what", options.what, "rod (4.1), beam (4.2), liver (4.3) or all")
+      ->required()
+      ->check(CLI::IsMember({"rod", "beam", "liver", "all"}));
+  app.add_option("-o,--output", options.output, "folder for results.json, tables, figures and report.md")
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "worker threads")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--rod-elements", options.rod.elements, "elements of the rod")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--beam-load", options.beam.load, "load of the beam, N")
+      ->check(CLI::Range(1e-3, 10.0))
+      ->capture_default_str();
+  app.add_option("--beam-steps", options.beam.steps, "load steps of the beam")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_option("--beam-nodes", options.beam.nodes, "nodes of the beam along length, width, height")
+      ->delimiter(',')
+      ->check(CLI::Range(2, 200))
+      ->capture_default_str();
+  app.add_option("--mesh", options.liver.mesh,
+                 "organ for the liver, in metres, with a group `fixed` (default: the default organ)");
+  app.add_option("--element-size", options.liver.element_size, "of the default organ, m")
+      ->check(CLI::Range(0.003, 0.02))
+      ->capture_default_str();
+  app.add_option("--coarse-element-size", options.liver.coarse_element_size,
+                 "of the liver-like organ that the ten terms are run on, m; 0 leaves them out")
+      ->check(CLI::Range(0.0, 0.02))
+      ->capture_default_str();
+  app.add_option("--samples", options.liver.samples, "held-out points of the liver")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  app.add_option("--pairs", options.liver.pairs, "numbers of pairs to tabulate")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "print results.json on standard output too");
+  app.add_flag("-q,--quiet", options.quiet, "no progress");
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm calendar{};
+  gmtime_r(&now, &calendar);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &calendar);
+  return text;
+}
+
+/// What the times were measured on.
+std::string machine() {
+  utsname system{};
+  uname(&system);
+  std::ifstream cpus("/proc/cpuinfo");
+  std::string model = system.machine;
+  for (std::string line; std::getline(cpus, line);)
+    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) {
+      model = line.substr(line.find(": ") + 2);
+      break;
+    }
+  return model + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads, " + system.sysname;
+}
+
+Json runOne(const std::string& name, const Options& options, const std::filesystem::path& folder) {
+  reproduce::Output out(folder, options.quiet);
+  if (!options.quiet) std::cerr << "== " << name << '\n';
+  Json results = name == "rod"    ? reproduce::reproduceRod(options.rod, out)
+                 : name == "beam" ? reproduce::reproduceBeam(options.beam, out)
+                                  : reproduce::reproduceLiver(options.liver, out);
+  out.writeJson("results.json", results);
+  return results;
+}
+
+void run(Options options) {
+  options.rod.workers = options.beam.workers = options.liver.workers = options.threads;
+  const bool all = options.what == "all";
+  const reproduce::Output out(options.output, options.quiet);
+  Json results{{"run", {{"version", PALPATE_VERSION}, {"date", today()}, {"machine", machine()}}}};
+  // 1. The benchmarks.
+  for (const char* name : {"rod", "beam", "liver"}) {
+    if (!all && options.what != name) continue;
+    results[name] = runOne(name, options, all ? options.output / name : options.output);
+    // 2. The report, after each of them, so that an interrupted run leaves one of what was done.
+    if (all) out.writeJson("results.json", results);
+    out.writeText("report.md", reproduce::report(results, all));
+  }
+  // 3. Where it is.
+  std::cerr << "report: " << out.file("report.md").string() << '\n';
+  if (options.json) std::cout << (all ? results : results[options.what]).dump(2) << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // gnuplot may be absent: then its pipe is closed
+  CLI::App app("Reproduces the benchmarks of Niroomandi et al. 2013: rod, beam, liver.", "palpate-reproduce");
+  Options options;
+  describe(app, options);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(options);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "palpate-reproduce: out of memory\n";
+    return 1;
+  } catch (const std::exception& error) {
+    std::cerr << "palpate-reproduce: " << error.what() << '\n';
+    return 1;
+  }
+  return std::cout.flush() ? 0 : 1;
+}
