@@ -7,6 +7,7 @@
 
 #include "build_model_parts.h"
 #include "palpate/offline/far_field.h"
+#include "palpate/offline/force_series.h"
 #include "palpate/offline/parallel.h"
 
 namespace palpate::offline {
@@ -170,8 +171,10 @@ modelfile::ModelData buildModel(const Case& c, const mesh::TetMesh& mesh, const 
   switch (c.method) {
     case Method::kSeriesDisplacement:
       return Builder(c, mesh, options, report).run();
-    case Method::kSeriesForce:
-      return buildForceSeries(c, mesh, options, report);
+    case Method::kSeriesForce: {
+      const FitSize size{c.modesOrDefault(), c.sweepsOrDefault()};
+      return std::move(buildForceSeries(c, mesh, options, {&size, 1}, report).front());
+    }
     case Method::kPgdLinear:
     case Method::kPgdExplicit:
     case Method::kPgdEuler:

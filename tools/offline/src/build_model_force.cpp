@@ -8,6 +8,7 @@
 #include "build_model_parts.h"
 #include "domain.h"
 #include "palpate/offline/far_field.h"
+#include "palpate/offline/force_series.h"
 
 namespace palpate::offline {
 
@@ -30,11 +31,12 @@ class ForceBuilder {
         basis_(c.orderOrDefault()),
         radius_(setup_.positions.nodes.size()),
         compliance_(setup_.positions.nodes.size()) {}
-  modelfile::ModelData run();
+  std::vector<modelfile::ModelData> run(std::span<const FitSize> sizes);
 
  private:
   void solveSeries(FieldTable& table);
-  void fit(const FieldTable& table);
+  modelfile::ModelData compress(const FieldTable& table, const FitSize& fit_size);
+  void fit(const FieldTable& table, const FitSize& fit_size);
   void limitToWhatTheModesAnswer();
 
   const Case& case_;
@@ -67,15 +69,15 @@ void ForceBuilder::solveSeries(FieldTable& table) {
 
 /// The best modes in the area product, positions counting by relative error: no near field takes the dimple
 /// over, so no node is weighted down, and soft spots must not outweigh stiff ones.                  DESIGN 2.1
-void ForceBuilder::fit(const FieldTable& table) {
+void ForceBuilder::fit(const FieldTable& table, const FitSize& fit_size) {
   const Stopwatch watch;
   const std::vector<FitWeights> weights(setup_.positions.nodes.size());
   std::vector<double> size;
   for (const double compliance : compliance_) size.push_back(f_ref_ * compliance);
   const FitProblem problem{table, basis_, setup_.surface.areas, weights, radius_, f_ref_, size};
   FitOptions options;
-  options.modes = case_.modesOrDefault();
-  options.sweeps = case_.sweepsOrDefault();
+  options.modes = fit_size.modes;
+  options.sweeps = fit_size.sweeps;
   options.workers = options_.workers;
   options.quiet = options_.quiet;
   const FarField modes = fitFarField(problem, options);
@@ -101,12 +103,10 @@ void ForceBuilder::limitToWhatTheModesAnswer() {
   }
 }
 
-modelfile::ModelData ForceBuilder::run() {
-  FieldTable table(options_.scratch, setup_.positions.nodes.size(), static_cast<std::size_t>(basis_.size()),
-                   3 * setup_.surface.nodes.size());
-  solveSeries(table);
-  f_ref_ = medianOf(radius_);
-  fit(table);
+modelfile::ModelData ForceBuilder::compress(const FieldTable& table, const FitSize& fit_size) {
+  data_ = {};
+  report_.weak_positions = 0;
+  fit(table, fit_size);
   limitToWhatTheModesAnswer();
   storeOrgan(setup_, mesh_, data_);
   ModelAttributes& a = data_.attributes;
@@ -118,11 +118,22 @@ modelfile::ModelData ForceBuilder::run() {
   return std::move(data_);
 }
 
+std::vector<modelfile::ModelData> ForceBuilder::run(std::span<const FitSize> sizes) {
+  FieldTable table(options_.scratch, setup_.positions.nodes.size(), static_cast<std::size_t>(basis_.size()),
+                   3 * setup_.surface.nodes.size());
+  solveSeries(table);
+  f_ref_ = medianOf(radius_);
+  std::vector<modelfile::ModelData> models;
+  for (const FitSize& size : sizes) models.push_back(compress(table, size));
+  return models;
+}
+
 }  // namespace
 
-modelfile::ModelData buildForceSeries(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options,
-                                      BuildReport& report) {
-  return ForceBuilder(c, mesh, options, report).run();
+std::vector<modelfile::ModelData> buildForceSeries(const Case& c, const mesh::TetMesh& mesh,
+                                                   const BuildOptions& options,
+                                                   std::span<const FitSize> sizes, BuildReport& report) {
+  return ForceBuilder(c, mesh, options, report).run(sizes);
 }
 
 }  // namespace palpate::offline

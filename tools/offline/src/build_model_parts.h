@@ -43,10 +43,6 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
 /// Attributes that every kind of model has.
 void storeAttributes(const Case& c, const SolverSetup& setup, ModelAttributes& attributes);
 
-/// Method series-force: u(X; s, f) = sum_k X_k(X) sum_alpha (f / f_ref)^alpha Y_k,alpha(s).
-[[nodiscard]] modelfile::ModelData buildForceSeries(const Case& c, const mesh::TetMesh& mesh,
-                                                    const BuildOptions& options, BuildReport& report);
-
 /// Methods pgd-linear, pgd-explicit, pgd-euler.                                     paper Sections 2 and 3
 [[nodiscard]] modelfile::ModelData buildPgd(const Case& c, const mesh::TetMesh& mesh,
                                             const BuildOptions& options, BuildReport& report);

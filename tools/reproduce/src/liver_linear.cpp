@@ -41,19 +41,22 @@ MatrixXd solvePoints(const offline::FeModel& model, const offline::Cholesky& K0,
   return K0.solve(MatrixXd(offline::patchLoads(model, patches, {&load, 1})));
 }
 
-/// Columns of Y at the points, mixed barycentrically between the positions.
-MatrixXd atPoints(const offline::SolverSetup& setup, const std::vector<Touch>& points, const MatrixXd& Y) {
+/// Barycentric weights of the positions at each point, M x points.
+offline::SparseMatrix mixing(const offline::SolverSetup& setup, const std::vector<Touch>& points) {
   std::vector<Index> position_of_node(setup.surface.nodes.size(), -1);
   for (std::size_t p = 0; p < setup.positions.nodes.size(); ++p)
     position_of_node[static_cast<std::size_t>(setup.positions.nodes[p])] = static_cast<Index>(p);
-  MatrixXd mixed = MatrixXd::Zero(Y.rows(), static_cast<Index>(points.size()));
+  std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const auto node = setup.surface.triangles[static_cast<std::size_t>(points[i].s.triangle)][c];
-      mixed.col(static_cast<Index>(i)) +=
-          points[i].s.barycentric[c] * Y.col(position_of_node[static_cast<std::size_t>(node)]);
+      entries.emplace_back(position_of_node[static_cast<std::size_t>(node)], static_cast<int>(i),
+                           points[i].s.barycentric[c]);
     }
-  return mixed;
+  offline::SparseMatrix B(static_cast<Index>(setup.positions.nodes.size()),
+                          static_cast<Index>(points.size()));
+  B.setFromTriplets(entries.begin(), entries.end());
+  return B;
 }
 
 /// 95 % quantiles over the points: largest error on the surface and error of the contact displacement, of the latter.
@@ -78,29 +81,40 @@ Json pointErrors(const offline::SolverSetup& setup, const std::vector<Touch>& po
           {"contact_error_p95", quantile(errors, &TouchError::contact, 0.95)}};
 }
 
-/// The exact solutions at the nodes around each point, mixed: what no number of pairs takes away.
-MatrixXd interpolated(const offline::SolverSetup& setup, const offline::BodyProblem& problem,
-                      const offline::Cholesky& K0, const std::vector<Touch>& points) {
-  const MatrixXd loads = atPoints(setup, points, MatrixXd(problem.loads()));
-  return K0.solve(loads);
+/// What is compared with: linear finite elements at the points, and the best that n pairs can be.
+struct Truth {
+  MatrixXd points;            ///< dofs x points
+  offline::SparseMatrix mix;  ///< M x points
+  VectorXd singular_values;
+  double energy;  ///< sum_s w_s |u_s|^2
+};
+
+Truth solveForComparison(const offline::SolverSetup& setup, const offline::BodyProblem& problem,
+                         const std::vector<Touch>& points, const Vec3& load, int workers, Json& linear) {
+  const double start = now();
+  const MatrixXd C = offline::complianceMatrix(problem, workers);
+  Truth truth{{},
+              mixing(setup, points),
+              offline::energySingularValues(C, problem.weights()),
+              C.diagonal().dot(problem.weights())};
+  linear["svd_seconds"] = now() - start;
+  const offline::Cholesky K0(problem.stiffness());
+  truth.points = solvePoints(setup.model, K0, points, load);
+  // The exact solutions at the nodes around each point, mixed: what no number of pairs takes away.
+  const MatrixXd mixed = K0.solve(MatrixXd(problem.loads() * truth.mix));
+  linear["interpolation"] = pointErrors(setup, points, mixed, truth.points);
+  return truth;
 }
 
-}  // namespace
-
-offline::ScalarPairs studyLinear(const offline::SolverSetup& setup, const offline::BodyProblem& problem,
-                                 const std::vector<Touch>& points, const LiverOptions& options, Output& out,
-                                 Json& results) {
-  Json& linear = results["linear"];
-  const Vec3 load(0.0, 0.0, -results["load_N"].get<double>());
+offline::SeparatedSolution enrich(const offline::BodyProblem& problem, const LiverOptions& options,
+                                  Output& out, Json& linear) {
   offline::LinearPgdOptions pgd;
-  pgd.max_pairs =
-      static_cast<int>(greedyPairsFor(*std::max_element(options.pairs.begin(), options.pairs.end())));
+  pgd.max_pairs = std::min(static_cast<int>(greedyPairsFor(options.pairs.back())), problem.positions());
   pgd.tolerance = 0.0;
   pgd.workers = options.workers;
   pgd.quiet = out.quiet();
-  out.step("linear PGD, " + std::to_string(pgd.max_pairs) + " greedy pairs");
-  double start = now();
-  const offline::SeparatedSolution greedy = offline::solveLinearPgd(problem, pgd);
+  const double start = now();
+  offline::SeparatedSolution greedy = offline::solveLinearPgd(problem, pgd);
   linear["greedy_pairs"] = greedy.pairs();
   linear["residual"] = greedy.history.back().residual;
   linear["seconds"] = now() - start;
@@ -108,41 +122,49 @@ offline::ScalarPairs studyLinear(const offline::SolverSetup& setup, const offlin
   for (const offline::EnrichmentStep& step : greedy.history)
     history.push_back({double(step.pairs), step.residual, step.spread, step.seconds});
   out.writeCsv("linear-pgd-residual.csv", {"pairs", "residual", "spread", "seconds"}, history);
+  return greedy;
+}
 
-  out.step("the best possible: all linear solutions, for comparison only");
-  start = now();
-  const MatrixXd C = offline::complianceMatrix(problem, options.workers);
-  const VectorXd best = offline::energySingularValues(C, problem.weights());
-  const double total = C.diagonal().dot(problem.weights());
-  linear["svd_seconds"] = now() - start;
+/// n pairs recompressed from at most 1.5 n greedy ones, held against the best n and the first n.
+Json rowOf(const offline::BodyProblem& problem, const Truth& truth, const offline::ScalarPairs& first,
+           const offline::ScalarPairs& cut, int n) {
+  const auto error = [&](double captured) { return std::sqrt(std::max(0.0, 1.0 - captured / truth.energy)); };
+  const double optimum = offline::bestError(truth.singular_values, n);
+  const double kept = error(energies(cut, problem.weights()).sum());
+  const double raw = error(energies(first, problem.weights()).head(std::min<Index>(n, first.X.cols())).sum());
+  return {{"pairs", n},
+          {"greedy_pairs", first.X.cols()},
+          {"svd_energy_error", optimum},
+          {"energy_error", kept},
+          {"ratio", kept / optimum},
+          {"raw_energy_error", raw},
+          {"raw_ratio", raw / optimum}};
+}
 
-  out.step("recompression, and linear finite elements at held-out points");
-  const offline::Cholesky K0(problem.stiffness());
-  const MatrixXd truth = solvePoints(setup.model, K0, points, load);
-  const MatrixXd mixed = interpolated(setup, problem, K0, points);
-  linear["interpolation"] = pointErrors(setup, points, mixed, truth);
+}  // namespace
+
+offline::ScalarPairs studyLinear(const offline::SolverSetup& setup, const offline::BodyProblem& problem,
+                                 const std::vector<Touch>& points, const LiverOptions& options, Output& out,
+                                 Json& results) {
+  Json linear;
+  const Vec3 load(0.0, 0.0, -results["load_N"].get<double>());
+  out.step("linear PGD, 1.5 x " + std::to_string(options.pairs.back()) + " greedy pairs");
+  const offline::SeparatedSolution greedy = enrich(problem, options, out, linear);
+  out.step("linear finite elements at all positions and held-out points, for comparison only");
+  const Truth truth = solveForComparison(setup, problem, points, load, options.workers, linear);
+  out.step("recompression");
   const offline::ScalarPairs all = galerkin(problem, greedy.X);
   offline::ScalarPairs shown;
-  const auto error = [&](double captured) { return std::sqrt(std::max(0.0, 1.0 - captured / total)); };
   for (const int n : options.pairs) {
     const Index used = std::min<Index>(greedyPairsFor(n), all.X.cols());
     const offline::ScalarPairs first{all.X.leftCols(used), all.Y.topRows(used)};
-    const offline::Recompressed cut =
-        offline::recompress(first, offline::energyProduct(problem.stiffness()), problem.weights(), n);
-    const double optimum = offline::bestError(best, n);
-    const double kept = error(energies(cut.pairs, problem.weights()).sum());
-    const double raw = error(energies(first, problem.weights()).head(std::min<Index>(n, used)).sum());
-    Json row{{"pairs", n},
-             {"greedy_pairs", used},
-             {"svd_energy_error", optimum},
-             {"energy_error", kept},
-             {"ratio", kept / optimum},
-             {"raw_energy_error", raw},
-             {"raw_ratio", raw / optimum}};
-    row.update(pointErrors(setup, points, cut.pairs.X * atPoints(setup, points, cut.pairs.Y), truth));
+    shown =
+        offline::recompress(first, offline::energyProduct(problem.stiffness()), problem.weights(), n).pairs;
+    Json row = rowOf(problem, truth, first, shown, n);
+    row.update(pointErrors(setup, points, shown.X * (shown.Y * truth.mix), truth.points));
     linear["pairs_table"].push_back(row);
-    shown = cut.pairs;
   }
+  results["linear"] = linear;
   return shown;
 }
 

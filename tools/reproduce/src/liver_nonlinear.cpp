@@ -6,7 +6,7 @@
 
 #include "palpate/core/response.h"
 #include "palpate/modelfile/model_file.h"
-#include "palpate/offline/build_model.h"
+#include "palpate/offline/force_series.h"
 #include "palpate/offline/store_modes.h"
 
 namespace palpate::reproduce {
@@ -16,18 +16,24 @@ namespace {
 constexpr int kOversampling = 60;     // modes beyond those asked for, and
 constexpr int kConvergedSweeps = 12;  // sweeps after which the fit no longer moves: the SVD
 
-modelfile::ModelData solve(const LiverStudy& study, offline::Method method, int modes, int sweeps,
-                           const Output& out) {
+offline::BuildOptions buildOptions(const LiverStudy& study, const Output& out) {
+  return {study.options.workers, std::filesystem::absolute(out.file("")), out.quiet()};
+}
+
+/// u(X, s, f) in each of the numbers of pairs, fitted as palpate-solve does; last, the fit run to its end.
+std::vector<modelfile::ModelData> solveForce(const LiverStudy& study, const Output& out) {
   offline::Case c = study.solve;
-  c.method = method;
-  if (modes > 0) c.modes = modes;
-  if (sweeps > 0) c.sweeps = sweeps;
+  c.method = offline::Method::kSeriesForce;
+  std::vector<offline::FitSize> sizes;
+  for (const int n : study.options.pairs) sizes.push_back({n, c.sweepsOrDefault()});
+  sizes.push_back({study.options.pairs.back() + kOversampling, kConvergedSweeps});
   offline::BuildReport report;
-  modelfile::ModelData data = offline::buildModel(
-      c, study.mesh, {study.options.workers, std::filesystem::absolute(out.file("")), out.quiet()}, report);
-  data.attributes.provenance = Json{{"program", "palpate-reproduce"}}.dump();
-  data.attributes.model_id = "reproduce";
-  return data;
+  return offline::buildForceSeries(c, study.mesh, buildOptions(study, out), sizes, report);
+}
+
+modelfile::ModelData solveThreePart(const LiverStudy& study, const Output& out) {
+  offline::BuildReport report;
+  return offline::buildModel(study.solve, study.mesh, buildOptions(study, out), report);
 }
 
 /// The first n pairs of a "force" model, its contact displacement what they give.
@@ -39,12 +45,16 @@ modelfile::ModelData cut(const offline::SolverSetup& setup, const modelfile::Mod
   const Eigen::Map<const Eigen::MatrixXf> X(data.modes_X.data(), rows, all),
       Y(data.modes_Y.data(), all, columns);
   modelfile::ModelData out = data;
-  out.near_offset.clear();
+  n = std::min(n, all);
   offline::storeModes(setup, X.leftCols(n), Y.topRows(n), out);
   return out;
 }
 
-MetaModel writeAndLoad(const std::filesystem::path& path, const modelfile::ModelData& data) {
+/// @param id  what tells the file from the others of this run
+MetaModel writeAndLoad(const std::filesystem::path& path, modelfile::ModelData data, const std::string& id) {
+  data.attributes.model_id = "reproduce-" + id;
+  data.attributes.provenance =
+      Json{{"program", "palpate-reproduce"}, {"version", PALPATE_VERSION}, {"model", id}}.dump();
   modelfile::writeModel(path, data);
   return MetaModel::load(path);
 }
@@ -88,48 +98,66 @@ int papersPairs(const std::vector<int>& pairs) {
                            [](int a, int b) { return std::abs(a - kPaper) < std::abs(b - kPaper); });
 }
 
+/// How far the loads go, and how many were cut to the series' domain.
+void addLoads(const std::vector<Touch>& touches, int limited, Json& results) {
+  std::vector<double> moved;
+  for (const Touch& touch : touches) moved.push_back(1e3 * touch.displacement.norm());
+  std::sort(moved.begin(), moved.end());
+  results["loads"] = {
+      {"limited", limited}, {"median_mm", moved[moved.size() / 2]}, {"largest_mm", moved.back()}};
+}
+
+Json rowOf(const LiverStudy& study, const modelfile::ModelData& data, const modelfile::ModelData& best,
+           const std::vector<Touch>& touches, const Output& out, int n) {
+  const std::filesystem::path scratch = out.file("liver.tmp.h5");
+  Json row{{"pairs", n}};
+  row.update(quantiles(errorsOf(writeAndLoad(scratch, data, "force"), touches)));
+  const MetaModel optimum = writeAndLoad(scratch, cut(study.setup, best, n), "force-svd");
+  const std::vector<TouchError> errors = errorsOf(optimum, touches);
+  row["svd_field_error_p95"] = quantile(errors, &TouchError::field, 0.95);
+  row["svd_contact_error_p95"] = quantile(errors, &TouchError::contact, 0.95);
+  std::filesystem::remove(scratch);
+  return row;
+}
+
+void evaluatePapersModel(const LiverStudy& study, const std::vector<modelfile::ModelData>& models,
+                         const std::vector<Touch>& touches, const Output& out, Json& results) {
+  const std::vector<int>& pairs = study.options.pairs;
+  const int n = papersPairs(pairs);
+  const auto i = static_cast<std::size_t>(std::find(pairs.begin(), pairs.end(), n) - pairs.begin());
+  const std::filesystem::path path = out.file("liver-" + std::to_string(n) + "-pairs.h5");
+  timeEvaluation(writeAndLoad(path, models[i], "force-" + std::to_string(n)), touches.front(), results);
+  results["model_MiB"] = MiB(path);
+}
+
 }  // namespace
 
 void studyNonlinear(const LiverStudy& study, std::vector<Touch>& touches, Output& out, Json& results) {
-  const std::vector<int>& pairs = study.options.pairs;
-  const int most = *std::max_element(pairs.begin(), pairs.end());
-  const std::filesystem::path scratch = out.file("liver.tmp.h5");
-  out.step("series in the force, compressed to " + std::to_string(most) + " pairs");
+  out.step("series in the force, compressed to " + std::to_string(study.options.pairs.size()) +
+           " numbers of pairs, and its best separation");
   double start = now();
-  const modelfile::ModelData series = solve(study, offline::Method::kSeriesForce, most, 0, out);
+  const std::vector<modelfile::ModelData> models = solveForce(study, out);
   results["series_seconds"] = now() - start;
-  results["order"] = series.attributes.order;
-  out.step("the best separation of the same series: its SVD");
-  const modelfile::ModelData best =
-      solve(study, offline::Method::kSeriesForce, most + kOversampling, kConvergedSweeps, out);
+  results["order"] = models.front().attributes.order;
   out.step("full Newton at " + std::to_string(touches.size()) + " held-out points");
-  limitLoads(writeAndLoad(scratch, series), touches);
+  const std::filesystem::path scratch = out.file("liver.tmp.h5");
+  const int limited = limitLoads(writeAndLoad(scratch, models.back(), "force-svd"), touches);
   solveTouches(study.setup, study.options.workers, out.quiet(), touches);
+  addLoads(touches, limited, results);
   out.step("errors for every number of pairs");
-  const int papers = papersPairs(pairs);
-  for (const int n : pairs) {
-    const bool keep = n == papers;
-    const std::filesystem::path path = keep ? out.file("liver-" + std::to_string(n) + "-pairs.h5") : scratch;
-    const MetaModel model = writeAndLoad(path, cut(study.setup, series, n));
-    Json row{{"pairs", n}};
-    row.update(quantiles(errorsOf(model, touches)));
-    if (keep) timeEvaluation(model, touches.front(), results);
-    if (keep) results["model_MiB"] = MiB(path);
-    const MetaModel optimum = writeAndLoad(scratch, cut(study.setup, best, n));
-    const std::vector<TouchError> errors = errorsOf(optimum, touches);
-    row["svd_field_error_p95"] = quantile(errors, &TouchError::field, 0.95);
-    row["svd_contact_error_p95"] = quantile(errors, &TouchError::contact, 0.95);
-    results["modes_table"].push_back(row);
-  }
-  std::filesystem::remove(scratch);
+  for (std::size_t i = 0; i < study.options.pairs.size(); ++i)
+    results["modes_table"].push_back(
+        rowOf(study, models[i], models.back(), touches, out, study.options.pairs[i]));
+  evaluatePapersModel(study, models, touches, out, results);
   out.step("palpate's three-part model");
   start = now();
   const std::filesystem::path path = out.file("liver-three-part.h5");
-  const MetaModel model = writeAndLoad(path, solve(study, offline::Method::kSeriesDisplacement, 0, 0, out));
-  results["three_part"] = quantiles(errorsOf(model, touches));
-  results["three_part"]["modes"] = model.view().modes();
-  results["three_part"]["MiB"] = MiB(path);
-  results["three_part"]["seconds"] = now() - start;
+  const MetaModel model = writeAndLoad(path, solveThreePart(study, out), "three-part");
+  Json three_part = quantiles(errorsOf(model, touches));
+  three_part["modes"] = model.view().modes();
+  three_part["MiB"] = MiB(path);
+  three_part["seconds"] = now() - start;
+  results["three_part"] = three_part;
 }
 
 }  // namespace palpate::reproduce

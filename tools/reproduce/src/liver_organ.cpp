@@ -13,8 +13,7 @@ offline::Case wholeBoundary(const std::filesystem::path& mesh) {
   return c;
 }
 
-offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double& load) {
-  constexpr double kTravel = 2e-3;   // m
+offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double travel, double& load) {
   constexpr std::size_t kMost = 64;  // positions that the median is taken over
   const offline::Vec3 down(0.0, 0.0, -1.0);
   const offline::SparseMatrix unit = offline::patchLoads(setup.model, setup.positions.patches, {&down, 1});
@@ -30,7 +29,7 @@ offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double& 
     moved.push_back(setup.positions.patches[s].average(problem.toNodes(u)).norm());
   }
   std::nth_element(moved.begin(), moved.begin() + std::ptrdiff_t(moved.size() / 2), moved.end());
-  load = kTravel / moved[moved.size() / 2];
+  load = travel / moved[moved.size() / 2];
   return {setup.model, load * unit, weights};
 }
 

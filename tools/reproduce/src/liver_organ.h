@@ -12,7 +12,8 @@ namespace palpate::reproduce {
 [[nodiscard]] offline::Case wholeBoundary(const std::filesystem::path& mesh);
 
 /// A load downward at every contact position, over its patch; weights are the nodes' areas.
-/// @param[out] load  N: moves the patch by 2 mm in the median over the positions, linear
-[[nodiscard]] offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double& load);
+/// @param[in]  travel  m, median of |d| over the positions in linear theory  @param[out] load  N, that does it
+[[nodiscard]] offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double travel,
+                                                   double& load);
 
 }  // namespace palpate::reproduce

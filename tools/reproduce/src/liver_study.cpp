@@ -15,7 +15,8 @@ namespace palpate::reproduce {
 
 namespace {
 
-constexpr double kTravel = 2e-3;  // m, most that a held-out load moves its contact, linear
+constexpr double kTravel =
+    2e-3;  // m, median of |d| under the vertical load, most of |d| at held-out points; linear
 
 mesh::TetMesh readOrgan(const std::filesystem::path& path) {
   mesh::TetMesh organ = mesh::readMesh(path);
@@ -42,6 +43,7 @@ Json problemOf(const LiverOptions& options, const offline::SolverSetup& setup, d
           {"nu", setup.model.material().nu},
           {"patch_radius_mm", 1e3 * setup.patch_radius},
           {"load_N", load},
+          {"travel_mm", 1e3 * kTravel},
           {"samples", options.samples}};
 }
 
@@ -60,6 +62,20 @@ SurfaceFigure figureOf(const std::string& title, std::vector<SurfacePanel> panel
   return figure;
 }
 
+/// One row a surface node; functions that there are not are zero.
+std::vector<std::vector<double>> functionRows(const std::vector<SurfacePanel>& X,
+                                              const std::vector<SurfacePanel>& Y) {
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < X.front().positions.size(); ++i) {
+    const Eigen::Vector3d& x = X.front().positions[i];
+    std::vector<double> row{x.x(), x.y(), x.z()};
+    for (const std::vector<SurfacePanel>* panels : {&X, &Y})
+      for (std::size_t k = 0; k < 6; ++k) row.push_back(k < panels->size() ? (*panels)[k].values[i] : 0.0);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 /// Third component of the first six X_k on the boundary, and the first six Y_k.
 void writeFunctions(const offline::SolverSetup& setup, const offline::ScalarPairs& pairs, Output& out) {
   std::vector<SurfacePanel> X, Y;
@@ -73,6 +89,9 @@ void writeFunctions(const offline::SolverSetup& setup, const offline::ScalarPair
     X.push_back(panelOf(setup, "X_{3}^{" + std::to_string(k + 1) + "}(x)", std::move(x)));
     Y.push_back(panelOf(setup, "Y^{" + std::to_string(k + 1) + "}(s)", std::move(y)));
   }
+  out.writeCsv("figures-6-7-liver.csv",
+               {"x_m", "y_m", "z_m", "X1", "X2", "X3", "X4", "X5", "X6", "Y1", "Y2", "Y3", "Y4", "Y5", "Y6"},
+               functionRows(X, Y));
   drawSurfaces(out.file("figure-6-liver-x.png"),
                figureOf("Liver: first six X (paper: Figure 6)", std::move(X)));
   drawSurfaces(out.file("figure-7-liver-y.png"),
@@ -116,15 +135,20 @@ void writeErrors(const Json& results, Output& out) {
 
 }  // namespace
 
-Json reproduceLiver(const LiverOptions& options, Output& out) {
+Json reproduceLiver(const LiverOptions& asked, Output& out) {
   const double start = now();
+  LiverOptions options = asked;
+  std::sort(options.pairs.begin(), options.pairs.end());
   out.step("the organ, its clamp and its load positions");
   const mesh::TetMesh mesh =
       options.mesh.empty() ? organ::makeLiver(options.element_size) : readOrgan(options.mesh);
   const offline::Case c = wholeBoundary(options.mesh);
   const offline::SolverSetup setup(c, mesh);
+  if (options.pairs.back() >= static_cast<int>(setup.positions.nodes.size()))
+    throw ReproduceError("--pairs " + std::to_string(options.pairs.back()) + ": the organ has only " +
+                         std::to_string(setup.positions.nodes.size()) + " load positions");
   double load = 0.0;
-  const offline::BodyProblem problem = downwardProblem(setup, load);
+  const offline::BodyProblem problem = downwardProblem(setup, kTravel, load);
   Json results = problemOf(options, setup, load);
   std::vector<Touch> touches = drawPoints(setup, options.samples, 2013);
   const offline::ScalarPairs pairs = studyLinear(setup, problem, touches, options, out, results);

@@ -54,6 +54,9 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--beam-steps", options.beam.steps, "load steps of the beam")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  app.add_option("--beam-tolerance", options.beam.tolerance, "where a load step of the beam stops enriching")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str();
   app.add_option("--beam-nodes", options.beam.nodes, "nodes of the beam along length, width, height")
       ->delimiter(',')
       ->check(CLI::Range(2, 200))
@@ -65,7 +68,7 @@ void describe(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--coarse-element-size", options.liver.coarse_element_size,
                  "of the liver-like organ that the ten terms are run on, m; 0 leaves them out")
-      ->check(CLI::Range(0.0, 0.02))
+      ->check(CLI::Validator(CLI::Range(0.008, 0.02)) | CLI::IsMember({"0"}))
       ->capture_default_str();
   app.add_option("--samples", options.liver.samples, "held-out points of the liver")
       ->check(CLI::Range(2, 10000))
@@ -101,12 +104,14 @@ std::string machine() {
   return model + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads, " + system.sysname;
 }
 
-Json runOne(const std::string& name, const Options& options, const std::filesystem::path& folder) {
+Json runOne(const std::string& name, const Options& options, const std::filesystem::path& folder,
+            const Json& about) {
   reproduce::Output out(folder, options.quiet);
   if (!options.quiet) std::cerr << "== " << name << '\n';
   Json results = name == "rod"    ? reproduce::reproduceRod(options.rod, out)
                  : name == "beam" ? reproduce::reproduceBeam(options.beam, out)
                                   : reproduce::reproduceLiver(options.liver, out);
+  results["run"] = about;
   out.writeJson("results.json", results);
   return results;
 }
@@ -119,7 +124,7 @@ void run(Options options) {
   // 1. The benchmarks.
   for (const char* name : {"rod", "beam", "liver"}) {
     if (!all && options.what != name) continue;
-    results[name] = runOne(name, options, all ? options.output / name : options.output);
+    results[name] = runOne(name, options, all ? options.output / name : options.output, results["run"]);
     // 2. The report, after each of them, so that an interrupted run leaves one of what was done.
     if (all) out.writeJson("results.json", results);
     out.writeText("report.md", reproduce::report(results, all));

@@ -86,6 +86,8 @@ TouchError errorOf(const MetaModel& model, const Touch& touch, FieldScratch& scr
 std::vector<Touch> drawPoints(const offline::SolverSetup& setup, int count, unsigned seed) {
   std::mt19937 random(seed);
   const std::vector<double> areas = reachableAreas(setup);
+  if (std::none_of(areas.begin(), areas.end(), [](double area) { return area > 0.0; }))
+    throw std::runtime_error("no triangle of the surface has three free nodes");
   std::discrete_distribution<int> triangle(areas.begin(), areas.end());
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<Touch> touches;
@@ -113,12 +115,15 @@ void drawLoads(const offline::FeModel& model, const offline::Cholesky& K0, doubl
   }
 }
 
-void limitLoads(const MetaModel& model, std::vector<Touch>& touches) {
+int limitLoads(const MetaModel& model, std::vector<Touch>& touches) {
+  int limited = 0;
   for (Touch& touch : touches) {
     Response response;
-    if (respondToLoad(model, touch.s, touch.force, response) == ResponseStatus::kClamped)
-      touch.force = response.force;
+    if (respondToLoad(model, touch.s, touch.force, response) != ResponseStatus::kClamped) continue;
+    touch.force = response.force;
+    ++limited;
   }
+  return limited;
 }
 
 void solveTouches(const offline::SolverSetup& setup, int workers, bool quiet, std::vector<Touch>& touches) {

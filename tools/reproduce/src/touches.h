@@ -32,8 +32,8 @@ struct TouchError {
 /// Loads of random directions whose linear contact displacement is evenly up to `travel`.
 void drawLoads(const offline::FeModel& model, const offline::Cholesky& K0, double travel, unsigned seed,
                std::vector<Touch>& touches);
-/// Scales each load down to what a "force" model is trusted with at its point.
-void limitLoads(const MetaModel& model, std::vector<Touch>& touches);
+/// Scales each load down to what a "force" model is trusted with at its point. @return how many were
+int limitLoads(const MetaModel& model, std::vector<Touch>& touches);
 
 /// Full Newton for every touch, on `workers` threads. @throw std::runtime_error when it does not converge
 void solveTouches(const offline::SolverSetup& setup, int workers, bool quiet, std::vector<Touch>& touches);

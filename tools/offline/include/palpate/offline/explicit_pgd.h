@@ -43,8 +43,9 @@ struct ExplicitOptions {
 ///   S_s = R . rho_s / R . K_T(u_s) R,    (sum_s v_s S_s^2 K_T(u_s)) R = sum_s v_s S_s rho_s,
 /// with v_s = w_s / (l_s . K0^-1 l_s), and all Y follow again. A pair born at step j is zero up to t_{j-1}.
 /// Differs from the paper: R is not a new function of each step when those there are do; Y of every pair goes
-/// on with the load. No position is ever solved by itself; what is evaluated for each s, u_s, K_T(u_s), r_s, are
-/// the integrands over s.
+/// on with the load. No position is ever solved nonlinearly by itself; what is evaluated for each s, u_s, K_T(u_s),
+/// r_s, are the integrands over s. The weights v_s take one linear solve a position at the start, and the residual,
+/// as long as it is exact, one with K0 for each position and pair.
 /// Of positions beyond `exact_residuals`, the residual is the mean over Gaussian combinations of positions
 /// (relative spread of the norm at most 1 / sqrt(2 probes)).
 /// @throw std::invalid_argument naming the option out of range, std::runtime_error with the level where the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -15,9 +16,9 @@ struct RodOptions {
 };
 
 struct BeamOptions {
-  double load{1.0};                    ///< N, downward, > 0
-  int steps{100};                      ///< load steps, >= 1
-  double tolerance{0.0};               ///< of the residual of a step, > 0; 0: the solver's default
+  double load{1.0};       ///< N, downward, > 0
+  int steps{100};         ///< load steps, >= 1
+  double tolerance{0.1};  ///< of the residual of a step, relative, energy norm, worst position, > 0
   std::array<int, 3> nodes{21, 9, 9};  ///< along 400 x 40 x 40 mm, each >= 2
   int workers{1};
 };
@@ -28,7 +29,7 @@ struct LiverOptions {
   double coarse_element_size{0.016};  ///< m, of the liver-like organ for the ten terms; 0: leave it out
   std::vector<int> pairs{20, 50, 100, 167, 300};
   int samples{59};  ///< held-out points; their maximum bounds the 95 % quantile with 95 % confidence
-  int steps{20};    ///< load steps of the ten terms
+  int steps{30};    ///< load steps of the ten terms
   int workers{1};
 };
 
