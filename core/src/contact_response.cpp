@@ -18,14 +18,15 @@ Mat3 ContactSeries::gradient(const Vec3& p) const noexcept PALPATE_NONBLOCKING {
   Mat3 sum = Mat3::Zero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(functions_->size()); ++k)
     sum += coefficient_[k] * gradient[k].transpose();
-  return sum;
+  return sum / functions_->reference();
 }
 
 ContactResponse::ContactResponse(const ModelView& view, const ModelAttributes& attributes)
     : functions_(view, attributes, attributes.force_order),
       coefficient_(attributes.parameters == Parameters::kDisplacement ? view.contact_force
                                                                       : view.contact_displacement),
-      limit_(view.contact_domain_radius) {}
+      limit_(view.contact_domain_radius),
+      harmonic_(attributes.parameters != Parameters::kDisplacement) {}
 
 ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
   ContactSeries series(functions_);
@@ -43,10 +44,12 @@ ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE
 }
 
 double ContactResponse::limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
-  double limit = 0.0;
-  for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b)
-    limit += mix.weight[b] * limit_[static_cast<std::size_t>(mix.position[b])];
-  return limit;
+  double sum = 0.0;
+  for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b) {
+    const double limit = limit_[static_cast<std::size_t>(mix.position[b])];
+    sum += mix.weight[b] * (harmonic_ ? 1.0 / limit : limit);
+  }
+  return harmonic_ ? 1.0 / sum : sum;
 }
 
 }  // namespace palpate

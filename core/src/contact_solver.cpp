@@ -15,7 +15,8 @@ Vec3 outwardDirection(const NearestPoint& nearest, const Vec3& c, const Vec3& no
 }
 
 /// Looks up the organ's answer to the contact's d. @return false when the organ would have to pull the tool, or
-/// gives no force to one that is withdrawn: a load that only pushes (Parameters::kLevel) cannot pull.
+/// gives no force to one that is withdrawn: a load that only pushes (Parameters::kLevel) cannot pull. What is no
+/// number does not pull: it is left for the tick to find.
 bool answer(const MetaModel& model, Contact& contact) noexcept {
   const ResponseStatus status = respond(model, contact.s, contact.displacement, contact.response);
   contact.flags = kInContact;
@@ -23,7 +24,7 @@ bool answer(const MetaModel& model, Contact& contact) noexcept {
   if (status == ResponseStatus::kNoAnswer) return false;
   const Vec3& f = contact.response.force;
   if (f == Vec3::Zero() && contact.displacement.dot(contact.normal) > 0.0) return false;
-  return f.dot(contact.normal) <= 0.0;
+  return !(f.dot(contact.normal) > 0.0);
 }
 
 }  // namespace

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "load_driven.h"
 
 namespace palpate {
 
 namespace {
+
+/// Of the symmetric part, by its leading minors; false for what is no number.
+bool isPositiveDefinite(const Mat3& A) noexcept {
+  const Mat3 S = 0.5 * (A + A.transpose());
+  return S(0, 0) > 0.0 && S.topLeftCorner<2, 2>().determinant() > 0.0 && S.determinant() > 0.0;
+}
 
 /// Newton on d(f) = d, over all f: beyond the domain d(f) is continued with degree 1, so that it has one
 /// solution for each direction of d if it has one at the domain's edge.
@@ -14,8 +23,10 @@ class ForceSearch {
   explicit ForceSearch(const ContactSeries& series) noexcept
       : series_(series), at_rest_(series.gradient(Vec3::Zero()).inverse()) {}
 
-  /// f of the largest share of d that is reached. @return the share: 1, or the last of 32nds that converged
-  [[nodiscard]] double reach(const Vec3& d, Vec3& f) const noexcept;
+  /// False when the model has no answer to a small d.
+  [[nodiscard]] bool valid() const noexcept { return at_rest_.allFinite(); }
+  /// f with d(f) = d, on a branch with a positive definite dd/df. @return false when f is only what comes nearest
+  [[nodiscard]] bool find(const Vec3& d, Vec3& f) const noexcept;
   /// Derivative of the continued d(f).
   [[nodiscard]] Mat3 gradient(const Vec3& f) const noexcept;
 
@@ -23,6 +34,7 @@ class ForceSearch {
   [[nodiscard]] bool beyond(const Vec3& f) const noexcept { return f.norm() > series_.limit(); }
   [[nodiscard]] Vec3 value(const Vec3& f) const noexcept;
   [[nodiscard]] bool newton(const Vec3& d, Vec3& f) const noexcept;
+  void descend(const Vec3& d, Vec3& f) const noexcept;
   [[nodiscard]] bool improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept;
 
   const ContactSeries& series_;
@@ -66,43 +78,61 @@ bool ForceSearch::newton(const Vec3& d, Vec3& f) const noexcept {
   return residual.norm() <= kTolerance * d.norm();
 }
 
-double ForceSearch::reach(const Vec3& d, Vec3& f) const noexcept {
-  constexpr int kHalvings = 5;
-  f = at_rest_ * d;
-  if (newton(d, f)) return 1.0;
-  double reached = 0.0, missed = 1.0;
+/// From f = 0, so that of several branches that of small forces is found.
+void ForceSearch::descend(const Vec3& d, Vec3& f) const noexcept {
+  constexpr int kSteps = 30;
+  constexpr double kFirst = 1e-3, kLeast = 1e-12;  // damping, of the diagonal
+  constexpr double kFloor = 1e-6;                  // of the trace: keeps a singular matrix away
   f.setZero();
-  for (int i = 0; i < kHalvings; ++i) {
-    const double share = 0.5 * (reached + missed);
-    Vec3 trial = reached > 0.0 ? Vec3(f * (share / reached)) : Vec3(at_rest_ * (share * d));
-    const bool good = newton(share * d, trial);
-    (good ? reached : missed) = share;
-    if (good) f = trial;
+  Vec3 residual = -d;
+  double damping = kFirst;
+  for (int i = 0; i < kSteps; ++i) {
+    const Mat3 J = gradient(f);
+    Mat3 A = J.transpose() * J;
+    A.diagonal() += damping * (A.diagonal() + Vec3::Constant(kFloor * A.trace()));
+    const Vec3 next = f - A.inverse() * (J.transpose() * residual), left = value(next) - d;
+    const bool better = left.norm() < residual.norm();  // false for NaN
+    damping = better ? std::max(kLeast, 0.1 * damping) : 10.0 * damping;
+    if (better) f = next, residual = left;
   }
-  return reached;
+}
+
+bool ForceSearch::find(const Vec3& d, Vec3& f) const noexcept {
+  constexpr double kTolerance = 1e-9;  // of |d|
+  f = at_rest_ * d;
+  if (newton(d, f) && isPositiveDefinite(gradient(f))) return true;
+  descend(d, f);
+  return (value(f) - d).norm() <= kTolerance * d.norm() && isPositiveDefinite(gradient(f));
 }
 
 /// |d| where the ray of f leaves the domain; at rest, where there is no ray, a length that is inside of it.
 double radiusAlong(const ContactSeries& series, const Vec3& f, const Mat3& stiffness) noexcept {
   if (f.norm() > 0.0) return series.value(f.stableNormalized() * series.limit()).norm();
-  return series.limit() / stiffness.norm();
+  return stiffness.isZero(0.0) ? 0.0 : series.limit() / stiffness.norm();
 }
 
-/// What a model answers whose numbers overflow, or have no inverse.
-ResponseStatus checked(ResponseStatus status, Response& out) noexcept {
-  if (out.force.allFinite() && out.stiffness.allFinite() && out.displacement.allFinite()) return status;
+ResponseStatus noNumber(Response& out) noexcept {
   out = Response{};
+  out.force.setConstant(std::numeric_limits<double>::quiet_NaN());
   return ResponseStatus::kClamped;
 }
 
 }  // namespace
+
+ResponseStatus checked(ResponseStatus status, Response& out) noexcept PALPATE_NONBLOCKING {
+  const bool good = out.force.allFinite() && out.stiffness.allFinite() && out.displacement.allFinite() &&
+                    std::isfinite(out.domain_radius);
+  return good ? status : noNumber(out);
+}
 
 ResponseStatus answerToForce(const ContactSeries& series, const Vec3& f,
                              Response& out) noexcept PALPATE_NONBLOCKING {
   out.force = clampToDomain(f, series.limit());
   out.parameter = out.force;
   out.displacement = series.value(out.force);
-  out.stiffness = series.gradient(out.force).inverse();
+  const Mat3 compliance = series.gradient(out.force);
+  out.stiffness.setZero();
+  if (isPositiveDefinite(compliance)) out.stiffness = compliance.inverse();
   out.domain_radius = radiusAlong(series, out.force, out.stiffness);
   return checked(f.stableNorm() > series.limit() ? ResponseStatus::kClamped : ResponseStatus::kOk, out);
 }
@@ -112,15 +142,16 @@ ResponseStatus findForce(const ContactSeries& series, const Vec3& d,
   constexpr double kFar = 1e3;  // m; beyond every domain, and its square is finite
   const Vec3 target = clampToDomain(d, kFar);
   const ForceSearch search(series);
+  if (!search.valid()) return noNumber(out);
   Vec3 f = Vec3::Zero();
-  const double share = search.reach(target, f);
+  const bool found = search.find(target, f);
   const ResponseStatus status = answerToForce(series, f, out);
-  if (share < 1.0) {  // the force stays where Newton stopped
+  if (!found) {  // the force stays where nothing comes nearer
     out.stiffness.setZero();
     out.domain_radius = out.displacement.norm();
     return ResponseStatus::kClamped;
   }
-  if (status == ResponseStatus::kOk) return status;
+  if (status == ResponseStatus::kOk || !out.force.allFinite()) return status;
   const Mat3 projection = projectionGradient(f, series.limit());
   out.stiffness = projection * search.gradient(f).inverse() * (target.norm() / d.stableNorm());
   return checked(status, out);

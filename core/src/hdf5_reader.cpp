@@ -4,8 +4,11 @@
 
 #include <hdf5.h>
 
+#include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 

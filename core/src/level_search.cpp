@@ -20,7 +20,7 @@ struct Bracket {
 class LevelSearch {
  public:
   LevelSearch(const ContactSeries& series, const Vec3& direction) noexcept
-      : series_(series), direction_(direction) {}
+      : series_(series), direction_(direction), last_(lastStep(series.limit(), series.levelSteps())) {}
 
   [[nodiscard]] double along(double t) const noexcept { return direction_.dot(series_.value({t, 0.0, 0.0})); }
   /// The level with g = wanted; 0 < wanted <= g(t_max). @param[out] slope  dg/dt there, m
@@ -28,16 +28,16 @@ class LevelSearch {
 
  private:
   [[nodiscard]] double level(int step) const noexcept {
-    return std::min(double(step) / series_.levelSteps(), series_.limit());
+    return step == last_ ? series_.limit() : double(step) / series_.levelSteps();
   }
 
   const ContactSeries& series_;
   const Vec3& direction_;
+  int last_;
 };
 
 double LevelSearch::find(double wanted, double& slope) const noexcept {
-  Bracket in{0, static_cast<int>(std::ceil(series_.limit() * series_.levelSteps())), 0.0,
-             along(series_.limit())};
+  Bracket in{0, last_, 0.0, along(series_.limit())};
   while (in.last - in.first > 1) {  // at most 17 times: L <= 100000
     const int middle = (in.first + in.last) / 2;
     const double g = along(level(middle));
@@ -46,7 +46,7 @@ double LevelSearch::find(double wanted, double& slope) const noexcept {
   }
   const double begin = level(in.first), end = level(in.last);
   slope = (in.above - in.below) / (end - begin);
-  return begin + (wanted - in.below) / slope;
+  return std::min(begin + (wanted - in.below) / slope, end);
 }
 
 Vec3 directionOf(const ModelAttributes& attributes) noexcept {
@@ -63,16 +63,19 @@ ResponseStatus settle(const ContactSeries& series, const ModelAttributes& attrib
   out.domain_radius = series.value({series.limit(), 0.0, 0.0}).norm();
   out.stiffness.setZero();
   if (slope > 0.0) out.stiffness = attributes.load / slope * e * e.transpose();
-  if (out.displacement.allFinite() && out.stiffness.allFinite()) return status;
-  out = Response{};
-  return ResponseStatus::kClamped;
+  return checked(status, out);
 }
 
 }  // namespace
 
+int lastStep(double limit, int steps) noexcept PALPATE_NONBLOCKING {
+  constexpr double kRounding = 1e-9;  // of a step: a limit that is a level but for the last bits begins none
+  return std::max(1, static_cast<int>(std::ceil(limit * steps - kRounding)));
+}
+
 ResponseStatus answerToLevel(const ContactSeries& series, const ModelAttributes& attributes, double t,
                              Response& out) noexcept PALPATE_NONBLOCKING {
-  const double used = std::clamp(t, 0.0, series.limit());
+  const double used = t > 0.0 ? std::min(t, series.limit()) : 0.0;  // what is no number is at rest
   const double slope = directionOf(attributes).dot(series.gradient({used, 0.0, 0.0}).col(0));
   const ResponseStatus status = used == t ? ResponseStatus::kOk : ResponseStatus::kClamped;
   return settle(series, attributes, used, slope, status, out);
@@ -84,7 +87,7 @@ ResponseStatus findLevel(const ContactSeries& series, const ModelAttributes& att
   const LevelSearch search(series, e);
   const double wanted = e.dot(d);
   if (d == Vec3::Zero()) return answerToLevel(series, attributes, 0.0, out);
-  if (wanted <= 0.0) return settle(series, attributes, 0.0, 0.0, ResponseStatus::kClamped, out);
+  if (!(wanted > 0.0)) return settle(series, attributes, 0.0, 0.0, ResponseStatus::kClamped, out);
   if (!(wanted <= search.along(series.limit())))
     return settle(series, attributes, series.limit(), 0.0, ResponseStatus::kClamped, out);
   double slope = 0.0;

@@ -8,7 +8,9 @@
 namespace palpate {
 
 // The answers of models whose parameter is the load: to a load that is given, and to a displacement, for which
-// the load is found. All of them write `out`, with finite numbers, and return kOk or kClamped. Real-time: yes.
+// the load is found. All of them write `out` and return kOk or kClamped. Numbers that overflow, or a model whose
+// compliance at rest has no inverse, give a force of NaN and zeros beside it, kClamped: the tick holds and fades
+// what was before (kNonFiniteForce). Real-time: yes.
 
 /// d, or d scaled to the length `radius`.
 [[nodiscard]] Vec3 clampToDomain(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING;
@@ -16,23 +18,33 @@ namespace palpate {
 /// Derivative of d -> radius d / |d|, for |d| > 0.
 [[nodiscard]] Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING;
 
-/// d(s, f), f clamped to f_max; stiffness (dd/df)^-1.
+/// `status`, or what a model answers whose numbers overflow.
+[[nodiscard]] ResponseStatus checked(ResponseStatus status, Response& out) noexcept PALPATE_NONBLOCKING;
+
+/// d(s, f), f clamped to f_max; stiffness (dd/df)^-1, or zero where the symmetric part of dd/df is not positive
+/// definite: there the model has folded, and its force would push a tool on.
 [[nodiscard]] ResponseStatus answerToForce(const ContactSeries& series, const Vec3& f,
                                            Response& out) noexcept PALPATE_NONBLOCKING;
 
 /// The f with d(s, f) = d, by damped Newton. Beyond f_max d is continued with degree 1, d(f_c) |f| / f_max with
 /// f_c = f_max f / |f|: a d whose f lies there is answered by f_c and its d(f_c), which is d scaled.
-/// Where Newton fails, the largest share of d that it reaches (of 32nds) is answered, kClamped.
-/// Cost at most 6 x 12 Newton steps; one needs 3 to 5.
+/// Where Newton fails, or ends where dd/df is not positive definite, at most 30 Levenberg-Marquardt steps from
+/// f = 0 lower |d(s, f) - d|^2; what they end at is answered, kClamped and without stiffness if it misses d or is
+/// not positive definite either.
+/// Cost: 3 to 5 Newton steps where it works; at most 12, of up to 6 evaluations each, and 30 more of one each.
 [[nodiscard]] ResponseStatus findForce(const ContactSeries& series, const Vec3& d,
                                        Response& out) noexcept PALPATE_NONBLOCKING;
 
-/// d(s, t) and f = t load e, t clamped to [0, t_max]; stiffness load e e^T / (e . dd/dt).
+/// The step that a level range [0, limit] of `steps` steps per unit ends in; at least 1.
+[[nodiscard]] int lastStep(double limit, int steps) noexcept PALPATE_NONBLOCKING;
+
+/// d(s, t) and f = t load e, t clamped to [0, t_max], 0 if it is no number; stiffness load e e^T / (e . dd/dt).
 [[nodiscard]] ResponseStatus answerToLevel(const ContactSeries& series, const ModelAttributes& attributes,
                                            double t, Response& out) noexcept PALPATE_NONBLOCKING;
 
 /// The level with e . d(s, t) = e . d, e the load's direction: only one number is free. Bisection over the
-/// steps, then exact within one. e . d <= 0 gives t = 0. Cost at most 18 evaluations.
+/// steps, then exact within one; the loader saw to it that e . d(s, t) rises at each position up to its t_max.
+/// e . d <= 0, or no number, gives t = 0. Cost at most 18 evaluations.
 [[nodiscard]] ResponseStatus findLevel(const ContactSeries& series, const ModelAttributes& attributes,
                                        const Vec3& d, Response& out) noexcept PALPATE_NONBLOCKING;
 

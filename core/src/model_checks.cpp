@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <vector>
 
+#include "load_driven.h"
 #include "model_reader.h"
 #include "palpate/core/load_error.h"
 #include "palpate/core/multi_index.h"
@@ -10,6 +15,13 @@
 namespace palpate {
 
 namespace {
+
+/// 12 digits: what is wrong with a number may be in its last ones.
+std::string text(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.12g", value);
+  return digits.data();
+}
 
 /// Says what is wrong with the numbers of one file.
 class Checker {
@@ -23,7 +35,7 @@ class Checker {
   template <typename T>
   void finite(const char* dataset, std::span<const T> values) const {
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i])) failAt(dataset, i, "is " + std::to_string(values[i]), "a finite number");
+      if (!std::isfinite(values[i])) failAt(dataset, i, "is " + text(double(values[i])), "a finite number");
   }
 
   /// Each value is an index below `end`, and at least `begin` (0, or -1 where "none" is allowed).
@@ -59,7 +71,7 @@ void checkOrders(const ModelAttributes& a, const Checker& check) {
 /// The largest |d|, |f| or t that is trusted.
 void checkDomain(Parameters parameters, std::span<const double> radius, const Checker& check) {
   for (std::size_t m = 0; m < radius.size(); ++m) {
-    const std::string found = "is " + std::to_string(radius[m]);
+    const std::string found = "is " + text(radius[m]);
     if (parameters == Parameters::kDisplacement && radius[m] < 0.0)
       check.failAt("/contact/domain_radius", m, found, "at least 0");
     if (parameters == Parameters::kForce && !(radius[m] > 0.0))
@@ -81,14 +93,37 @@ void checkLevels(const ModelView& v, const Checker& check) {
   check.finite("/levels/Z", v.levels_Z);
   for (std::size_t q = 0; q < C; ++q)
     if (v.levels_Z[q * points] != 0.0)
-      check.failAt("/levels/Z", q * points, "is " + std::to_string(v.levels_Z[q * points]), "0 at level 0");
+      check.failAt("/levels/Z", q * points, "is " + text(v.levels_Z[q * points]), "0 at level 0");
+}
+
+/// Displacement along the load, e . d(s, t), must rise up to t_max: a level is found by it.   DESIGN 2.1
+void checkRising(const ModelAttributes& a, const ModelView& v, const Checker& check) {
+  const auto e = Eigen::Map<const Vec3>(a.load_direction.data());
+  const std::size_t C = v.level_functions, points = v.levels_Z.size() / C;
+  const int steps = static_cast<int>(points) - 1;
+  std::vector<double> along(points);
+  for (std::size_t m = 0; m < v.positions(); ++m) {
+    const auto last = static_cast<std::size_t>(lastStep(v.contact_domain_radius[m], steps));
+    std::fill(along.begin(), along.end(), 0.0);
+    for (std::size_t q = 0; q < C; ++q) {
+      const double d = e.dot(Eigen::Map<const Vec3>(v.contact_displacement.data() + 3 * (m * C + q)));
+      for (std::size_t j = 0; j <= last; ++j) along[j] += d * v.levels_Z[q * points + j];
+    }
+    for (std::size_t j = 0; j < last; ++j)
+      if (!(along[j + 1] > along[j]))
+        check.failAt("/contact/displacement", m,
+                     "along the load goes from " + text(along[j]) + " m to " + text(along[j + 1]) +
+                         " m between the levels " + text(double(j) / steps) + " and " +
+                         text(double(j + 1) / steps),
+                     "to rise up to t_max = " + text(v.contact_domain_radius[m]));
+  }
 }
 
 /// A load-driven model has modes only.                                                       DESIGN 2.1
 void checkNoNear(const ModelAttributes& a, const ModelView& v, const Checker& check) {
   const std::string should =
       "none: a model with parameters \"" + std::string(toString(a.parameters)) + "\" has no near field";
-  check.require(a.near_radius == 0.0, "attribute near_radius is " + std::to_string(a.near_radius), should);
+  check.require(a.near_radius == 0.0, "attribute near_radius is " + text(a.near_radius), should);
   check.require(v.near_node.empty(), "/near/node has " + std::to_string(v.near_node.size()) + " numbers",
                 should);
 }
@@ -144,8 +179,8 @@ void checkFinite(const ModelView& v, const Checker& check) {
 void checkAttributes(const ModelAttributes& a, const std::string& name) {
   const Checker check(name);
   const auto range = [&](const char* attribute, double value, bool good, const char* expected) {
-    check.require(std::isfinite(value) && good,
-                  std::string("attribute ") + attribute + " is " + std::to_string(value), expected);
+    check.require(std::isfinite(value) && good, std::string("attribute ") + attribute + " is " + text(value),
+                  expected);
   };
   check.require(a.law == "stvk", "attribute law is \"" + a.law.substr(0, 40) + "\"", "\"stvk\"");
   if (a.parameters != Parameters::kLevel) checkOrders(a, check);
@@ -159,8 +194,7 @@ void checkAttributes(const ModelAttributes& a, const std::string& name) {
   if (a.parameters != Parameters::kLevel) return;
   range("load", a.load, a.load > 0.0, "more than 0 N");
   const double length = Eigen::Map<const Vec3>(a.load_direction.data()).stableNorm();
-  check.require(std::abs(length - 1.0) <= 1e-9,
-                "attribute load_direction has length " + std::to_string(length), "1");
+  check.require(std::abs(length - 1.0) <= 1e-9, "attribute load_direction has length " + text(length), "1");
 }
 
 void checkContents(const ModelAttributes& a, const ModelView& v, const std::string& name) {
@@ -172,7 +206,10 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   checkDomain(a.parameters, v.contact_domain_radius, check);
   checkNear(v, check);
   if (a.parameters != Parameters::kDisplacement) checkNoNear(a, v, check);
-  if (a.parameters == Parameters::kLevel) checkLevels(v, check);
+  if (a.parameters == Parameters::kLevel) {
+    checkLevels(v, check);
+    checkRising(a, v, check);
+  }
   const std::size_t N = v.mesh_node_tag.size();
   check.require(N > 0, "/mesh/nodes is empty", "the volume mesh");
   check.indices("/mesh/tetrahedra", v.mesh_tetrahedra, N);

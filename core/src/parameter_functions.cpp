@@ -5,10 +5,25 @@
 
 namespace palpate {
 
+namespace {
+
+double referenceOf(const ModelAttributes& attributes) noexcept {
+  switch (attributes.parameters) {
+    case Parameters::kDisplacement:
+      return attributes.reference_displacement;
+    case Parameters::kForce:
+      return attributes.reference_force;
+    case Parameters::kLevel:
+      return 1.0;
+  }
+  return 1.0;
+}
+
+}  // namespace
+
 ParameterFunctions::ParameterFunctions(const ModelView& view, const ModelAttributes& attributes, int order)
     : basis_(attributes.parameters == Parameters::kLevel ? 1 : order),
-      reference_(attributes.parameters == Parameters::kForce ? attributes.reference_force
-                                                             : attributes.reference_displacement),
+      reference_(referenceOf(attributes)),
       size_(basis_.size()) {
   if (attributes.parameters != Parameters::kLevel) return;
   Z_ = view.levels_Z;
@@ -38,11 +53,7 @@ void ParameterFunctions::evaluate(const Vec3& p,
 
 void ParameterFunctions::gradient(const Vec3& p,
                                   std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING {
-  if (level_steps_ == 0) {
-    basis_.gradient(p / reference_, gradient);
-    for (Vec3& g : gradient.first(static_cast<std::size_t>(size_))) g /= reference_;
-    return;
-  }
+  if (level_steps_ == 0) return basis_.gradient(p / reference_, gradient);
   const std::size_t step = place(p.x()).step;
   for (int q = 0; q < size_; ++q) {
     const double* const z = row(q) + step;

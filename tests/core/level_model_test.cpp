@@ -97,6 +97,43 @@ TEST(LevelModel, PressIsAnsweredAlongTheLoad) {
   EXPECT_LT(vec(tool.force).dot(e), 0.0) << "the tool feels the opposite of the load";
 }
 
+TEST(LevelModel, WhatIsNoNumberIsAtRest) {
+  Random random;
+  const ContactPoint s = random.contactPoint(levelModel());
+  const double nan = std::nan("");
+  Response out;
+  EXPECT_EQ(respondToLoad(levelModel(), s, {nan, 0.0, 0.0}, out), ResponseStatus::kClamped);
+  EXPECT_EQ(out.force, Vec3::Zero());
+  EXPECT_EQ(out.parameter, Vec3::Zero());
+  const Response found = answerTo(levelModel(), s, {nan, 0.0, 0.0}, ResponseStatus::kClamped);
+  EXPECT_EQ(found.force, Vec3::Zero());
+  EXPECT_EQ(found.parameter, Vec3::Zero());
+}
+
+TEST(LevelModel, ALoadThatOverflowsIsNoForceAndIsFlagged) {
+  const MetaModel model =
+      spoiled({.subdivisions = 1, .parameters = Parameters::kLevel}, [](modelfile::ModelData& data) {
+        data.attributes.load = 1e307;  // its stiffness is not finite
+      });
+  const Response out = underLoad(model, atPosition(model, 3), {0.5, 0.0, 0.0});
+  EXPECT_TRUE(out.force.array().isNaN().all());
+  EXPECT_EQ(out.stiffness, Mat3::Zero());
+  EXPECT_EQ(out.displacement, Vec3::Zero());
+}
+
+TEST(LevelModel, ForceIsContinuousUpToALastLevelThatMissesAStepByTheLastBit) {
+  for (const double limit : {std::nextafter(0.3, 0.0), 0.3, std::nextafter(0.3, 1.0), 1e-13, 1.0}) {
+    const MetaModel model =
+        loadSynthetic({.subdivisions = 1, .parameters = Parameters::kLevel, .domain_level = limit});
+    const ContactPoint s = atPosition(model, 4);
+    const Vec3 edge = underLoad(model, s, {limit, 0.0, 0.0}).displacement;
+    const Response last = answerTo(model, s, edge * (1.0 - 1e-9), ResponseStatus::kOk);
+    EXPECT_NEAR(last.parameter.x(), limit, 1e-8 * limit);
+    const double slope = underLoad(model, s, {limit * (1.0 - 1e-6), 0.0, 0.0}).stiffness.trace();
+    EXPECT_NEAR(last.stiffness.trace(), slope, 1e-6 * slope);
+  }
+}
+
 TEST(LevelModel, AToolThatIsWithdrawnIsLetGo) {
   const MetaModel& model = levelModel();
   Driver driver(model);

@@ -1,14 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of models driven by force and by load level share.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
+#include <vector>
 
 #include "driver.h"
+#include "palpate/modelfile/model_file.h"
 
 namespace palpate::testing {
+
+inline SyntheticOptions forceOptions(int order = 4) {
+  return {.subdivisions = 2, .order = order, .parameters = Parameters::kForce};
+}
+
+inline const MetaModel& forceModel() {
+  static const MetaModel model = loadSynthetic(forceOptions());
+  return model;
+}
+
+/// A model whose data are spoiled before they are written.
+inline MetaModel spoiled(const SyntheticOptions& options,
+                         const std::function<void(modelfile::ModelData&)>& spoil) {
+  modelfile::ModelData data = syntheticModel(options);
+  spoil(data);
+  const TemporaryFile file("load-driven.h5");
+  modelfile::writeModel(file.path(), data);
+  return MetaModel::load(file.path());
+}
 
 class Random {
  public:
@@ -48,6 +69,14 @@ inline Response underLoad(const MetaModel& model, const ContactPoint& s, const V
 /// The contact point that is contact position m.
 inline ContactPoint atPosition(const MetaModel& model, std::size_t m) {
   return model.surface().atNode(model.view().contact_node[m]);
+}
+
+inline std::vector<float> field(const MetaModel& model, const ContactPoint& s, const Vec3& parameter) {
+  FieldScratch scratch(model);
+  std::vector<float> u(model.view().surface_positions.size());
+  const std::array<FieldSource, 1> source{FieldSource{s, parameter, 1.0}};
+  evaluateField(model, source, scratch, u);
+  return u;
 }
 
 /// A tool's centre, at a depth below the top of the organ.

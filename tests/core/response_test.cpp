@@ -94,6 +94,23 @@ std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
 
 }  // namespace
 
+TEST(Response, StiffnessAtANodeIsTheSumOverDRefToTheLastBit) {
+  const ModelView& v = organ().view();
+  const MonomialBasis basis(options().force_order);
+  std::vector<Vec3> gradient(static_cast<std::size_t>(basis.size()));
+  for (std::size_t m = 0; m < v.positions(); m += 5) {
+    const Vec3 d(0.0011, -0.0023, -0.0037);
+    basis.gradient(d / options().reference_displacement, gradient);
+    Mat3 sum = Mat3::Zero();
+    for (std::size_t k = 0; k < gradient.size(); ++k)
+      sum += Eigen::Map<const Vec3>(v.contact_force.data() + 3 * (m * gradient.size() + k)) *
+             gradient[k].transpose();
+    Response out;
+    ASSERT_EQ(respond(organ(), organ().surface().atNode(v.contact_node[m]), d, out), ResponseStatus::kOk);
+    EXPECT_EQ(out.stiffness, Mat3(sum / options().reference_displacement));
+  }
+}
+
 TEST(Response, ForceIsGradientOfEnergy) {
   Random random;
   for (int trial = 0; trial < 50; ++trial) {

@@ -44,13 +44,15 @@ class ContactResponse {
 
   /// The series at s. Borrows this object. Cost O(C). Real-time: yes.
   [[nodiscard]] ContactSeries at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
-  /// ContactSeries::limit() alone. Real-time: yes.
+  /// ContactSeries::limit() alone: the lambda-weighted mean of d_max; of f_max and t_max the harmonic one,
+  /// 1 / sum_b lambda_b / limit_b, which a small one governs. Real-time: yes.
   [[nodiscard]] double limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
 
  private:
   ParameterFunctions functions_;
   std::span<const double> coefficient_;  // [M][size][3]
   std::span<const double> limit_;        // [M]
+  bool harmonic_;                        // the mean of the limits
 };
 
 }  // namespace palpate

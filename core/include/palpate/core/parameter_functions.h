@@ -25,8 +25,10 @@ class ParameterFunctions {
   [[nodiscard]] int levelSteps() const noexcept { return level_steps_; }
   /// values[k] = phi_k(p). @param[out] values  size() numbers. Real-time: yes.
   void evaluate(const Vec3& p, std::span<double> values) const noexcept PALPATE_NONBLOCKING;
-  /// gradient[k] = dphi_k/dp, one over the parameter's unit; of a level that of the segment which begins at or
-  /// before t. @param[out] gradient  size() vectors. Real-time: yes.
+  /// d_ref in m, f_ref in N, or 1 of a level.
+  [[nodiscard]] double reference() const noexcept { return reference_; }
+  /// gradient[k] = reference() dphi_k/dp: the caller divides once, the sum. Of a level that of the segment which
+  /// begins at or before t. @param[out] gradient  size() vectors. Real-time: yes.
   void gradient(const Vec3& p, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING;
 
  private:

@@ -28,18 +28,24 @@ struct Response {
 /// Reaction of the organ to a tool that displaced its contact patch at s by d            DESIGN 2.2, 3.1
 /// |d| beyond the domain is scaled to it; stiffness then is df/dd through that projection.
 /// A "force" model is searched for the f with d(s, f) = d (bounded Newton), a "level" model for the t with
-/// e . d(s, t) = e . d, e the load's direction; where there is none the nearest is answered, kClamped.
+/// e . d(s, t) = e . d, e the load's direction. Where no f gives d, kClamped: beyond f_max the f_max in its
+/// direction; where the model turns back before that, the f at which |d(s, f) - d| is smallest, as found downhill
+/// from f = 0, with zero stiffness and domain_radius = |displacement|. Where no t does, kClamped: 0 or t_max.
+/// Numbers that overflow, or a compliance at rest without an inverse: a force of NaN and zeros beside it, kClamped.
 /// @param[in]  s  contact point of this model's surface, @param[in]  d  W, m, finite
 /// @param[out] out  always written; zero when not accessible
 /// @return kOk, kClamped, or kNoAnswer (the model has no answer at s). Real-time: yes.
-/// Cost O(C); "force": some 5 times that, at most 72 Newton steps; "level": at most 18 evaluations.
+/// Cost O(C). "force": 3 to 5 Newton steps; where no f gives d up to 12 of them, of 7 evaluations, and 30 steps of
+/// 2; measured worst of 6000 random polynomials 26, 65 and 132 us at order 3, 5 and 7. "level": at most 18
+/// evaluations.
 [[nodiscard]] ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                      Response& out) noexcept PALPATE_NONBLOCKING;
 
 /// What a load-driven model says when its load is given.                                     DESIGN 2.1
 /// @param[in]  load  f in W, N, of a "force" model, clamped to f_max(s); (t, 0, 0) of a "level" model, t clamped
 ///             to [0, t_max(s)]
-/// @param[out] out  always written; stiffness is (dd/df)^-1
+/// @param[out] out  always written; stiffness is (dd/df)^-1, zero where dd/df is not positive definite; what is no
+///             number as in respond(); a t that is none is 0, kClamped
 /// @return kOk, kClamped, or kNoAnswer (no answer at s, or a "displacement" model). Cost O(C). Real-time: yes.
 [[nodiscard]] ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, const Vec3& load,
                                            Response& out) noexcept PALPATE_NONBLOCKING;

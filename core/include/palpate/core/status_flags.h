@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kNonUnitQuaternion =
 inline constexpr std::uint32_t kStalePose =
     1U << 3;  ///< no good pose for stale_timeout; the force ramps to zero
 inline constexpr std::uint32_t kBeyondDomain =
-    1U << 4;  ///< |d| above domain_radius; the answer is that of the clamped d
+    1U << 4;  ///< d is beyond what the model answers: that of the nearest d, f or level is given
 /// |f| above the force limit; direction kept, size cut
 inline constexpr std::uint32_t kForceLimited = 1U << 5;
 inline constexpr std::uint32_t kNotAccessible =
@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kShuttingDown =
     1U << 8;  ///< the server stops; the force goes to zero and stays there
 inline constexpr std::uint32_t kNonFiniteForce =
     1U
-    << 9;  ///< the model's numbers overflowed: a force is answered like a stale pose, a field is shown as zero
+    << 9;  ///< the model's answer is no number: a force is answered like a stale pose, a field is shown as zero
 inline constexpr std::uint32_t kPoseOutOfOrder =
     1U << 10;  ///< sender's stamps went backwards (set by the server)
 

@@ -36,8 +36,8 @@ struct ToolResult {
   std::array<double, 3>
       anchor{};  ///< X(s), rest position, m; when free, the nearest point of the rest surface
   std::array<double, 3> proxy{};         ///< X(s) + u(X(s)), m: where a viewer draws the contact
-  std::array<double, 3> displacement{};  ///< d as used (clamped), m; zero when free
-  double domain_radius{0.0};             ///< d_max(s), m; zero when free
+  std::array<double, 3> displacement{};  ///< Response::displacement, m; zero when free
+  double domain_radius{0.0};             ///< Response::domain_radius, m; zero when free
   double penetration{0.0};               ///< -d . n as imposed (before clamping), m, >= 0; zero when free
 };
 
