@@ -229,6 +229,12 @@ TEST_F(CaseCheck, ANonlinearAnswerToAnyDirectionIsForTheForceSeries) {
     expectRefused(method, "load.direction = \"any\"", "load.direction",
                   "method series-force holds every direction");
 }
+TEST_F(CaseCheck, LoadSteppingEnrichesUpToATolerance) {
+  for (const char* method : {"pgd-explicit", "pgd-euler"})
+    expectRefused(method, "pgd.tolerance = 0", "pgd.tolerance = 0", "without end");
+  EXPECT_NO_THROW(
+      checkCase(readCase(write("mesh = \"a\"\nmodel.method = \"pgd-linear\"\npgd.tolerance = 0\n"))));
+}
 TEST_F(CaseCheck, HadamardPairsComeOneAtATime) {
   expectRefused("pgd-linear", "pgd.separation = \"hadamard\"\npgd.block = 4", "pgd.block = 4",
                 "one at a time");

@@ -146,7 +146,10 @@ Pairs PgdBuilder::solveLinear(const BodyProblem& body) {
 /// Refuses what cannot fit: the pairs of every load step are kept until the levels are separated.
 void PgdBuilder::checkMemory(const BodyProblem& body, const ExplicitOptions& options) const {
   const double pairs = options.max_pairs, M = body.positions(), dofs = body.dofs();
-  const double bytes = 8.0 * (pairs * M * options.steps + M * pairs * pairs + 3.0 * dofs * pairs);
+  const double tangents =
+      std::min(options.tangent_bytes, 8.0 * M * static_cast<double>(body.stiffness().nonZeros()));
+  const double bytes = tangents + 8.0 * (2.0 * pairs * M * options.steps + M * pairs * pairs +
+                                         3.0 * dofs * pairs + 2.0 * dofs * M);
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (bytes <= memory) return;

@@ -91,6 +91,9 @@ void checkCase(const Case& c) {
   if (c.load.any_direction && c.method != Method::kPgdLinear)
     throw CaseError("load.direction = \"any\" does not go with method " + toString(c.method) +
                     ": the answer is not linear in the force; method series-force holds every direction");
+  if (c.pgd.tolerance.value_or(1.0) == 0.0 && (bit(c.method) & kStepped) != 0)
+    throw CaseError("pgd.tolerance = 0 does not go with method " + toString(c.method) +
+                    ": a load step would enrich without end; pgd-linear stops at pgd.greedy_pairs");
   if (c.pgd.hadamard.value_or(false) && c.pgd.block.value_or(1) > 1)
     throw CaseError("pgd.block = " + std::to_string(*c.pgd.block) +
                     " does not go with pgd.separation = \"hadamard\": such pairs are found one at a time");

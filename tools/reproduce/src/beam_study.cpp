@@ -5,13 +5,12 @@
 #include <limits>
 #include <memory>
 
-#include "beam_problem.h"
+#include "beam_solutions.h"
 #include "palpate/offline/explicit_pgd.h"
 #include "palpate/offline/field_measures.h"
 #include "palpate/offline/newton.h"
 #include "palpate/offline/parallel.h"
 #include "palpate/offline/progress.h"
-#include "palpate/reproduce/figures.h"
 #include "palpate/reproduce/studies.h"
 
 namespace palpate::reproduce {
@@ -22,14 +21,6 @@ using Eigen::VectorXd;
 using offline::LevelSolution;
 using offline::LoadStepping;
 
-/// Everything that was solved for, unknowns of the free nodes.
-struct BeamSolutions {
-  std::vector<VectorXd> newton;  ///< full load, every position
-  std::vector<VectorXd> levels;  ///< Newton, load at the tip, levels 0.1 to 1
-  VectorXd linear;               ///< load at the tip
-  LevelSolution ten_term, forward_euler;
-  VectorXd ten_term_alone, forward_euler_alone;  ///< load at the tip, nothing separated
-};
 constexpr int kLevels = 10;
 
 VectorXd solveFully(const Beam& beam, offline::NewtonSolver& solver, int position, double level) {
@@ -181,87 +172,6 @@ void addCurve(const Beam& beam, const BeamSolutions& solutions, Json& results) {
   }
 }
 
-void writeCurve(const Json& results, Output& out) {
-  Chart chart{"Beam: tip displacement, load at the tip", "load level", "mm", false, false, {}};
-  const std::pair<const char*, const char*> names[] = {{"newton_mm", "full Newton"},
-                                                       {"ten_term_mm", "ten terms, separated"},
-                                                       {"forward_euler_mm", "forward Euler, separated"},
-                                                       {"linear_mm", "linear"}};
-  std::vector<std::vector<double>> rows;
-  for (const Json& row : results["load_curve"])
-    rows.push_back({row["level"], row["newton_mm"], row["ten_term_mm"], row["forward_euler_mm"],
-                    row["linear_mm"], row["ten_term_l2_error"]});
-  for (const auto& [key, name] : names) {
-    Curve curve{name, {{0.0, 0.0}}};
-    for (const Json& row : results["load_curve"]) curve.points.emplace_back(row["level"], row[key]);
-    curve.dashed = std::string(key) == "newton_mm";
-    chart.curves.push_back(curve);
-  }
-  out.writeCsv("figure-beam-load.csv",
-               {"level", "newton_mm", "ten_term_mm", "forward_euler_mm", "linear_mm", "ten_term_l2_error"},
-               rows);
-  drawChart(out.file("figure-beam-load.svg"), chart);
-}
-
-/// The deformed surface; colours are |u| in mm.
-SurfacePanel deformed(const Beam& beam, const std::string& title, const VectorXd& unknowns) {
-  const VectorXd u = beam.problem.toNodes(unknowns);
-  SurfacePanel panel{title, beam.surface.positions, beam.surface.triangles, {}};
-  for (std::size_t i = 0; i < panel.positions.size(); ++i) {
-    const offline::Vec3 at = u.segment<3>(3 * beam.surface.nodes[i]);
-    panel.positions[i] += at;
-    panel.values.push_back(1e3 * at.norm());
-  }
-  return panel;
-}
-
-SurfaceFigure beamFigure(const std::string& title, std::vector<SurfacePanel> panels) {
-  SurfaceFigure figure;
-  figure.title = title;
-  figure.panels = std::move(panels);
-  figure.elevation = 72;
-  figure.azimuth = 20;
-  figure.columns = 2;
-  figure.zoom = 2.0;
-  figure.diverging = false;
-  figure.colour_label = "|u| / mm";
-  return figure;
-}
-
-void writePictures(const Beam& beam, const BeamSolutions& solutions, const Json& results, Output& out) {
-  SurfaceFigure model = beamFigure("Beam: the mesh (paper: Figure 2)",
-                                   {{"", beam.surface.positions, beam.surface.triangles, {}}});
-  model.colour_label.clear();
-  drawSurfaces(out.file("figure-2-beam-model.png"), model);
-  const SurfacePanel newton =
-      deformed(beam, "full Newton", solutions.newton[static_cast<std::size_t>(beam.tip)]);
-  drawSurfaces(out.file("figure-3-beam-deformed.png"),
-               beamFigure("Beam: deformed by a load at the tip (paper: Figure 3)",
-                          {deformed(beam, "ten terms, separated",
-                                    offline::evaluate(solutions.ten_term, beam.tip, 1.0)),
-                           newton}));
-  drawSurfaces(out.file("figure-4-beam-forward-euler.png"),
-               beamFigure("Beam: forward Euler as it comes out (paper: Figure 4)",
-                          {deformed(beam, "forward Euler, separated",
-                                    offline::evaluate(solutions.forward_euler, beam.tip, 1.0)),
-                           newton}));
-  Chart errors{"Beam: error at every position of the load",
-               "x of the load / mm",
-               "relative L2 error of the field",
-               false,
-               true,
-               {{"ten terms against full Newton", {}, false, true}}};
-  std::vector<std::vector<double>> rows;
-  for (const Json& p : results["positions"]) {
-    errors.curves[0].points.emplace_back(p["x_mm"], p["l2_error"]);
-    rows.push_back({p["node"], p["x_mm"], p["y_mm"], p["force_N"], p["newton_tip_mm"], p["l2_error"]});
-  }
-  errors.curves[0].lines = false;
-  out.writeCsv("figure-beam-positions.csv", {"node", "x_mm", "y_mm", "force_N", "newton_tip_mm", "l2_error"},
-               rows);
-  drawChart(out.file("figure-beam-positions.svg"), errors);
-}
-
 Json problemOf(const Beam& beam, const BeamOptions& options) {
   return {{"nodes", beam.model.nodeCount()},
           {"tetrahedra", beam.model.elementCount()},
@@ -314,8 +224,7 @@ Json reproduceBeam(const BeamOptions& options, Output& out) {
   addTip(beam, solutions, results);
   addCurve(beam, solutions, results);
   out.step("Figures 2 to 4");
-  writeCurve(results, out);
-  writePictures(beam, solutions, results, out);
+  writeFigures(beam, solutions, results, out);
   results["seconds"]["total"] = now() - start;
   return results;
 }

@@ -44,7 +44,7 @@ struct LoadCase {
   [[nodiscard]] int stepsOrDefault() const { return steps.value_or(30); }
 };
 
-/// How the PGD methods enrich. Absent keys: the defaults of LinearPgdOptions and ExplicitPgdOptions.
+/// How the PGD methods enrich. Absent keys: the defaults of LinearPgdOptions and ExplicitOptions.
 struct PgdCase {
   std::optional<bool> hadamard;     ///< component-wise pairs, Eq. (3)
   std::optional<double> tolerance;  ///< of the residual, relative, [0, 1)
