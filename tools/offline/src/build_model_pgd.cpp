@@ -67,6 +67,7 @@ class PgdBuilder {
   void limitLevels(const BodyProblem& body, const LevelSolution& solution);
   void store(const Pairs& pairs);
   void storeLoad();
+  void endWhereNothingRises();
 
   const Case& case_;
   const mesh::TetMesh& mesh_;
@@ -234,6 +235,28 @@ void PgdBuilder::storeLoad() {
   for (std::size_t i = 0; i < 3; ++i) a.load_direction[i] = directions_[0][static_cast<Index>(i)];
   for (Index q = 0; q < levels_.rows(); ++q)
     for (Index j = 0; j < levels_.cols(); ++j) data_.levels_Z.push_back(levels_(q, j));
+  endWhereNothingRises();
+}
+
+/// A level is found by the displacement along the load, so t_max(s) ends where the modes' own stops rising.
+/// @throw std::runtime_error naming a node that the modes do not move along the load at all
+void PgdBuilder::endWhereNothingRises() {
+  const Index C = levels_.rows(), steps = levels_.cols() - 1;
+  for (std::size_t s = 0; s < setup_.positions.nodes.size(); ++s) {
+    const Eigen::Map<const MatrixXd> d(data_.contact_displacement.data() + 3 * static_cast<Index>(s) * C, 3,
+                                       C);
+    const Eigen::RowVectorXd along = directions_[0].transpose() * d * levels_;
+    Index rising = 0;
+    while (rising < steps && along[rising + 1] > along[rising]) ++rising;
+    if (rising == 0)
+      throw std::runtime_error(
+          case_.mesh.string() + ": node " +
+          std::to_string(mesh_.node_tags[static_cast<std::size_t>(
+              setup_.surface.nodes[static_cast<std::size_t>(setup_.positions.nodes[s])])]) +
+          ": the modes do not let the contact give way along the load; more modes (model.modes) would");
+    double& t_max = data_.contact_domain_radius[s];
+    t_max = std::min(t_max, static_cast<double>(rising) / static_cast<double>(steps));
+  }
 }
 
 modelfile::ModelData PgdBuilder::run() {
