@@ -63,8 +63,9 @@ constexpr const char* kThreePart = R"(
 ![Error over the number of pairs](@figure-liver-errors.svg)
 
 **Reading it.** The paper calls 167 pairs in good agreement with full Newton without giving a number. A separated representation converges slowly
-near the tool, because each position has a dimple of its own; that is why palpate adds a near field and a contact response of
-its own, and uses modes for the far field only.
+near the tool, because each position has a dimple of its own; the three-part model therefore has a near field and a contact response of its own,
+which are exact at the nodes. Between nodes it is as good as its interpolation. On a coarse mesh that is what these rows compare, and there a
+load-driven model, which interpolates compliance, can be the better one.
 
 )";
 
