@@ -36,7 +36,7 @@ struct Response {
 /// @param[out] out  always written; zero when not accessible
 /// @return kOk, kClamped, or kNoAnswer (the model has no answer at s). Real-time: yes.
 /// Cost O(C). "force": 3 to 5 Newton steps; where no f gives d up to 12 of them, of 7 evaluations, and 30 steps of
-/// 2; measured worst of 6000 random polynomials 26, 65 and 132 us at order 3, 5 and 7. "level": at most 18
+/// 2; measured worst of 6000 random polynomials 32, 70 and 140 us at order 3, 5 and 7. "level": at most 18
 /// evaluations.
 [[nodiscard]] ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                      Response& out) noexcept PALPATE_NONBLOCKING;
