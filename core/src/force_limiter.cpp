@@ -38,7 +38,7 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
     memory.from = memory.rendered;
     memory.blend = 1.0;
   }
-  const double step = in.dt / config_.ramp_time;
+  const double step = config_.ramp_time > 0.0 ? in.dt / config_.ramp_time : 1.0;
   memory.blend = std::max(0.0, memory.blend - step);
   if (in.shutting_down) memory.fade = std::max(0.0, memory.fade - step);
   memory.gain = memory.fade * freshness(in.age + in.period);

@@ -132,7 +132,8 @@ void Tick::deform(StepResult& result) noexcept {
 
 void Tick::blendField() noexcept {
   double& blend = work_.displacement_blend_;
-  blend = std::max(0.0, blend - dt_ / work_.config_.ramp_time);
+  const double ramp_time = work_.config_.ramp_time;
+  blend = ramp_time > 0.0 ? std::max(0.0, blend - dt_ / ramp_time) : 0.0;
   if (blend == 0.0) return;
   const auto weight = static_cast<float>(blend);
   for (std::size_t i = 0; i < work_.displacement_.size(); ++i)
@@ -174,6 +175,7 @@ StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   std::uint32_t flags = 0;
   for (std::size_t i = 0; i < kMaxTools; ++i) {
     report(work_.tools_[i], result.tools[i]);
+    result.tools[i].flags |= input_.tools[i].flags;
     flags |= result.tools[i].flags;
     const bool gone = input_.tools[i].present == 0 && work_.tools_[i].rendering.gain <= 0.0;
     if (gone) work_.tools_[i] = ToolMemory{};

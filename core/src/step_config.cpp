@@ -1,29 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/step_config.h"
 
+#include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include "palpate/core/workspace.h"
 
 namespace palpate {
 
 namespace {
 
-void range(const char* field, double value, double low, double high, const char* unit) {
-  if (value >= low && value <= high) return;  // false for NaN too
+enum class Infinity { kRefused, kMeansOff };
+
+struct Range {
+  const char* field;
+  double value;
+  double low;
+  double high;
+  const char* unit;
+  Infinity infinity{Infinity::kRefused};
+};
+
+/// Empty when the value is in its range.
+std::string complaintOf(const Range& range) {
+  const bool off = range.infinity == Infinity::kMeansOff;
+  if (range.value >= range.low && range.value <= range.high) return {};  // false for NaN too
+  if (off && range.value == std::numeric_limits<double>::infinity()) return {};
   std::ostringstream text;
-  text << "StepConfig." << field << " is " << value << ", expected " << low << " to " << high << " " << unit;
-  throw std::invalid_argument(text.str());
+  text << range.field << " is " << range.value << ", expected " << range.low << " to " << range.high << " "
+       << range.unit << (off ? " or infinity" : "");
+  return text.str();
+}
+
+void refuse(const std::string& complaint) {
+  if (!complaint.empty()) throw std::invalid_argument("StepConfig." + complaint);
+}
+
+void range(const char* field, double value, double low, double high, const char* unit,
+           Infinity infinity = Infinity::kRefused) {
+  refuse(complaintOf({field, value, low, high, unit, infinity}));
 }
 
 }  // namespace
 
+std::string firstComplaint(const LiveParameters& parameters) {
+  if (parameters.youngs_modulus != 0.0) {
+    const std::string complaint =
+        complaintOf({"youngs_modulus", parameters.youngs_modulus, 100.0, 1e9, "Pa, or 0"});
+    if (!complaint.empty()) return complaint;
+  }
+  const Range ranges[] = {
+      {"friction", parameters.friction, 0.0, 2.0, "(no unit)", Infinity::kMeansOff},
+      {"coupling_stiffness", parameters.coupling_stiffness, 1.0, 1e5, "N/m", Infinity::kMeansOff},
+      {"coupling_damping", parameters.coupling_damping, 0.0, 100.0, "N s/m"},
+      {"force_limit", parameters.force_limit, 0.01, 50.0, "N", Infinity::kMeansOff},
+      {"force_rate_limit", parameters.force_rate_limit, 10.0, 1e6, "N/s", Infinity::kMeansOff},
+  };
+  for (const Range& range : ranges)
+    if (std::string complaint = complaintOf(range); !complaint.empty()) return complaint;
+  return {};
+}
+
+LiveParameters liveParameters(const StepConfig& config) noexcept {
+  return {config.youngs_modulus,   config.friction,    config.coupling_stiffness,
+          config.coupling_damping, config.force_limit, config.force_rate_limit};
+}
+
 void check(const StepConfig& config) {
   range("tip_radius", config.tip_radius, 0.0, 0.05, "m");
-  range("force_limit", config.force_limit, 0.01, 50.0, "N");
   range("stale_timeout", config.stale_timeout, 0.001, 0.045, "s");
   range("zero_after", config.zero_after, config.stale_timeout + 0.001, 0.050, "s");
-  range("ramp_time", config.ramp_time, 0.001, 1.0, "s");
+  range("ramp_time", config.ramp_time, 0.0, 1.0, "s");
   range("quaternion_tolerance", config.quaternion_tolerance, 1e-9, 0.1, "(no unit)");
+  refuse(firstComplaint(liveParameters(config)));
+  range("speed_limit", config.speed_limit, 0.01, 100.0, "m/s", Infinity::kMeansOff);
+  range("tools", config.tools, 1, kMaxTools, "");
 }
 
 }  // namespace palpate

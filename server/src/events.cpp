@@ -29,7 +29,12 @@ constexpr FlagText kFlagTexts[] = {
     {kForceLimited, "force cut to the limit"},
     {kNotAccessible, "touches a part of the surface that has no answer"},
     {kNonFiniteForce, "the model overflowed: force as after a stale pose, or no field"},
-    {kPoseOutOfOrder, "pose number or stamp went backwards (sender restarted, or two senders)"},
+    {kPoseOutOfOrder, "pose number went back or repeated, or its stamp went back (sender restarted?)"},
+    {kForceRateLimited, "force would change too fast, it follows at the rate allowed"},
+    {kPoseJump, "pose jumped faster than the speed limit, contact given up"},
+    {kTwoPublishers, "two publishers send poses of this tool, the second is not used"},
+    {kToolNotConfigured, "tool is not among those configured, no force"},
+    {kTickOverrun, "ticks were missed"},
 };
 
 // Kinds of warning, beyond one for each tool and flag (tool << 32 | flag).

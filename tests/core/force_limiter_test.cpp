@@ -107,11 +107,12 @@ TEST(StepConfig, DefaultsAreInRange) {
 TEST(StepConfig, NamesTheFirstBadField) {
   EXPECT_EQ(complaint({.tip_radius = 0.06}), "StepConfig.tip_radius is 0.06, expected 0 to 0.05 m");
   EXPECT_EQ(complaint({.tip_radius = std::nan("")}), "StepConfig.tip_radius is nan, expected 0 to 0.05 m");
-  EXPECT_EQ(complaint({.force_limit = 0.0}), "StepConfig.force_limit is 0, expected 0.01 to 50 N");
+  EXPECT_EQ(complaint({.force_limit = 0.0}),
+            "StepConfig.force_limit is 0, expected 0.01 to 50 N or infinity");
   EXPECT_EQ(complaint({.stale_timeout = 0.06}),
             "StepConfig.stale_timeout is 0.06, expected 0.001 to 0.045 s");
   EXPECT_EQ(complaint({.zero_after = 0.2}), "StepConfig.zero_after is 0.2, expected 0.021 to 0.05 s");
-  EXPECT_EQ(complaint({.ramp_time = 0.0}), "StepConfig.ramp_time is 0, expected 0.001 to 1 s");
+  EXPECT_EQ(complaint({.ramp_time = -0.1}), "StepConfig.ramp_time is -0.1, expected 0 to 1 s");
   EXPECT_EQ(complaint({.quaternion_tolerance = 1.0}),
             "StepConfig.quaternion_tolerance is 1, expected 1e-09 to 0.1 (no unit)");
 }

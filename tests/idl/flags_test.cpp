@@ -19,6 +19,12 @@ TEST(Flags, OnTheWireAreThoseOfTheEngine) {
   EXPECT_EQ(flag::kShuttingDown, palpate::kShuttingDown);
   EXPECT_EQ(flag::kNonFiniteForce, palpate::kNonFiniteForce);
   EXPECT_EQ(flag::kPoseOutOfOrder, palpate::kPoseOutOfOrder);
+  EXPECT_EQ(flag::kForceRateLimited, palpate::kForceRateLimited);
+  EXPECT_EQ(flag::kPoseJump, palpate::kPoseJump);
+  EXPECT_EQ(flag::kTwoPublishers, palpate::kTwoPublishers);
+  EXPECT_EQ(flag::kUnknownTool, palpate::kUnknownTool);
+  EXPECT_EQ(flag::kToolNotConfigured, palpate::kToolNotConfigured);
+  EXPECT_EQ(flag::kTickOverrun, palpate::kTickOverrun);
 }
 
 TEST(Flags, ToolStatesAreThoseOfTheEngine) {
@@ -32,7 +38,8 @@ TEST(Flags, AreDistinctSingleBits) {
   for (const std::uint32_t bit :
        {flag::kInContact, flag::kNonFinitePose, flag::kNonUnitQuaternion, flag::kStalePose,
         flag::kBeyondDomain, flag::kForceLimited, flag::kNotAccessible, flag::kRamping, flag::kShuttingDown,
-        flag::kNonFiniteForce, flag::kPoseOutOfOrder}) {
+        flag::kNonFiniteForce, flag::kPoseOutOfOrder, flag::kForceRateLimited, flag::kPoseJump,
+        flag::kTwoPublishers, flag::kUnknownTool, flag::kToolNotConfigured, flag::kTickOverrun}) {
     EXPECT_EQ(bit & (bit - 1), 0U) << bit;
     EXPECT_EQ(seen & bit, 0U) << bit;
     seen |= bit;

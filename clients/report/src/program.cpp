@@ -53,6 +53,12 @@ std::string flagNames(std::uint32_t flags) {
       {dds::flag::kShuttingDown, "shutting-down"},
       {dds::flag::kNonFiniteForce, "non-finite-force"},
       {dds::flag::kPoseOutOfOrder, "pose-out-of-order"},
+      {dds::flag::kForceRateLimited, "force-rate-limited"},
+      {dds::flag::kPoseJump, "pose-jump"},
+      {dds::flag::kTwoPublishers, "two-publishers"},
+      {dds::flag::kUnknownTool, "unknown-tool"},
+      {dds::flag::kToolNotConfigured, "tool-not-configured"},
+      {dds::flag::kTickOverrun, "tick-overrun"},
   }};
   std::string names;
   for (const auto& [bit, name] : kNames)

@@ -29,7 +29,18 @@ inline constexpr std::uint32_t kNonFiniteForce =
     1U
     << 9;  ///< the model's answer is no number: a force is answered like a stale pose, a field is shown as zero
 inline constexpr std::uint32_t kPoseOutOfOrder =
-    1U << 10;  ///< sender's stamps went backwards (set by the server)
+    1U << 10;  ///< a pose's seq went back or repeated, or its stamp went back (set by the server)
+/// the force would change faster than force_rate_limit; it follows at that rate
+inline constexpr std::uint32_t kForceRateLimited = 1U << 11;
+/// the pose moved faster than speed_limit: the contact is given up, and found anew like that of a new tool
+inline constexpr std::uint32_t kPoseJump = 1U << 12;
+/// poses of this tool come from a second publisher too; those are not used (set by the server)
+inline constexpr std::uint32_t kTwoPublishers = 1U << 13;
+inline constexpr std::uint32_t kUnknownTool = 1U << 14;  ///< tool_id above 3: no force (set by the server)
+/// tool_id not below StepConfig::tools: no force (set by the server)
+inline constexpr std::uint32_t kToolNotConfigured = 1U << 15;
+inline constexpr std::uint32_t kTickOverrun =
+    1U << 16;  ///< ticks were missed before this one (set by the server)
 
 /// What a tool does to the organ; ToolResult::state and ToolForce::state.
 enum class ContactState : std::uint32_t { kFree = 0, kStick = 1, kSlide = 2 };

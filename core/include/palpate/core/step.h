@@ -17,6 +17,7 @@ struct ToolInput {
   std::array<double, 3> position{};  ///< p_WT, tip centre in world frame W, m
   std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< q_WT, x y z w
   std::int64_t age_ns{0};  ///< since the pose arrived, by the server's clock, ns
+  std::uint32_t flags{0};  ///< what the caller noticed (status_flags.h); copied to the result, else unused
 };
 
 /// Input of one tick. Plain: it crosses threads.
@@ -25,6 +26,9 @@ struct StepInput {
   std::int64_t dt_ns{1'000'000};      ///< since the last tick, ns; taken as 0 to 0.1 s
   std::int64_t period_ns{1'000'000};  ///< of the loop: what is sent now stands until it is replaced, ns
   std::uint32_t shutting_down{0};     ///< not 0: ramp every force to zero within ramp_time and stay there
+  /// not 0: go over to `live`, within 0.1 s. 0: the parameters stay as they are (at first StepConfig's)
+  std::uint32_t has_live{0};
+  LiveParameters live;  ///< checked by the caller: firstComplaint() is empty
 };
 
 /// What one tool gets. Plain: it crosses threads.

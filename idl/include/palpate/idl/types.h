@@ -31,6 +31,12 @@ inline constexpr std::uint32_t kRamping = palpate_FLAG_RAMPING;
 inline constexpr std::uint32_t kShuttingDown = palpate_FLAG_SHUTTING_DOWN;
 inline constexpr std::uint32_t kNonFiniteForce = palpate_FLAG_NON_FINITE_FORCE;
 inline constexpr std::uint32_t kPoseOutOfOrder = palpate_FLAG_POSE_OUT_OF_ORDER;
+inline constexpr std::uint32_t kForceRateLimited = palpate_FLAG_FORCE_RATE_LIMITED;
+inline constexpr std::uint32_t kPoseJump = palpate_FLAG_POSE_JUMP;
+inline constexpr std::uint32_t kTwoPublishers = palpate_FLAG_TWO_PUBLISHERS;
+inline constexpr std::uint32_t kUnknownTool = palpate_FLAG_UNKNOWN_TOOL;
+inline constexpr std::uint32_t kToolNotConfigured = palpate_FLAG_TOOL_NOT_CONFIGURED;
+inline constexpr std::uint32_t kTickOverrun = palpate_FLAG_TICK_OVERRUN;
 }  // namespace flag
 
 /// Values of ToolForce::state.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <type_traits>
+
+namespace palpate {
+
+/// Parameters of the tick that may change while it runs; meaning and ranges as in StepConfig. Plain: it crosses
+/// threads. A change is never a jump: step() goes over to the new values within LiveParameters' own ramp.
+struct LiveParameters {
+  double youngs_modulus{0.0};      ///< E, Pa; 0: the model's own
+  double friction{0.0};            ///< mu
+  double coupling_stiffness{0.0};  ///< K_vc, N/m
+  double coupling_damping{0.0};    ///< N s/m
+  double force_limit{0.0};         ///< N
+  double force_rate_limit{0.0};    ///< N/s
+};
+
+/// @return one sentence about the first field out of its range, "friction is 3, expected 0 to 2"; empty: all good
+[[nodiscard]] std::string firstComplaint(const LiveParameters& parameters);
+
+static_assert(std::is_trivially_copyable_v<LiveParameters>);
+
+}  // namespace palpate
