@@ -41,7 +41,7 @@ client::Point parsePoint(const std::string& option, const std::string& text) {
 }
 
 std::string flagNames(std::uint32_t flags) {
-  static constexpr std::array<std::pair<std::uint32_t, const char*>, 11> kNames{{
+  static constexpr std::array<std::pair<std::uint32_t, const char*>, 17> kNames{{
       {dds::flag::kInContact, "contact"},
       {dds::flag::kNonFinitePose, "non-finite-pose"},
       {dds::flag::kNonUnitQuaternion, "non-unit-quaternion"},
