@@ -23,6 +23,12 @@ double length(const Point& a) noexcept {
   return std::sqrt(dot(a, a));
 }
 
+Point tangentOf(const Point& normal) noexcept {
+  const Point axis = std::abs(normal[0]) < 0.9 ? Point{1.0, 0.0, 0.0} : Point{0.0, 1.0, 0.0};
+  const Point along = axis - dot(axis, normal) * normal;
+  return (1.0 / length(along)) * along;
+}
+
 double minimumJerk(double x) noexcept {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * x * (10.0 + x * (-15.0 + 6.0 * x));

@@ -16,13 +16,6 @@ void inRange(const char* name, double value, double above, double upto) {
   throw ClientError(line.str());
 }
 
-// A unit direction along the surface: the one nearest to +x, or to +y where x is the normal.
-Point tangent(const Point& normal) {
-  const Point axis = std::abs(normal[0]) < 0.9 ? Point{1.0, 0.0, 0.0} : Point{0.0, 1.0, 0.0};
-  const Point along = axis - dot(axis, normal) * normal;
-  return (1.0 / length(along)) * along;
-}
-
 }  // namespace
 
 void check(const ScriptOptions& options) {
@@ -47,7 +40,7 @@ Path scriptedPath(const std::string& script, const Spot& spot, const ScriptOptio
         start,
         {{touch, 0.8, "approach"}, {deep, 1.0, "press"}, {deep, 0.6, "hold"}, {start, 0.6, "retreat"}});
   if (script == "slide") {
-    const Point along = options.slide_distance * tangent(spot.normal);
+    const Point along = options.slide_distance * tangentOf(spot.normal);
     return Path(start, {{touch, 0.8, "approach"},
                         {deep, 0.7, "press"},
                         {deep + along, 1.4, "slide"},

@@ -16,6 +16,10 @@ struct Point : std::array<double, 3> {};
 [[nodiscard]] double dot(const Point& a, const Point& b) noexcept;
 [[nodiscard]] double length(const Point& a) noexcept;
 
+/// A unit direction along the surface: the one nearest to +x, or to +y where x is the normal.
+/// @param[in] normal  unit length
+[[nodiscard]] Point tangentOf(const Point& normal) noexcept;
+
 /// The minimum-jerk profile 10 x^3 - 15 x^4 + 6 x^5: from 0 to 1 with velocity and acceleration zero at both
 /// ends (T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688-1703). @param[in] x  clamped to [0, 1]
 [[nodiscard]] double minimumJerk(double x) noexcept;

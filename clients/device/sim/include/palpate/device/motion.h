@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palpate/client/path.h"
+
+namespace palpate::device {
+
+using client::Point;
+
+/// How the hand moves.
+struct MotionOptions {
+  double depth{0.003};          ///< how far below the rest surface the hand wants the tip, m, in (0, 0.05]
+  double clearance{0.005};      ///< of the tip from the surface at the start and the end, m, in (0, 0.2]
+  double drag_distance{0.015};  ///< way along the surface, m, in (0, 0.1]
+  int taps{3};                  ///< before the last one, which is held, in [1, 1000]
+  double seconds{4.0};       ///< of the whole; the hold takes what is left, at least 1 s of it, at most 3600
+  double tip_radius{0.005};  ///< R, m, in [0, 0.05]; take the server's
+};
+
+/// What the hand does: a path, and the part of it in which the hand rests in the organ.
+struct Motion {
+  client::Path path;
+  double hold_start;  ///< s; the last rest in contact begins
+  double hold_end;    ///< s; and ends
+  Point surface;      ///< X, the spot on the rest surface, m
+  Point normal;       ///< outward unit normal there
+  double tip_radius;  ///< R, m
+};
+
+/// Minimum-jerk legs at a spot of the rest surface, each motion ending in a hold and a retreat to the start:
+///   press  from the clearance to the depth in 0.6 s
+///   drag   the same, a rest of 0.2 s, then along the surface (tangentOf the normal) in 1 s
+///   tap    in and out `taps` times, 0.1 s each way, then in once more
+/// @param[in] surface, normal  X, m, and the outward unit normal there
+/// @throw std::invalid_argument for another kind, or naming the first field out of its range; the shortest `seconds`
+/// is what the legs take and 1 s
+[[nodiscard]] Motion makeMotion(const std::string& kind, const Point& surface, const Point& normal,
+                                const MotionOptions& options);
+
+}  // namespace palpate::device

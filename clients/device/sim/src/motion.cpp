@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/device/motion.h"
+
+#include <sstream>
+#include <stdexcept>
+
+namespace palpate::device {
+namespace {
+
+constexpr double kShortestHold = 1.0;  // s; the oscillation is judged from 0.5 s on
+constexpr double kRetreat = 0.4;       // s
+
+void inRange(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  std::ostringstream line;
+  line << name << " is " << value << ", expected " << low << " to " << high;
+  throw std::invalid_argument(line.str());
+}
+
+void check(const MotionOptions& options) {
+  constexpr double kLeast = 1e-6;  // m
+  inRange("depth (m)", options.depth, kLeast, 0.05);
+  inRange("clearance (m)", options.clearance, kLeast, 0.2);
+  inRange("drag distance (m)", options.drag_distance, kLeast, 0.1);
+  inRange("number of taps", options.taps, 1, 1000);
+  inRange("tip radius (m)", options.tip_radius, 0.0, 0.05);
+}
+
+}  // namespace
+
+Motion makeMotion(const std::string& kind, const Point& surface, const Point& normal,
+                  const MotionOptions& options) {
+  check(options);
+  const Point start = surface + (options.tip_radius + options.clearance) * normal;
+  const Point deep = surface + (options.tip_radius - options.depth) * normal;
+  std::vector<client::Leg> legs;
+  Point rest = deep;
+  if (kind == "press" || kind == "drag") {
+    legs.push_back({deep, 0.6, "press"});
+  } else if (kind == "tap") {
+    for (int i = 0; i < options.taps; ++i) {
+      legs.push_back({deep, 0.1, "in"});
+      legs.push_back({start, 0.1, "out"});
+    }
+    legs.push_back({deep, 0.1, "in"});
+  } else {
+    throw std::invalid_argument("unknown motion '" + kind + "', expected press, drag or tap");
+  }
+  if (kind == "drag") {
+    rest = deep + options.drag_distance * client::tangentOf(normal);
+    legs.push_back({deep, 0.2, "rest"});
+    legs.push_back({rest, 1.0, "drag"});
+  }
+  double hold_start = 0.0;
+  for (const client::Leg& leg : legs) hold_start += leg.seconds;
+  inRange("seconds", options.seconds, hold_start + kShortestHold + kRetreat, 3600.0);
+  const double hold_end = options.seconds - kRetreat;
+  legs.push_back({rest, hold_end - hold_start, "hold"});
+  legs.push_back({start, kRetreat, "retreat"});
+  return {client::Path(start, std::move(legs)), hold_start, hold_end, surface, normal, options.tip_radius};
+}
+
+}  // namespace palpate::device
