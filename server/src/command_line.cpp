@@ -18,10 +18,38 @@ struct Given {
   std::optional<std::int64_t> server_id;
   std::optional<std::int64_t> organ_id;
   std::optional<std::int64_t> surface_every;
+  std::optional<std::int64_t> tools;
   std::optional<double> rate;
   std::optional<double> tip_radius;
-  std::optional<double> force_limit;
+  std::optional<double> friction;
+  std::optional<double> force_rate_limit;
+  std::optional<double> speed_limit;
+  std::optional<double> youngs_modulus;
+  std::optional<std::string> device;
+  DeviceOverrides over_device;
 };
+
+void declareContact(CLI::App& app, Given& given) {
+  DeviceOverrides& over_device = given.over_device;
+  app.add_option("--device", given.device,
+                 "Whose limits hold: touch (default), omni, desktop, premium15, premium30 or custom")
+      ->type_name("NAME");
+  app.add_option("--force-limit", over_device.force_limit,
+                 "Largest force rendered, N, 0.01 to 50 or inf, default the device's");
+  app.add_option("--coupling", over_device.coupling_stiffness,
+                 "Stiffness of the virtual coupling, N/m, 1 to 1e5 or inf (none), default the device's");
+  app.add_option("--coupling-damping", over_device.coupling_damping,
+                 "Damping of the virtual coupling, N s/m, 0 to 100, default the device's");
+  app.add_option("--friction", given.friction,
+                 "Coulomb coefficient, 0 to 2 or inf (never slides), default 0.3");
+  app.add_option("--force-rate-limit", given.force_rate_limit,
+                 "Largest change of the force, N/s, 10 to 1e6 or inf (default)");
+  app.add_option("--speed-limit", given.speed_limit,
+                 "A tool that is faster jumps, m/s, 0.01 to 100 or inf, default 2");
+  app.add_option("--youngs-modulus", given.youngs_modulus,
+                 "Organ stiffness E, Pa, 100 to 1e9; 0: the model's (default)");
+  app.add_option("--tools", given.tools, "Tools that are answered, ids 0 to this less 1; 1 to 4, default 4");
+}
 
 void declare(CLI::App& app, Given& given) {
   app.set_version_flag("--version", std::string("palpate-server ") + PALPATE_VERSION);
@@ -34,7 +62,7 @@ void declare(CLI::App& app, Given& given) {
   app.add_option("--realtime", given.realtime, "Real-time priority: require, prefer (default) or off")
       ->type_name("POLICY");
   app.add_option("--tip-radius", given.tip_radius, "Radius of the tools' tips, m, 0 to 0.05, default 0.005");
-  app.add_option("--force-limit", given.force_limit, "Largest force rendered, N, 0.01 to 50, default 3.3");
+  declareContact(app, given);
   app.add_option("--surface-every", given.surface_every, "Ticks per surface field, 1 to 1000, default 1");
   app.add_option("--organ-id", given.organ_id, "Key of the surface topics, default 0");
   app.add_option("--server-id", given.server_id, "Key of the status topic, default 0");
@@ -51,7 +79,42 @@ void overwrite(const std::optional<T>& given, T& value) {
 std::string optionOf(const std::string& key) {
   std::string option = key.substr(key.find('.') == std::string::npos ? 0 : key.find('.') + 1);
   std::replace(option.begin(), option.end(), '_', '-');
+  if (option == "coupling-stiffness") option = "coupling";
   return "--" + option;
+}
+
+// What the device fills goes under what was said here or in the file.
+void combineDevice(const Given& given, ServerConfig& config) {
+  overwrite(given.device, config.device);
+  const DeviceOverrides& over_device = given.over_device;
+  if (over_device.force_limit) config.said.force_limit = over_device.force_limit;
+  if (over_device.coupling_stiffness) config.said.coupling_stiffness = over_device.coupling_stiffness;
+  if (over_device.coupling_damping) config.said.coupling_damping = over_device.coupling_damping;
+  config.step = withDevice(config.step, config.device, config.said);
+}
+
+void combineContact(const Given& given, StepConfig& step) {
+  constexpr std::int64_t kFar = 1'000'000;  // fits an int, and is as far out of range as what was cut to it
+  overwrite(given.tip_radius, step.tip_radius);
+  overwrite(given.friction, step.friction);
+  overwrite(given.force_rate_limit, step.force_rate_limit);
+  overwrite(given.speed_limit, step.speed_limit);
+  overwrite(given.youngs_modulus, step.youngs_modulus);
+  if (given.tools) step.tools = static_cast<int>(std::clamp(*given.tools, -kFar, kFar));
+}
+
+template <class Take>
+void takeWord(const char* option, Take take) {
+  try {
+    take();
+  } catch (const ConfigError& error) {
+    throw ConfigError(std::string(option) + " " + error.what());
+  }
+}
+
+// A value out of range that stands here; what a file says was checked as it was read.
+void refuse(const Complaint& complaint) {
+  throw ConfigError(optionOf(complaint.key) + " " + complaint.text);
 }
 
 ServerConfig combine(const Given& given) {
@@ -63,16 +126,14 @@ ServerConfig combine(const Given& given) {
   overwrite(given.server_id, config.server_id);
   overwrite(given.organ_id, config.organ_id);
   overwrite(given.surface_every, config.surface_every);
-  overwrite(given.tip_radius, config.step.tip_radius);
-  overwrite(given.force_limit, config.step.force_limit);
-  try {
+  combineContact(given, config.step);
+  combineDevice(given, config);
+  takeWord("--realtime", [&] {
     if (given.realtime) config.realtime = parsePolicy(*given.realtime);
-  } catch (const ConfigError& error) {
-    throw ConfigError(std::string("--realtime ") + error.what());
-  }
-  if (const auto complaint = firstComplaint(config)) {
-    throw ConfigError(optionOf(complaint->key) + " " + complaint->text);
-  }
+  });
+  takeWord("--device", [&] { checkDevice(config.device); });
+  if (const auto complaint = firstComplaint(config)) refuse(*complaint);
+  if (const auto complaint = deviceComplaint(config)) refuse(*complaint);
   if (config.model.empty()) throw ConfigError("--model is missing: name a model file here or in --config");
   return config;
 }

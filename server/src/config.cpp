@@ -2,6 +2,7 @@
 #include "palpate/server/config.h"
 
 #include <array>
+#include <limits>
 #include <sstream>
 
 namespace palpate::server {
@@ -22,6 +23,13 @@ std::string outOf(const Range& range) {
   return text.str();
 }
 
+// Where a field of the engine stands in the file.
+std::string keyOf(const std::string& field) {
+  if (field == "youngs_modulus") return "organ." + field;
+  if (field == "tools") return field;
+  return "tool." + field;
+}
+
 // The engine names the first bad field of its own parameters: "StepConfig.tip_radius is 0.2, expected 0 to
 // 0.05 m".
 std::optional<Complaint> firstToolComplaint(const StepConfig& step) {
@@ -34,7 +42,7 @@ std::optional<Complaint> firstToolComplaint(const StepConfig& step) {
     const std::size_t space = sentence.find(' ');
     if (dot == std::string::npos || space == std::string::npos || dot > space)
       return Complaint{"tool", sentence};
-    return Complaint{"tool" + sentence.substr(dot, space - dot), sentence.substr(space + 1)};
+    return Complaint{keyOf(sentence.substr(dot + 1, space - dot - 1)), sentence.substr(space + 1)};
   }
 }
 
@@ -49,7 +57,44 @@ std::optional<Complaint> rateComplaint(const ServerConfig& config) {
   return Complaint{"rate", text.str()};
 }
 
+std::string deviceNames() {
+  std::string names;
+  for (const DevicePreset& preset : devicePresets()) names += std::string(preset.name) + ", ";
+  return names + "or " + std::string(kCustomDevice);
+}
+
 }  // namespace
+
+StepConfig withDevice(StepConfig step, const std::string& device, const DeviceOverrides& said) {
+  const StepConfig own;
+  step.force_limit = own.force_limit;
+  step.coupling_stiffness = own.coupling_stiffness;
+  step.coupling_damping = own.coupling_damping;
+  if (const auto preset = findDevicePreset(device)) apply(*preset, step);
+  step.force_limit = said.force_limit.value_or(step.force_limit);
+  step.coupling_stiffness = said.coupling_stiffness.value_or(step.coupling_stiffness);
+  step.coupling_damping = said.coupling_damping.value_or(step.coupling_damping);
+  return step;
+}
+
+double stiffnessLimit(const std::string& device) {
+  const auto preset = findDevicePreset(device);
+  return preset ? preset->stiffness_limit : std::numeric_limits<double>::infinity();
+}
+
+void checkDevice(const std::string& word) {
+  if (word == kCustomDevice || findDevicePreset(word)) return;
+  throw ConfigError("is \"" + word + "\", expected " + deviceNames());
+}
+
+std::optional<Complaint> deviceComplaint(const ServerConfig& config) {
+  const double limit = stiffnessLimit(config.device);
+  if (!(config.step.coupling_stiffness > limit)) return std::nullopt;
+  std::ostringstream text;
+  text << "is " << config.step.coupling_stiffness << ", expected at most " << limit << " N/m, what device "
+       << config.device << " renders stably (device custom has no such limit)";
+  return Complaint{"tool.coupling_stiffness", text.str()};
+}
 
 std::optional<Complaint> firstComplaint(const ServerConfig& config) {
   constexpr double kMaxId = 4294967295.0;
@@ -64,7 +109,7 @@ std::optional<Complaint> firstComplaint(const ServerConfig& config) {
     // Written so that NaN complains too.
     if (!(range.value >= range.low && range.value <= range.high)) return Complaint{range.key, outOf(range)};
   }
-  if (const auto complaint = firstToolComplaint(config.step)) return complaint;
+  if (auto complaint = firstToolComplaint(config.step)) return complaint;
   return rateComplaint(config);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -27,6 +28,12 @@ class KeyReader {
   void read(const std::string& key, double& out) {
     readAs(key, "a number",
            [&](const toml::node& node) { return assign(node.value<double>(), out, node.is_number()); });
+  }
+
+  void read(const std::string& key, std::optional<double>& out) {
+    double value = 0.0;
+    read(key, value);
+    if (root_.at_path(key).node() != nullptr) out = value;
   }
 
   [[noreturn]] void refuse(const std::string& key, const std::string& text) const {
@@ -101,11 +108,39 @@ toml::table parseToml(const std::filesystem::path& path) {
 
 void readTool(KeyReader& keys, StepConfig& step) {
   keys.read("tool.tip_radius", step.tip_radius);
-  keys.read("tool.force_limit", step.force_limit);
   keys.read("tool.stale_timeout", step.stale_timeout);
   keys.read("tool.zero_after", step.zero_after);
   keys.read("tool.ramp_time", step.ramp_time);
   keys.read("tool.quaternion_tolerance", step.quaternion_tolerance);
+  keys.read("tool.friction", step.friction);
+  keys.read("tool.force_rate_limit", step.force_rate_limit);
+  keys.read("tool.speed_limit", step.speed_limit);
+  keys.read("organ.youngs_modulus", step.youngs_modulus);
+}
+
+void readTools(KeyReader& keys, StepConfig& step) {
+  constexpr std::int64_t kFar = 1'000'000;  // fits an int, and is as far out of range as what was cut to it
+  std::int64_t tools = step.tools;
+  keys.read("tools", tools);
+  step.tools = static_cast<int>(std::clamp(tools, -kFar, kFar));
+}
+
+void readDevice(KeyReader& keys, ServerConfig& config) {
+  keys.read("device", config.device);
+  keys.read("tool.force_limit", config.said.force_limit);
+  keys.read("tool.coupling_stiffness", config.said.coupling_stiffness);
+  keys.read("tool.coupling_damping", config.said.coupling_damping);
+  config.step = withDevice(config.step, config.device, config.said);
+}
+
+// A word that only we can judge.
+template <class Take>
+void takeWord(const KeyReader& keys, const char* key, Take take) {
+  try {
+    take();
+  } catch (const ConfigError& error) {
+    keys.refuse(key, error.what());
+  }
 }
 
 }  // namespace
@@ -122,17 +157,18 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   keys.read("server_id", config.server_id);
   keys.read("organ_id", config.organ_id);
   keys.read("surface_every", config.surface_every);
+  readTools(keys, config.step);
   readTool(keys, config.step);
+  readDevice(keys, config);
   keys.refuseUnasked();
   if (root.contains("model")) {
     if (model.empty()) keys.refuse("model", "is empty, expected the path of a model file");
     config.model = path.parent_path() / model;
   }
-  try {
+  takeWord(keys, "realtime", [&] {
     if (root.contains("realtime")) config.realtime = parsePolicy(realtime);
-  } catch (const ConfigError& error) {
-    keys.refuse("realtime", error.what());
-  }
+  });
+  takeWord(keys, "device", [&] { checkDevice(config.device); });
   if (const auto complaint = firstComplaint(config)) keys.refuse(complaint->key, complaint->text);
 }
 

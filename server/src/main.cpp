@@ -46,6 +46,16 @@ void logModel(const MetaModel& model, const ServerConfig& config) {
       model.attributes().model_id);
 }
 
+void logContact(const Facts& facts) {
+  const StepConfig& step = facts.step;
+  spdlog::info(
+      "device {}: force limit {} N, {} N/s, coupling {} N/m, {} N s/m; friction {}, E {} Pa{}; {} tools, "
+      "tips of {} m",
+      facts.device, step.force_limit, step.force_rate_limit, step.coupling_stiffness, step.coupling_damping,
+      step.friction, step.youngs_modulus == 0.0 ? facts.youngs_modulus : step.youngs_modulus,
+      step.youngs_modulus == 0.0 ? " (the model's)" : "", step.tools, step.tip_radius);
+}
+
 int serve(int argc, char** argv) {
   // 1. What we are told.
   const std::optional<ServerConfig> config = parseCommandLine(argc, argv);
@@ -57,6 +67,7 @@ int serve(int argc, char** argv) {
   logModel(model, *config);
   // 4. From here on poses are answered.
   Server server(model, *config);
+  logContact(server.facts());
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
   // 5. Until somebody says stop,
   const int signal = waitForSignal();

@@ -29,8 +29,9 @@ Facts factsOf(const MetaModel& model, const ServerConfig& config) {
   facts.server_id = static_cast<std::uint32_t>(config.server_id);
   facts.organ_id = static_cast<std::uint32_t>(config.organ_id);
   facts.rate_hz = config.rate;
-  facts.tip_radius = config.step.tip_radius;
-  facts.force_limit = config.step.force_limit;
+  facts.device = config.device;
+  facts.step = config.step;
+  facts.youngs_modulus = model.attributes().E;
   return facts;
 }
 

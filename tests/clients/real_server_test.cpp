@@ -25,7 +25,8 @@ struct Running {
   Running() {
     writeSyntheticModel(model.path());
     process = std::make_unique<server::testing::ServerProcess>(
-        std::vector<std::string>{"--model", model.path().string(), "--domain", domain});
+        std::vector<std::string>{"--model", model.path().string(), "--domain", domain, "--device", "custom",
+                                 "--friction", "inf"});  // the model's own force, no coupling
   }
   [[nodiscard]] json run(const std::string& program, std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--json", "--wait", "30", "--domain", domain});

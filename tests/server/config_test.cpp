@@ -69,6 +69,14 @@ TEST_F(ConfigFile, TheSampleHoldsTheDefaults) {
   EXPECT_EQ(sample.step.zero_after, defaults.step.zero_after);
   EXPECT_EQ(sample.step.ramp_time, defaults.step.ramp_time);
   EXPECT_EQ(sample.step.quaternion_tolerance, defaults.step.quaternion_tolerance);
+  EXPECT_EQ(sample.device, defaults.device);
+  EXPECT_EQ(sample.step.coupling_stiffness, defaults.step.coupling_stiffness);
+  EXPECT_EQ(sample.step.coupling_damping, defaults.step.coupling_damping);
+  EXPECT_EQ(sample.step.friction, defaults.step.friction);
+  EXPECT_EQ(sample.step.force_rate_limit, defaults.step.force_rate_limit);
+  EXPECT_EQ(sample.step.speed_limit, defaults.step.speed_limit);
+  EXPECT_EQ(sample.step.youngs_modulus, defaults.step.youngs_modulus);
+  EXPECT_EQ(sample.step.tools, defaults.step.tools);
 }
 
 TEST_F(ConfigFile, RefusesAnUnknownKeyByNameAndLine) {
@@ -114,6 +122,60 @@ TEST_F(ConfigFile, RefusesAParameterOfTheEngineByNameAndLine) {
       << refusal("domain = 1\n[tool]\ntip_radius = 0.2");
   EXPECT_EQ(refusal("[tool]\nforce_limit = -1.0").find(":2: tool.force_limit "), 0U);
   EXPECT_EQ(refusal("[tool]\nstale_timeout = inf").find(":2: tool.stale_timeout "), 0U);
+}
+
+TEST_F(ConfigFile, ADeviceBringsItsLimitsAndWhatIsNamedWinsInAnyOrder) {
+  const ServerConfig omni = read("device = \"omni\"");
+  const auto preset = findDevicePreset("omni");
+  ASSERT_TRUE(preset.has_value());
+  EXPECT_EQ(omni.step.force_limit, preset->force_limit);
+  EXPECT_EQ(omni.step.coupling_stiffness, preset->coupling_stiffness);
+  EXPECT_EQ(omni.step.coupling_damping, preset->coupling_damping);
+  const ServerConfig mixed = read("device = \"premium30\"\n[tool]\ncoupling_stiffness = 123");
+  EXPECT_EQ(mixed.step.coupling_stiffness, 123.0);
+  EXPECT_EQ(mixed.step.force_limit, findDevicePreset("premium30")->force_limit);
+  const ServerConfig custom = read("device = \"custom\"");
+  EXPECT_EQ(custom.step.force_limit, StepConfig{}.force_limit);
+  EXPECT_TRUE(std::isinf(custom.step.coupling_stiffness));
+}
+
+TEST_F(ConfigFile, TakesInfinityWhereItSwitchesOff) {
+  const ServerConfig config = read(
+      "device = \"custom\"\n[tool]\nfriction = inf\ncoupling_stiffness = inf\nforce_limit = inf\n"
+      "force_rate_limit = inf\nspeed_limit = inf");
+  for (const double value : {config.step.friction, config.step.coupling_stiffness, config.step.force_limit,
+                             config.step.force_rate_limit, config.step.speed_limit})
+    EXPECT_TRUE(std::isinf(value) && value > 0.0);
+  EXPECT_EQ(refusal("[tool]\ncoupling_damping = inf").find(":2: tool.coupling_damping is inf"), 0U);
+  EXPECT_EQ(refusal("[organ]\nyoungs_modulus = inf").find(":2: organ.youngs_modulus is inf"), 0U);
+}
+
+TEST_F(ConfigFile, RefusesWhatTheHandShouldNotFeelByNameAndLine) {
+  EXPECT_EQ(refusal("[tool]\nfriction = 3").find(":2: tool.friction is 3, expected 0 to 2"), 0U);
+  EXPECT_EQ(refusal("[organ]\nyoungs_modulus = 50").find(":2: organ.youngs_modulus is 50"), 0U);
+  EXPECT_EQ(refusal("tools = 5").find(":1: tools is 5, expected 1 to 4"), 0U);
+  EXPECT_EQ(refusal("tools = 0").find(":1: tools is 0"), 0U);
+  EXPECT_EQ(refusal("\ndevice = \"falcon\""),
+            ":2: device is \"falcon\", expected touch, omni, desktop, premium15, premium30, or custom");
+}
+
+TEST(DeviceComplaint, ACouplingStifferThanTheDeviceIsRefusedUnlessItIsCustom) {
+  ServerConfig config;
+  EXPECT_FALSE(deviceComplaint(config).has_value());
+  for (const DevicePreset& preset : devicePresets()) {
+    config.device = preset.name;
+    config.said.coupling_stiffness = preset.stiffness_limit;
+    config.step = withDevice({}, config.device, config.said);
+    EXPECT_FALSE(deviceComplaint(config).has_value()) << preset.name;
+    config.said.coupling_stiffness = preset.stiffness_limit + 1.0;
+    config.step = withDevice({}, config.device, config.said);
+    const auto complaint = deviceComplaint(config);
+    ASSERT_TRUE(complaint.has_value()) << preset.name;
+    EXPECT_EQ(complaint->key, "tool.coupling_stiffness");
+    EXPECT_NE(complaint->text.find(config.device), std::string::npos) << complaint->text;
+  }
+  config.device = "custom";
+  EXPECT_FALSE(deviceComplaint(config).has_value());
 }
 
 TEST_F(ConfigFile, RefusesAnUnknownPolicyByNameAndLine) {

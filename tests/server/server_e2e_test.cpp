@@ -55,9 +55,12 @@ class ServerEndToEnd : public ::testing::Test {
     std::filesystem::remove(model_);
   }
 
-  // Server, one client that has found it, and a place to touch.
+  // Server, one client that has found it, and a place to touch. Without a word about the device the tool holds
+  // the patch itself and never slides: forces are the model's own.
   void start(std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"--model", model_.string(), "--domain", std::to_string(domain_)};
+    if (std::find(more.begin(), more.end(), "--device") == more.end())
+      arguments.insert(arguments.end(), {"--device", "custom", "--friction", "inf"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     server_ = std::make_unique<ServerProcess>(arguments, log_fd_);
     client_ = std::make_unique<TestClient>(domain_, 0);
@@ -266,14 +269,27 @@ TEST_F(ServerEndToEnd, CountsPosesThatWereSupersededOrOutOfOrder) {
 }
 
 TEST_F(ServerEndToEnd, TellsItsStateAboutOnceASecond) {
-  ASSERT_NO_FATAL_FAILURE(
-      start({"--tip-radius", "0.004", "--organ-id", "5", "--server-id", "6", "--realtime", "off"}));
+  ASSERT_NO_FATAL_FAILURE(start({"--tip-radius",       "0.004", "--organ-id",    "5",
+                                 "--server-id",        "6",     "--realtime",    "off",
+                                 "--force-limit",      "5",     "--device",      "desktop",
+                                 "--coupling",         "450",   "--friction",    "0.2",
+                                 "--force-rate-limit", "inf",   "--speed-limit", "3",
+                                 "--youngs-modulus",   "5e4",   "--tools",       "3"}));
   const auto status = client_->waitForStatus([](const auto& s) { return s.ticks > 100; });
   ASSERT_TRUE(status.has_value());
   EXPECT_EQ(status->server_id, 6U);
   EXPECT_EQ(status->organ_id, 5U);
   EXPECT_EQ(status->state, dds::server_state::kRunning);
   EXPECT_EQ(status->tip_radius, 0.004);
+  EXPECT_STREQ(status->device, "desktop");
+  EXPECT_EQ(status->force_limit, 5.0) << "what is named wins over what the device brings";
+  EXPECT_EQ(status->coupling_stiffness, 450.0);
+  EXPECT_EQ(status->coupling_damping, 1.5);
+  EXPECT_EQ(status->friction, 0.2);
+  EXPECT_EQ(status->youngs_modulus, 50e3);
+  EXPECT_TRUE(std::isinf(status->force_rate_limit));
+  EXPECT_EQ(status->speed_limit, 3.0);
+  EXPECT_EQ(status->tools, 3U);
   EXPECT_EQ(status->rate_hz, 1000.0);
   EXPECT_FALSE(status->realtime);
   EXPECT_GT(status->tick_us.p50, 0.0);

@@ -58,6 +58,27 @@ TEST_F(ServerRefuses, OptionsOutOfRangeByName) {
             "--realtime is \"maybe\", expected require, prefer or off");
 }
 
+TEST_F(ServerRefuses, WhatTheDeviceDoesNotStandByName) {
+  EXPECT_EQ(
+      refusal({"--model", "m.h5", "--coupling", "401"}),
+      "--coupling is 401, expected at most 400 N/m, what device touch renders stably (device custom has no "
+      "such limit)");
+  EXPECT_EQ(refusal({"--model", "m.h5", "--coupling", "inf"}).find("--coupling is inf, expected at most 400"),
+            0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--coupling", "701", "--device", "omni"}).find("--coupling is 701"),
+            0U);
+  EXPECT_EQ(
+      refusal({"--model", "m.h5", "--device", "falcon"}).find("--device is \"falcon\", expected touch, "),
+      0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--friction", "3"}).find("--friction is 3, expected 0 to 2"), 0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--tools", "5"}).find("--tools is 5, expected 1 to 4"), 0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--youngs-modulus", "1"}).find("--youngs-modulus is 1, expected 100"),
+            0U);
+  std::ofstream(file_) << "device = \"omni\"\n[tool]\ncoupling_stiffness = 650\n";
+  EXPECT_EQ(refusal({"--config", file_.string(), "--device", "touch"}).find("--coupling is 650"), 0U)
+      << "what the file names stands, the command line's device does not bear it";
+}
+
 TEST_F(ServerRefuses, WhatItDoesNotKnow) {
   EXPECT_NE(refusal({"--modle", "m.h5"}).find("--modle"), std::string::npos);
   EXPECT_NE(refusal({"--rate", "fast"}).find("rate"), std::string::npos);

@@ -52,7 +52,7 @@ TEST(ForceOnTheWire, SaysWhatTheRecordSays) {
 TEST(StatusOnTheWire, SaysTimesInMicrosecondsAndCutsLongTexts) {
   Facts facts;
   facts.server_id = 3;
-  facts.tip_radius = 0.004;
+  facts.step.tip_radius = 0.004;
   facts.model_id = std::string(500, 'x');
   Health health;
   health.tick.add(2'000);
@@ -66,6 +66,32 @@ TEST(StatusOnTheWire, SaysTimesInMicrosecondsAndCutsLongTexts) {
   EXPECT_EQ(status.tick_us.count, 1U);
   EXPECT_EQ(status.dropped, 5U);
   EXPECT_EQ(std::string(status.model_id), std::string(sizeof status.model_id - 1, 'x'));
+}
+
+TEST(StatusOnTheWire, SaysWhatTheHandFeels) {
+  Facts facts;
+  facts.device = "omni";
+  facts.youngs_modulus = 160e3;
+  facts.step.force_limit = 2.0;
+  facts.step.friction = 0.25;
+  facts.step.coupling_stiffness = 350.0;
+  facts.step.coupling_damping = 0.75;
+  facts.step.force_rate_limit = 900.0;
+  facts.step.speed_limit = 1.5;
+  facts.step.tools = 2;
+  dds::ServerStatus status = toWire(facts, Health{}, dds::server_state::kRunning);
+  EXPECT_STREQ(status.device, "omni");
+  EXPECT_EQ(status.force_limit, 2.0);
+  EXPECT_EQ(status.friction, 0.25);
+  EXPECT_EQ(status.coupling_stiffness, 350.0);
+  EXPECT_EQ(status.coupling_damping, 0.75);
+  EXPECT_EQ(status.force_rate_limit, 900.0);
+  EXPECT_EQ(status.speed_limit, 1.5);
+  EXPECT_EQ(status.tools, 2U);
+  EXPECT_EQ(status.youngs_modulus, 160e3) << "the model's own, none was asked for";
+  facts.step.youngs_modulus = 5e3;
+  status = toWire(facts, Health{}, dds::server_state::kRunning);
+  EXPECT_EQ(status.youngs_modulus, 5e3);
 }
 
 }  // namespace

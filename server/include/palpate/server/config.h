@@ -6,11 +6,29 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include "palpate/core/device_preset.h"
 #include "palpate/core/step_config.h"
 #include "palpate/rt/scheduling.h"
 
 namespace palpate::server {
+
+/// The device whose limits hold unless another is named.
+inline constexpr std::string_view kDefaultDevice = "touch";
+/// No preset: the caller's own numbers, and no limit on the coupling.
+inline constexpr std::string_view kCustomDevice = "custom";
+
+/// What a device preset fills, where it was said explicitly: that wins, in whatever order it was said.
+struct DeviceOverrides {
+  std::optional<double> force_limit;
+  std::optional<double> coupling_stiffness;
+  std::optional<double> coupling_damping;
+};
+
+/// `step` with the force limit and the coupling of a device, and what was said explicitly over both.
+/// "custom" (or an unknown device) leaves StepConfig's own defaults under what was said.
+[[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const DeviceOverrides& said);
 
 /// What the server is told, by defaults, a file and the command line, in this order.
 struct ServerConfig {
@@ -21,7 +39,10 @@ struct ServerConfig {
   std::int64_t server_id{0};                                 ///< key of ServerStatus, in [0, 2^32 - 1]
   std::int64_t organ_id{0};                                  ///< key of the surface topics, in [0, 2^32 - 1]
   std::int64_t surface_every{1};                             ///< ticks per surface field, in [1, 1000]
-  StepConfig step;  ///< tip radius, limits and ramps: [tool] in the file
+  std::string device{kDefaultDevice};                        ///< a preset of device_preset.h, or custom
+  DeviceOverrides said;                                      ///< of the file and the command line
+  /// parameters of the engine, the device's included: withDevice() was applied. [tool] and [organ] in the file
+  StepConfig step{withDevice({}, std::string(kDefaultDevice), {})};
 };
 
 /// An option that cannot be used. what() is one line: where it stands, what was found, what was expected.
@@ -37,12 +58,23 @@ struct Complaint {
 };
 
 /// @return the first value out of its range, if any. The model's existence is the loader's business.
+/// Whether the device stands the coupling is deviceComplaint()'s: a file and a command line complete each other.
 [[nodiscard]] std::optional<Complaint> firstComplaint(const ServerConfig& config);
+
+/// @throw ConfigError naming the devices that are known
+void checkDevice(const std::string& word);
+
+/// @return the coupling's stiffness when it is above what the device renders stably
+[[nodiscard]] std::optional<Complaint> deviceComplaint(const ServerConfig& config);
+
+/// The largest coupling stiffness that a device allows, N/m; infinity for "custom".
+[[nodiscard]] double stiffnessLimit(const std::string& device);
 
 /// @throw ConfigError naming the words that are known
 [[nodiscard]] rt::RealtimePolicy parsePolicy(const std::string& word);
 
 /// Overwrites in `config` what the file (TOML) names; a relative model path is taken from the file's folder.
+/// What names a device preset is applied; whether the device stands the coupling is left to deviceComplaint().
 /// @throw ConfigError "file:line: ..." for a syntax error, an unknown key, a wrong type or a value out of
 /// range
 void readConfigFile(const std::filesystem::path& path, ServerConfig& config);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "palpate/core/step_config.h"
+
 namespace palpate::server {
 
 /// What is settled once the server has started, as ServerStatus tells it.
@@ -12,8 +14,9 @@ struct Facts {
   std::uint32_t server_id{0};
   std::uint32_t organ_id{0};
   double rate_hz{0.0};
-  double tip_radius{0.0};   ///< m
-  double force_limit{0.0};  ///< N
+  std::string device;          ///< preset or custom
+  StepConfig step;             ///< as started
+  double youngs_modulus{0.0};  ///< the model's own, Pa
   bool memory_locked{false};
   bool realtime{false};
   std::string realtime_detail;  ///< what was had, or how to get it
