@@ -29,10 +29,10 @@ constexpr FlagText kFlagTexts[] = {
     {kForceLimited, "force cut to the limit"},
     {kNotAccessible, "touches a part of the surface that has no answer"},
     {kNonFiniteForce, "the model overflowed: force as after a stale pose, or no field"},
-    {kPoseOutOfOrder, "pose number went back or repeated, or its stamp went back (sender restarted?)"},
+    {kPoseOutOfOrder, "pose number went back or repeated, or its stamp went back"},
     {kForceRateLimited, "force would change too fast, it follows at the rate allowed"},
     {kPoseJump, "pose jumped faster than the speed limit, contact given up"},
-    {kTwoPublishers, "two publishers send poses of this tool, the second is not used"},
+    {kTwoPublishers, "a second publisher sends poses of this tool, they are not used"},
     {kToolNotConfigured, "tool is not among those configured, no force"},
     {kTickOverrun, "ticks were missed"},
 };
@@ -61,19 +61,24 @@ void Events::run() noexcept {
 void Events::drain(std::int64_t now_ns) {
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
-  UnknownTool unknown;
-  while (channels_.unknown_tools.pop(unknown)) {
-    health_.unknown_tools = unknown.count;
-    warn(kUnknownToolKind,
-         "pose of tool " + std::to_string(unknown.tool_id) + " ignored: tool ids are 0 to " +
-             std::to_string(kMaxTools - 1) + " (" + std::to_string(unknown.count) + " so far)",
-         now_ns);
-  }
+  noteUnknownTools(now_ns);
   const std::uint64_t failed = channels_.failed_writes.load(std::memory_order_relaxed);
   if (failed > health_.failed_writes) {
     warn(kFailedWriteKind, "DDS refused to send (" + std::to_string(failed) + " so far)", now_ns);
   }
   health_.failed_writes = failed;
+}
+
+void Events::noteUnknownTools(std::int64_t now_ns) {
+  const std::uint64_t unknown = channels_.unknown_poses.load(std::memory_order_relaxed);
+  if (unknown == health_.unknown_tools) return;
+  health_.unknown_tools = unknown;
+  health_.recent_flags |= kUnknownTool;
+  const std::uint32_t id = channels_.unknown_id.load(std::memory_order_relaxed);
+  warn(kUnknownToolKind,
+       "pose of tool " + std::to_string(id) + ": tool ids are 0 to " + std::to_string(kMaxTools - 1) +
+           ", no force (" + std::to_string(unknown) + " so far)",
+       now_ns);
 }
 
 void Events::noteTick(const TickRecord& record, std::int64_t now_ns) {

@@ -9,22 +9,71 @@
 namespace palpate::server {
 namespace {
 
-bool wentBackwards(const dds::ToolPose& pose, const PoseSample& before) noexcept {
-  if (before.received == 0) return false;
+bool isOutOfOrder(const dds::ToolPose& pose, const PoseSample& before) noexcept {
   const bool both_stamped = pose.stamp_ns != 0 && before.stamp_ns != 0;
-  return pose.seq < before.seq || (both_stamped && pose.stamp_ns < before.stamp_ns);
+  return pose.seq <= before.seq || (both_stamped && pose.stamp_ns < before.stamp_ns);
+}
+
+bool isUnknown(std::uint32_t tool_id) noexcept {
+  return tool_id >= static_cast<std::uint32_t>(kMaxTools);
 }
 
 }  // namespace
 
-void PoseIntake::accept(const dds::ToolPose& pose, std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING {
-  if (pose.tool_id >= static_cast<std::uint32_t>(kMaxTools)) {
-    // A full ring loses nothing that matters: the next entry carries the total.
-    (void)channels_.unknown_tools.push({pose.tool_id, ++unknown_tools_});
+std::optional<std::size_t> UnknownIds::place(std::uint32_t tool_id) noexcept PALPATE_NONBLOCKING {
+  for (std::size_t i = 0; i < count_; ++i)
+    if (ids_[i] == tool_id) return i;
+  if (count_ == ids_.size()) return std::nullopt;
+  ids_[count_] = tool_id;
+  return count_++;
+}
+
+bool PoseIntake::admits(const dds::ToolPose& pose) noexcept PALPATE_NONBLOCKING {
+  if (!isUnknown(pose.tool_id) || admitted_.place(pose.tool_id)) return true;
+  noteUnknown(pose.tool_id);
+  return false;
+}
+
+void PoseIntake::accept(const dds::ToolPose& pose, dds::WriterId writer,
+                        std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING {
+  if (isUnknown(pose.tool_id)) noteUnknown(pose.tool_id);
+  if (pose.tool_id < tools_) {
+    acceptServed(pose, writer, arrival_ns);
+  } else {
+    acceptStranger(pose, arrival_ns);
+  }
+}
+
+void PoseIntake::noteUnknown(std::uint32_t tool_id) noexcept PALPATE_NONBLOCKING {
+  channels_.unknown_id.store(tool_id, std::memory_order_relaxed);
+  channels_.unknown_poses.fetch_add(1, std::memory_order_relaxed);
+}
+
+void PoseIntake::acceptStranger(const dds::ToolPose& pose,
+                                std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING {
+  std::size_t slot = pose.tool_id;
+  if (isUnknown(pose.tool_id)) {
+    const auto place = answered_.place(pose.tool_id);
+    if (!place) return;
+    slot = static_cast<std::size_t>(kMaxTools) + *place;
+  }
+  const std::uint32_t flag = isUnknown(pose.tool_id) ? kUnknownTool : kToolNotConfigured;
+  strangers_[slot] = {pose.tool_id, flag, pose.seq, pose.stamp_ns, arrival_ns};
+  channels_.strangers.write(strangers_);
+}
+
+void PoseIntake::acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
+                              std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING {
+  PoseSample& newest = newest_[pose.tool_id];
+  const bool same_sender = newest.received > 0 && owner_[pose.tool_id] == writer;
+  if (newest.received > 0 && !same_sender && arrival_ns - newest.arrival_ns <= silence_ns_) {
+    ++newest.foreign;
+    newest.foreign_ns = arrival_ns;
+    channels_.poses[pose.tool_id].write(newest);
     return;
   }
-  PoseSample& newest = newest_[pose.tool_id];
-  newest.unordered += wentBackwards(pose, newest) ? 1 : 0;
+  owner_[pose.tool_id] = writer;
+  newest.unordered += same_sender && isOutOfOrder(pose, newest) ? 1 : 0;
   ++newest.received;
   newest.seq = pose.seq;
   newest.stamp_ns = pose.stamp_ns;
@@ -37,9 +86,14 @@ void PoseIntake::accept(const dds::ToolPose& pose, std::int64_t arrival_ns) noex
 void PoseSubscriber::onPoses(dds::ReaderView<dds::ToolPose> reader, void* context) noexcept {
   auto& intake = *static_cast<PoseIntake*>(context);
   std::array<dds::ToolPose, dds::kMaxTake> poses;
-  const std::size_t count = reader.take(poses);
+  std::array<dds::WriterId, dds::kMaxTake> writers;
+  const std::size_t count = reader.take(poses, writers);
   const std::int64_t now_ns = rt::monotonicNow();
-  for (std::size_t i = 0; i < count; ++i) intake.accept(poses[i], now_ns);
+  for (std::size_t i = 0; i < count; ++i) intake.accept(poses[i], writers[i], now_ns);
+}
+
+bool PoseSubscriber::admits(const dds::ToolPose& pose, void* context) noexcept {
+  return static_cast<PoseIntake*>(context)->admits(pose);
 }
 
 }  // namespace palpate::server

@@ -83,7 +83,7 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       status_out_(participant_, facts_),
       events_(channels_, status_out_),
       tick_(model, work_, channels_, static_cast<std::uint64_t>(config.surface_every), periodOf(config)),
-      poses_in_(participant_, channels_),
+      poses_in_(participant_, channels_, config.step),
       ramp_time_(config.step.ramp_time) {
   facts_.memory_locked = lockAll(model);
   settleRealtime(config.realtime);

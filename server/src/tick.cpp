@@ -9,6 +9,9 @@ namespace {
 // So many answers with zero force before the server goes: best effort may lose some of them.
 constexpr int kZeroTicks = 10;
 
+// A second publisher is flagged for so long after its last pose, and a stranger is answered.
+constexpr std::int64_t kRecent = 50'000'000;  // ns
+
 bool isZero(const std::array<double, 3>& force) noexcept {
   return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
@@ -33,6 +36,8 @@ void Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 }
 
 void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  overrun_ = cycle.overruns > last_overruns_;
+  last_overruns_ = cycle.overruns;
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) readPose(tool, cycle.woke_ns);
   input_.dt_ns = last_woke_ns_ == 0 ? 0 : cycle.woke_ns - last_woke_ns_;
   input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
@@ -43,22 +48,30 @@ void Tick::readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONB
   Ledger& ledger = ledgers_[tool];
   const std::uint64_t known = ledger.pose.received;
   const std::uint64_t unordered = ledger.pose.unordered;
-  fresh_[tool] = channels_.poses[tool].read(ledger.pose);
-  if (fresh_[tool]) ledger.superseded += ledger.pose.received - known - 1;
-  unordered_[tool] = ledger.pose.unordered != unordered;
+  (void)channels_.poses[tool].read(ledger.pose);
+  ledger.fresh = ledger.pose.received != known;  // what is read may tell of a second publisher only
+  if (ledger.fresh) ledger.superseded += ledger.pose.received - known - 1;
   ToolInput& input = input_.tools[tool];
   input.present = seen(tool) ? 1 : 0;
   input.position = ledger.pose.position;
   input.orientation = ledger.pose.orientation;
   // A pose may arrive between the wake-up and here: it is new, not from the future.
   input.age_ns = std::max<std::int64_t>(0, now_ns - ledger.pose.arrival_ns);
+  input.flags = seen(tool) ? noticed(ledger.pose, unordered, now_ns) : 0;
+}
+
+std::uint32_t Tick::noticed(const PoseSample& pose, std::uint64_t unordered_before,
+                            std::int64_t now_ns) const noexcept PALPATE_NONBLOCKING {
+  std::uint32_t flags = overrun_ ? kTickOverrun : 0;
+  if (pose.unordered != unordered_before) flags |= kPoseOutOfOrder;
+  if (pose.foreign > 0 && now_ns - pose.foreign_ns <= kRecent) flags |= kTwoPublishers;
+  return flags;
 }
 
 void Tick::countRejectedPoses() noexcept PALPATE_NONBLOCKING {
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
-    std::uint32_t& flags = result_.tools[tool].flags;
-    if (fresh_[tool] && (flags & (kNonFinitePose | kNonUnitQuaternion)) != 0) ++rejected_;
-    if (unordered_[tool]) flags |= kPoseOutOfOrder;
+    const std::uint32_t flags = result_.tools[tool].flags;
+    if (ledgers_[tool].fresh && (flags & (kNonFinitePose | kNonUnitQuaternion)) != 0) ++rejected_;
   }
 }
 
@@ -71,15 +84,39 @@ void Tick::writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     record.seq = ++ledger.force_seq;
     record.pose_seq = ledger.pose.seq;
     record.pose_stamp_ns = ledger.pose.stamp_ns;
-    record.stamp_ns = cycle.woke_ns;
-    record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
-    record.previous_tick_ns = cycle.previous_ns;
-    record.overruns = cycle.overruns;
     record.superseded = ledger.superseded;
     record.result = result_.tools[tool];
-    // A full ring is a lost sample like any other: the receiver sees the gap in seq.
-    if (!channels_.forces.push(record)) ++dropped_;
+    push(record, cycle);
   }
+  answerStranger(cycle);
+}
+
+// One a tick, in turn: however many there are, a tick costs the same.
+void Tick::answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  (void)channels_.strangers.read(strangers_);
+  for (std::size_t tried = 0; tried < strangers_.size(); ++tried) {
+    const std::size_t slot = next_stranger_;
+    next_stranger_ = (slot + 1) % strangers_.size();
+    const Stranger& stranger = strangers_[slot];
+    if (stranger.flags == 0 || cycle.woke_ns - stranger.arrival_ns > kRecent) continue;
+    ForceRecord record;
+    record.tool_id = stranger.tool_id;
+    record.seq = ++stranger_seq_[slot];
+    record.pose_seq = stranger.seq;
+    record.pose_stamp_ns = stranger.stamp_ns;
+    record.result.flags = stranger.flags | (input_.shutting_down != 0 ? kShuttingDown : 0);
+    push(record, cycle);
+    return;
+  }
+}
+
+void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  record.stamp_ns = cycle.woke_ns;
+  record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
+  record.previous_tick_ns = cycle.previous_ns;
+  record.overruns = cycle.overruns;
+  // A full ring is a lost sample like any other: the receiver sees the gap in seq.
+  if (!channels_.forces.push(record)) ++dropped_;
 }
 
 void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
@@ -104,8 +141,10 @@ void Tick::writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
     record.superseded += ledgers_[tool].superseded;
     record.unordered += ledgers_[tool].pose.unordered;
-    record.seen[tool] = seen(tool) ? 1 : 0;
-    record.flags[tool] = result_.tools[tool].flags;
+    const Stranger& stranger = strangers_[tool];  // a tool that is not configured is never seen()
+    const bool recent = stranger.flags != 0 && cycle.woke_ns - stranger.arrival_ns <= kRecent;
+    record.seen[tool] = seen(tool) || stranger.flags != 0 ? 1 : 0;
+    record.flags[tool] = result_.tools[tool].flags | (recent ? stranger.flags : 0);
   }
   if (!channels_.ticks.push(record)) ++dropped_;
 }

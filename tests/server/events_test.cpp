@@ -78,15 +78,18 @@ TEST_F(EventsTest, MissedTicksLostRecordsAndUnknownToolsAreLogged) {
   record.overruns = 3;
   record.dropped = 2;
   ASSERT_TRUE(channels_->ticks.push(record));
-  ASSERT_TRUE(channels_->unknown_tools.push({9, 1}));
+  channels_->unknown_poses = 1;
+  channels_->unknown_id = 9;
   channels_->failed_writes = 4;
   events_.drain(kSecond);
-  EXPECT_EQ(takeLog(),
+  const std::string log = takeLog();
+  EXPECT_EQ(log,
             "ticks missed (3 so far)\n"
             "a ring was full (2 records lost so far)\n"
-            "pose of tool 9 ignored: tool ids are 0 to 3 (1 so far)\n"
+            "pose of tool 9: tool ids are 0 to 3, no force (1 so far)\n"
             "DDS refused to send (4 so far)\n");
   EXPECT_EQ(events_.health().unknown_tools, 1U);
+  EXPECT_EQ(events_.health().recent_flags, kUnknownTool);
   EXPECT_EQ(events_.health().failed_writes, 4U);
 }
 

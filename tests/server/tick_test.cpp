@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ namespace palpate::server::testing {
 namespace {
 
 constexpr std::int64_t kPeriod = 1'000'000;
+constexpr dds::WriterId kSender = 1;
+constexpr dds::WriterId kOther = 2;
 
 MetaModel loadSynthetic() {
   const auto path =
@@ -54,7 +57,7 @@ class TickTest : public ::testing::Test {
     return pose;
   }
 
-  void send(const dds::ToolPose& pose) noexcept { intake_.accept(pose, now_ns_); }
+  void send(const dds::ToolPose& pose) noexcept { intake_.accept(pose, kSender, now_ns_); }
 
   void runOneTick() noexcept {
     now_ns_ += kPeriod;
@@ -91,7 +94,7 @@ class TickTest : public ::testing::Test {
   MetaModel model_ = loadSynthetic();
   Workspace work_{model_, StepConfig{}};
   std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3 * model_.view().surfaceNodes());
-  PoseIntake intake_{*channels_};
+  PoseIntake intake_{*channels_, StepConfig{}};
   Tick tick_{model_, work_, *channels_, 1, kPeriod};
   rt::Cycle cycle_;
   std::int64_t now_ns_{1'000'000'000};
@@ -177,6 +180,70 @@ TEST_F(TickTest, FlagsAPoseThatWentBackwardsInTheTickThatUsesIt) {
   EXPECT_NE(forces[1].result.flags & kPoseOutOfOrder, 0U);
   EXPECT_EQ(forces[2].result.flags & kPoseOutOfOrder, 0U);
   EXPECT_EQ(takeLastRecord().unordered, 1U);
+}
+
+TEST_F(TickTest, FlagsASecondPublisherForAsLongAsItSends) {
+  const auto run = [&](int ticks, bool with_other) {
+    for (int i = 0; i < ticks; ++i) {
+      send(poseAtDepth(0, -0.01));
+      if (with_other) intake_.accept(poseAtDepth(0, 0.003), kOther, now_ns_);
+      runOneTick();
+    }
+    return takeForces();
+  };
+  EXPECT_EQ(run(20, false).back().result.flags & kTwoPublishers, 0U);
+  for (const ForceRecord& record : run(20, true)) {
+    EXPECT_NE(record.result.flags & kTwoPublishers, 0U);
+    EXPECT_EQ(record.result.flags & kInContact, 0U) << "the second one's pose was used";
+    EXPECT_EQ(record.superseded, 0U);
+  }
+  EXPECT_EQ(run(60, false).back().result.flags & kTwoPublishers, 0U);
+}
+
+TEST_F(TickTest, FlagsTheFirstTickAfterMissedOnes) {
+  send(poseAtDepth(0, -0.01));
+  runOneTick();
+  cycle_.overruns = 3;
+  runOneTick();
+  runOneTick();
+  const auto forces = takeForces();
+  EXPECT_EQ(forces[0].result.flags & kTickOverrun, 0U);
+  EXPECT_NE(forces[1].result.flags & kTickOverrun, 0U);
+  EXPECT_EQ(forces[2].result.flags & kTickOverrun, 0U);
+}
+
+TEST_F(TickTest, AnswersToolsThatGetNoForceInTurnAndOneATick) {
+  for (std::uint32_t id = 4; id < 100; ++id) send(poseAtDepth(id, 0.001));
+  for (int i = 0; i < 40; ++i) runOneTick();
+  const auto forces = takeForces();
+  ASSERT_EQ(forces.size(), 40U);
+  std::map<std::uint32_t, std::uint64_t> seq;
+  for (const ForceRecord& record : forces) {
+    EXPECT_EQ(record.seq, ++seq[record.tool_id]);
+    EXPECT_EQ(record.result.flags, kUnknownTool);
+    EXPECT_EQ(record.result.force, (std::array<double, 3>{}));
+  }
+  EXPECT_EQ(seq.size(), kMaxUnknownTools);
+  for (int i = 0; i < 20; ++i) runOneTick();
+  (void)takeForces();
+  runOneTick();
+  EXPECT_TRUE(takeForces().empty()) << "no pose for 60 ms, no answer";
+}
+
+TEST_F(TickTest, AToolThatIsNotConfiguredGetsZeroForce) {
+  StepConfig one;
+  one.tools = 1;
+  PoseIntake intake(*channels_, one);
+  intake.accept(poseAtDepth(2, 0.003), kSender, now_ns_);
+  runOneTick();
+  const auto forces = takeForces();
+  ASSERT_EQ(forces.size(), 1U);
+  EXPECT_EQ(forces[0].tool_id, 2U);
+  EXPECT_EQ(forces[0].result.flags, kToolNotConfigured);
+  EXPECT_EQ(forces[0].result.force, (std::array<double, 3>{}));
+  const TickRecord record = takeLastRecord();
+  EXPECT_EQ(record.seen[2], 1);
+  EXPECT_EQ(record.flags[2], kToolNotConfigured);
 }
 
 TEST_F(TickTest, AFullRingCostsTheNewestRecordAndTheCounterShowsIt) {

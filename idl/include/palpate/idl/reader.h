@@ -8,10 +8,14 @@
 #include <span>
 #include <string>
 
+#include "palpate/idl/error.h"
 #include "palpate/idl/loaned_samples.h"
 #include "palpate/idl/topic.h"
 
 namespace palpate::dds {
+
+/// Names the writer of a sample, within this process: a sender that starts anew has another one.
+using WriterId = dds_instance_handle_t;
 
 /// What a data callback gets: the reader, without owning it.
 template <class T>
@@ -23,6 +27,13 @@ class ReaderView {
   /// @return how many of `out` were filled; 0 when there is nothing or Cyclone reports an error
   /// No allocation of ours; Cyclone locks. Threads: any; use one, or samples are shared out.
   [[nodiscard]] std::size_t take(std::span<T> out) const noexcept requires TopicTraits<T>::kFlat {
+    std::array<WriterId, kMaxTake> writers;
+    return take(out, writers);
+  }
+
+  /// The same, and who sent each of them. @param[out] writers  kMaxTake of them
+  [[nodiscard]] std::size_t take(
+      std::span<T> out, std::span<WriterId, kMaxTake> writers) const noexcept requires TopicTraits<T>::kFlat {
     std::array<void*, kMaxTake> buffers;
     std::array<dds_sample_info_t, kMaxTake> infos;
     const auto wanted = static_cast<std::uint32_t>(std::min(out.size(), kMaxTake));
@@ -33,6 +44,7 @@ class ReaderView {
     for (std::size_t i = 0; taken > 0 && i < static_cast<std::size_t>(taken); ++i) {
       if (!infos[i].valid_data) continue;
       if (valid != i) out[valid] = out[i];
+      writers[valid] = infos[i].publication_handle;
       ++valid;
     }
     return valid;
@@ -50,6 +62,11 @@ class ReaderView {
 template <class T>
 using DataCallback = void (*)(ReaderView<T> reader, void* context) noexcept;
 
+/// Asked before a sample is kept: false and Cyclone forgets it, its instance too. One call at a time, on the receive
+/// thread, possibly while the data callback runs on another; must not block, throw, or use the reader.
+template <class T>
+using SampleFilter = bool (*)(const T& sample, void* context) noexcept;
+
 /// Receives samples of T. The participant must outlive it.
 template <class T>
 class Reader {
@@ -62,9 +79,11 @@ class Reader {
   explicit Reader(const Participant& participant) : Reader(participant, nullptr, nullptr) {}
 
   /// With a callback, from before the first sample on. `context` is passed through and must outlive the
-  /// reader.
-  Reader(const Participant& participant, DataCallback<T> callback, void* context)
-      : binding_(std::make_unique<Binding>(Binding{callback, context})), topic_(participant) {
+  /// reader. `admits`, if given, is asked first, with the same context.
+  Reader(const Participant& participant, DataCallback<T> callback, void* context,
+         SampleFilter<T> admits = nullptr)
+      : binding_(std::make_unique<Binding>(Binding{callback, context, admits})), topic_(participant) {
+    if (admits != nullptr) filter();
     dds_listener_t* listener = nullptr;
     if (callback != nullptr) {
       listener = dds_create_listener(nullptr);
@@ -97,7 +116,20 @@ class Reader {
   struct Binding {
     DataCallback<T> callback;
     void* context;
+    SampleFilter<T> admits;
   };
+  void filter() {
+    dds_topic_filter filter{};
+    filter.mode = DDS_TOPIC_FILTER_SAMPLE_ARG;
+    filter.f.sample_arg = &Reader::onFilter;
+    filter.arg = binding_.get();
+    checked(dds_set_topic_filter_extended(topic_.handle(), &filter),
+            std::string("cannot filter topic ") + Traits::kName);
+  }
+  static bool onFilter(const void* sample, void* arg) {
+    const auto* binding = static_cast<const Binding*>(arg);
+    return binding->admits(*static_cast<const T*>(sample), binding->context);
+  }
   static void onData(dds_entity_t reader, void* arg) {
     const auto* binding = static_cast<const Binding*>(arg);
     binding->callback(ReaderView<T>(reader), binding->context);

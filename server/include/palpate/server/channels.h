@@ -23,6 +23,7 @@ struct Channels {
   // Subscriber -> tick. Cyclone runs one callback of a reader at a time, so "the subscriber" is one writer
   // even when poses come in on several receive threads.
   std::array<rt::TripleBuffer<PoseSample>, kMaxTools> poses;
+  rt::TripleBuffer<Strangers> strangers;
 
   // Tick -> force-out: a ring, because every tick is answered. 512 records are 128 ms of four tools.
   rt::SpscQueue<ForceRecord, 512> forces;
@@ -32,9 +33,13 @@ struct Channels {
   rt::TripleBuffer<SurfaceFrame> surface;
   rt::Semaphore surface_ready;
 
-  // Tick -> events, subscriber -> events. Polled: neither producer pays for waking it.
+  // Tick -> events. Polled: the tick does not pay for waking it.
   rt::SpscQueue<TickRecord, 1024> ticks;
-  rt::SpscQueue<UnknownTool, 64> unknown_tools;
+
+  // Subscriber -> events: poses with a tool_id above 3, and the newest such id. Counters; relaxed, they order
+  // nothing.
+  std::atomic<std::uint64_t> unknown_poses{0};
+  std::atomic<std::uint32_t> unknown_id{0};
 
   // Force-out and surface-out -> events. Counters; relaxed, they order nothing.
   std::atomic<std::uint64_t> failed_writes{0};

@@ -28,6 +28,7 @@ class Events {
   [[nodiscard]] const Health& health() const noexcept { return health_; }
 
  private:
+  void noteUnknownTools(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
   void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
   void warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns);

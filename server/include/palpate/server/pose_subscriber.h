@@ -3,37 +3,74 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
+#include "palpate/core/step_config.h"
 #include "palpate/idl/reader.h"
 #include "palpate/server/channels.h"
 
 namespace palpate::server {
 
-/// Books poses as they arrive: checks their order, and hands each tool's newest to the tick. It judges
-/// nothing else; what a pose says is the engine's business. Threads: one at a time (Cyclone's callback of one
-/// reader). Real-time: yes, no allocation of ours.
-class PoseIntake {
+/// The first distinct tool ids above 3 that ever came, at most kMaxUnknownTools: a client that invents ids fills
+/// nothing. Threads: one.
+class UnknownIds {
  public:
-  explicit PoseIntake(Channels& channels) : channels_(channels) {}
-
-  /// @param[in] arrival_ns  our monotonic clock
-  void accept(const dds::ToolPose& pose, std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
+  /// @return the id's place, the same ever after; nothing when it is new and there is no room
+  [[nodiscard]] std::optional<std::size_t> place(std::uint32_t tool_id) noexcept PALPATE_NONBLOCKING;
 
  private:
+  std::array<std::uint32_t, kMaxUnknownTools> ids_{};
+  std::size_t count_{0};
+};
+
+/// Books poses as they arrive: who sends a tool's poses, whether they come in order, which tools get no force; and
+/// hands each tool's newest pose to the tick. What a pose says is the engine's business.
+/// A tool belongs to the publisher of its first pose for as long as its poses come, that is until none came for
+/// zero_after, when the force is zero anyway; until then the poses of others are counted and not used.
+/// Threads: one at a time (Cyclone's callback of one reader). Real-time: yes, no allocation of ours.
+class PoseIntake {
+ public:
+  /// @param[in] config  tools and zero_after are used
+  PoseIntake(Channels& channels, const StepConfig& config)
+      : channels_(channels),
+        tools_(static_cast<std::uint32_t>(config.tools)),
+        silence_ns_(static_cast<std::int64_t>(1e9 * config.zero_after)) {}
+
+  /// @param[in] writer      who sent it
+  /// @param[in] arrival_ns  our monotonic clock
+  void accept(const dds::ToolPose& pose, dds::WriterId writer,
+              std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
+
+  /// Whether DDS shall keep a pose for us. One call at a time, but possibly during an accept().
+  [[nodiscard]] bool admits(const dds::ToolPose& pose) noexcept PALPATE_NONBLOCKING;
+
+ private:
+  void acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
+                    std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
+  void acceptStranger(const dds::ToolPose& pose, std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
+  void noteUnknown(std::uint32_t tool_id) noexcept PALPATE_NONBLOCKING;
+
   Channels& channels_;
+  std::uint32_t tools_;
+  std::int64_t silence_ns_;
   std::array<PoseSample, kMaxTools> newest_{};
-  std::uint64_t unknown_tools_{0};
+  std::array<dds::WriterId, kMaxTools> owner_{};
+  Strangers strangers_{};
+  UnknownIds answered_;  // accept()'s
+  UnknownIds admitted_;  // admits()'
 };
 
 /// Takes tool poses from DDS on its receive thread.
 class PoseSubscriber {
  public:
   /// @throw dds::DdsError
-  PoseSubscriber(const dds::Participant& participant, Channels& channels)
-      : intake_(channels), reader_(participant, &PoseSubscriber::onPoses, &intake_) {}
+  PoseSubscriber(const dds::Participant& participant, Channels& channels, const StepConfig& config)
+      : intake_(channels, config),
+        reader_(participant, &PoseSubscriber::onPoses, &intake_, &PoseSubscriber::admits) {}
 
  private:
   static void onPoses(dds::ReaderView<dds::ToolPose> reader, void* context) noexcept;
+  static bool admits(const dds::ToolPose& pose, void* context) noexcept;
 
   PoseIntake intake_;
   dds::Reader<dds::ToolPose> reader_;  // last: its callback uses the intake

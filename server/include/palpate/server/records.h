@@ -20,8 +20,25 @@ struct PoseSample {
   std::array<double, 3> position{};                       ///< p_WT, m
   std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< q_WT, x y z w
   std::uint64_t received{0};                              ///< poses of this tool so far, this one included
-  std::uint64_t unordered{0};                             ///< those of them whose seq or stamp went backwards
+  std::uint64_t unordered{0};  ///< those of them whose seq went back or repeated, or whose stamp went back
+  std::uint64_t foreign{0};    ///< poses of a second publisher: counted, not used
+  std::int64_t foreign_ns{0};  ///< when the last of those came
 };
+
+/// Distinct tool ids above 3 that are answered, with zero force. Further ones are counted and forgotten.
+inline constexpr std::size_t kMaxUnknownTools = 16;
+
+/// A tool that gets no force: the newest of its poses.
+struct Stranger {
+  std::uint32_t tool_id{0};
+  std::uint32_t flags{0};  ///< kUnknownTool or kToolNotConfigured; 0: this slot is free
+  std::uint64_t seq{0};
+  std::int64_t stamp_ns{0};    ///< sender's clock
+  std::int64_t arrival_ns{0};  ///< ours
+};
+
+/// Subscriber to tick: tools that get no force. Those not configured lie at their id, unknown ones behind them.
+using Strangers = std::array<Stranger, kMaxTools + kMaxUnknownTools>;
 
 /// Tick to force-out: one answer.
 struct ForceRecord {
@@ -58,13 +75,7 @@ struct TickRecord {
   std::array<std::uint32_t, kMaxTools> flags{};
 };
 
-/// Subscriber to events: a pose with a tool_id that we do not serve.
-struct UnknownTool {
-  std::uint32_t tool_id{0};
-  std::uint64_t count{0};  ///< such poses so far, this one included
-};
-
-static_assert(std::is_trivially_copyable_v<PoseSample> && std::is_trivially_copyable_v<ForceRecord> &&
-              std::is_trivially_copyable_v<TickRecord>);
+static_assert(std::is_trivially_copyable_v<PoseSample> && std::is_trivially_copyable_v<Strangers> &&
+              std::is_trivially_copyable_v<ForceRecord> && std::is_trivially_copyable_v<TickRecord>);
 
 }  // namespace palpate::server

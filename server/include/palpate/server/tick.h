@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 
 #include "palpate/core/step.h"
 #include "palpate/rt/periodic_thread.h"
@@ -38,12 +39,17 @@ class Tick {
     PoseSample pose;              // newest that a tick knew
     std::uint64_t force_seq{0};   // forces sent
     std::uint64_t superseded{0};  // poses that no tick ever knew
+    bool fresh{false};            // a pose came in since the last tick
   };
 
   void readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] std::uint32_t noticed(const PoseSample& pose, std::uint64_t unordered_before,
+                                      std::int64_t now_ns) const noexcept PALPATE_NONBLOCKING;
   void countRejectedPoses() noexcept PALPATE_NONBLOCKING;
   void writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportZeroForce() noexcept PALPATE_NONBLOCKING;
@@ -57,9 +63,12 @@ class Tick {
   StepInput input_;
   StepResult result_;
   std::array<Ledger, kMaxTools> ledgers_{};
-  std::array<bool, kMaxTools> fresh_{};      // a pose came in since the last tick
-  std::array<bool, kMaxTools> unordered_{};  // and one went backwards
+  Strangers strangers_{};
+  std::array<std::uint64_t, std::tuple_size_v<Strangers>> stranger_seq_{};  // forces sent to each
+  std::size_t next_stranger_{0};
   std::int64_t last_woke_ns_{0};
+  std::uint64_t last_overruns_{0};
+  bool overrun_{false};  // ticks were missed before this one
   std::uint64_t surface_seq_{0};
   std::uint64_t rejected_{0};
   std::uint64_t dropped_{0};

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each line of DESIGN 3.2, sent to palpate-server over DDS: the flag is seen, the force stays bounded, and a good tool
+// is answered afterwards.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <limits>
+#include <set>
+
+#include "server_fixture.h"
+
+namespace palpate::server::testing {
+namespace {
+
+constexpr double kForceLimit = 3.3;  // N, the default
+
+class Safety : public ServerEndToEnd {
+ protected:
+  [[nodiscard]] bool sees(std::uint32_t flag) const {
+    return client_->waitFor([&](const auto& f) { return (f.flags & flag) != 0; }).has_value();
+  }
+
+  // No answer so far was above the limit, or no number.
+  void expectBounded(double limit = kForceLimit) const {
+    for (const dds::ToolForce& force : client_->forces()) {
+      ASSERT_TRUE(isFinite(force));
+      ASSERT_LE(sizeOf(force.force), limit * (1.0 + 1e-9));
+    }
+  }
+
+  // The server goes on: a good press is pushed back.
+  void expectAlive() {
+    client_->stopSending();
+    pause(60);  // whatever was done, its poses are stale
+    ASSERT_NO_FATAL_FAILURE(press(0.001)) << server_->log();
+    EXPECT_GT(dot(target_.normal, client_->forces().back().force), 0.05);
+    EXPECT_TRUE(server_->running());
+  }
+
+  // Like startSending() at a pose that is bad in its own way.
+  void sendFor(int milliseconds, const dds::ToolPose& pose) {
+    for (int i = 0; i < milliseconds; ++i, pause(1)) client_->send(pose);
+  }
+};
+
+TEST_F(Safety, NumbersThatAreNone) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  for (const double number :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
+    ASSERT_NO_FATAL_FAILURE(press(0.001));
+    client_->stopSending();
+    client_->forget();
+    dds::ToolPose bad = client_->poseAt(atDepth(0.001));
+    bad.position[2] = number;
+    sendFor(100, bad);
+    EXPECT_TRUE(sees(dds::flag::kNonFinitePose)) << number;
+    expectBounded();
+    EXPECT_EQ(sizeOf(client_->forces().back().force), 0.0) << "answered like a stale pose";
+  }
+  dds::ToolPose bad = client_->poseAt(atDepth(0.001));
+  bad.orientation[0] = std::numeric_limits<double>::quiet_NaN();
+  client_->forget();
+  sendFor(20, bad);
+  EXPECT_TRUE(sees(dds::flag::kNonFinitePose)) << "in the orientation";
+  expectAlive();
+}
+
+TEST_F(Safety, AnOrientationThatIsNoRotation) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  client_->stopSending();
+  client_->forget();
+  dds::ToolPose bad = client_->poseAt(atDepth(0.001));
+  bad.orientation[3] = 0.9;
+  sendFor(100, bad);
+  EXPECT_TRUE(sees(dds::flag::kNonUnitQuaternion));
+  expectBounded();
+  EXPECT_EQ(sizeOf(client_->forces().back().force), 0.0);
+  expectAlive();
+}
+
+TEST_F(Safety, APoseThatArrivesTooSeldomFadesAndComesBack) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  client_->stopSending();
+  client_->forget();
+  for (int i = 0; i < 10; ++i, pause(35))
+    client_->send(client_->poseAt(atDepth(0.001)));  // stale from 20 ms on
+  const auto forces = client_->forces();
+  EXPECT_TRUE(std::any_of(forces.begin(), forces.end(), [](const auto& f) {
+    return (f.flags & dds::flag::kStalePose) != 0 && sizeOf(f.force) > 0.0;
+  })) << "it fades";
+  EXPECT_TRUE(std::any_of(forces.begin(), forces.end(), [](const auto& f) {
+    return (f.flags & dds::flag::kStalePose) == 0 && (f.flags & dds::flag::kRamping) != 0;
+  })) << "it comes back by a ramp";
+  expectBounded();
+  expectAlive();
+}
+
+TEST_F(Safety, AStreamThatStops) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  client_->stopSending();
+  client_->forget();
+  pause(120);
+  EXPECT_TRUE(sees(dds::flag::kStalePose));
+  expectBounded();
+  EXPECT_EQ(sizeOf(client_->forces().back().force), 0.0);
+  expectAlive();
+}
+
+TEST_F(Safety, AToolThatIsDeepAtOnceIsEngagedByARamp) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  client_->startSending(atDepth(0.003));
+  ASSERT_TRUE(client_->waitFor([](const auto& f) { return f.seq > 100; }).has_value());
+  const auto forces = client_->forces();
+  const double full = sizeOf(forces.back().force);
+  ASSERT_GT(full, 0.5);
+  EXPECT_TRUE(sees(dds::flag::kRamping));
+  double largest = 0.0;  // of a millisecond, with an allowance for ticks that came late
+  for (std::size_t i = 1; i < forces.size(); ++i) {
+    const double ms = static_cast<double>(forces[i].stamp_ns - forces[i - 1].stamp_ns) / kMs;
+    largest = std::max(largest, (sizeOf(forces[i].force) - sizeOf(forces[i - 1].force)) / std::max(ms, 1.0));
+  }
+  EXPECT_LT(sizeOf(forces.front().force), 0.2 * full);
+  EXPECT_LT(largest, full / 15.0) << "ramp_time is 30 ms";
+  expectAlive();
+}
+
+TEST_F(Safety, NumbersThatGoBackOrRepeatAreFlaggedAndUsed) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  for (const std::uint64_t step_back : {0U, 5U}) {
+    ASSERT_NO_FATAL_FAILURE(press(0.001));
+    client_->stopSending();
+    client_->forget();
+    dds::ToolPose pose = client_->poseAt(atDepth(0.001));
+    pose.seq = 1'000'000;
+    client_->send(pose);
+    pause(5);
+    pose.seq -= step_back;
+    client_->send(pose);
+    const auto flagged =
+        client_->waitFor([](const auto& f) { return (f.flags & dds::flag::kPoseOutOfOrder) != 0; });
+    ASSERT_TRUE(flagged.has_value()) << step_back;
+    EXPECT_EQ(flagged->pose_seq, pose.seq) << "a sender that counts anew is not locked out";
+    expectBounded();
+  }
+  expectAlive();
+}
+
+TEST_F(Safety, StampsOutOfOrderAreFlagged) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  client_->stopSending();
+  client_->forget();
+  dds::ToolPose pose = client_->poseAt(atDepth(0.001));
+  pose.stamp_ns = 1;
+  client_->send(pose);
+  EXPECT_TRUE(sees(dds::flag::kPoseOutOfOrder));
+  expectBounded();
+  expectAlive();
+}
+
+TEST_F(Safety, ASecondPublisherOfAToolIsFlaggedAndNotUsed) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  TestClient second(domain_, 0);
+  ASSERT_TRUE(second.connect());
+  second.startSending(atDepth(-0.05));  // would end the contact, if it were used
+  EXPECT_TRUE(sees(dds::flag::kTwoPublishers));
+  client_->forget();
+  pause(100);
+  for (const dds::ToolForce& force : client_->forces()) {
+    EXPECT_NE(force.flags & dds::flag::kTwoPublishers, 0U);
+    EXPECT_NE(force.flags & dds::flag::kInContact, 0U) << "the second one's pose was used";
+  }
+  expectBounded();
+  client_->stopSending();
+  second.forget();
+  EXPECT_TRUE(second
+                  .waitFor([](const auto& f) {
+                    return (f.flags &
+                            (dds::flag::kTwoPublishers | dds::flag::kInContact | dds::flag::kStalePose)) == 0;
+                  })
+                  .has_value())
+      << "the first one fell silent: the second has the tool";
+  second.stopSending();
+  expectAlive();
+}
+
+TEST_F(Safety, AnUnknownToolIsAnsweredWithZeroForce) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  TestClient stranger(domain_, 4);
+  ASSERT_TRUE(stranger.connect());
+  stranger.startSending(atDepth(0.002));
+  ASSERT_TRUE(stranger.waitFor([](const auto& f) { return f.seq >= 10; }).has_value());
+  for (const dds::ToolForce& force : stranger.forces()) {
+    EXPECT_EQ(force.flags, dds::flag::kUnknownTool);
+    EXPECT_EQ(sizeOf(force.force), 0.0);
+    EXPECT_GT(force.pose_seq, 0U);
+  }
+  EXPECT_TRUE(client_
+                  ->waitForStatus([](const auto& s) {
+                    return s.unknown_tools > 0 && (s.flags & dds::flag::kUnknownTool) != 0;
+                  })
+                  .has_value());
+  expectAlive();
+}
+
+TEST_F(Safety, AFloodOfToolIdsIsAnsweredForSixteenAndKeepsNobodyOut) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  dds::ToolPose pose = client_->poseAt(atDepth(0.001));
+  for (int round = 0; round < 3; ++round)
+    for (pose.tool_id = 4; pose.tool_id < 2004; ++pose.tool_id) client_->send(pose);
+  pause(100);
+  std::set<std::uint32_t> answered;
+  for (const dds::ToolForce& force : client_->forcesOfOtherTools()) answered.insert(force.tool_id);
+  EXPECT_GT(answered.size(), 0U);
+  EXPECT_LE(answered.size(), 16U);
+  EXPECT_TRUE(client_->waitForStatus([](const auto& s) { return s.unknown_tools > 1000; }).has_value());
+  expectAlive();
+}
+
+TEST_F(Safety, MoreToolsThanConfiguredGetNoForce) {
+  ASSERT_NO_FATAL_FAILURE(start({"--tools", "1"}));
+  TestClient second(domain_, 1);
+  ASSERT_TRUE(second.connect());
+  second.startSending(atDepth(0.002));
+  ASSERT_TRUE(second.waitFor([](const auto& f) { return f.seq >= 10; }).has_value());
+  for (const dds::ToolForce& force : second.forces()) {
+    EXPECT_EQ(force.flags, dds::flag::kToolNotConfigured);
+    EXPECT_EQ(sizeOf(force.force), 0.0);
+  }
+  EXPECT_TRUE(
+      client_->waitForStatus([](const auto& s) { return (s.flags & dds::flag::kToolNotConfigured) != 0; })
+          .has_value());
+  expectAlive();
+}
+
+TEST_F(Safety, BeyondTheDomainTheForceGoesOnAndIsLimited) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.02));
+  EXPECT_NE(client_->forces().back().flags & dds::flag::kBeyondDomain, 0U);
+  expectBounded();
+  expectAlive();
+}
+
+TEST_F(Safety, TheForceLimit) {
+  ASSERT_NO_FATAL_FAILURE(start({"--force-limit", "0.2"}));
+  ASSERT_NO_FATAL_FAILURE(press(0.003));
+  EXPECT_NE(client_->forces().back().flags & dds::flag::kForceLimited, 0U);
+  EXPECT_NEAR(sizeOf(client_->forces().back().force), 0.2, 1e-6);
+  expectBounded(0.2);
+  expectAlive();
+}
+
+TEST_F(Safety, TicksThatWereMissed) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  client_->forget();
+  server_->signal(SIGSTOP);
+  pause(15);
+  server_->signal(SIGCONT);
+  const auto flagged =
+      client_->waitFor([](const auto& f) { return (f.flags & dds::flag::kTickOverrun) != 0; });
+  ASSERT_TRUE(flagged.has_value());
+  EXPECT_GT(flagged->overruns, 0U);
+  expectBounded();
+  expectAlive();
+}
+
+}  // namespace
+}  // namespace palpate::server::testing

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../idl/test_domain.h"
+#include "palpate/testing/synthetic_model.h"
+#include "server_process.h"
+#include "test_client.h"
+
+namespace palpate::server::testing {
+
+inline constexpr double kTipRadius = 0.005;
+inline constexpr std::int64_t kMs = 1'000'000;
+
+inline void pause(int milliseconds) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+inline double sizeOf(const double (&v)[3]) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+inline bool isFinite(const dds::ToolForce& force) {
+  return std::isfinite(sizeOf(force.force)) &&
+         std::all_of(std::begin(force.stiffness), std::end(force.stiffness),
+                     [](double k) { return std::isfinite(k); });
+}
+
+inline std::uint64_t gaps(const std::vector<dds::ToolForce>& forces) {
+  return forces.back().seq - forces.front().seq + 1 - forces.size();
+}
+
+class ServerEndToEnd : public ::testing::Test {
+ protected:
+  ServerEndToEnd() { palpate::testing::writeSyntheticModel(model_); }
+  ~ServerEndToEnd() override {
+    client_.reset();
+    server_.reset();
+    std::filesystem::remove(model_);
+  }
+
+  // Server, one client that has found it, and a place to touch. Without a word about the device the tool holds
+  // the patch itself and never slides: forces are the model's own.
+  void start(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"--model", model_.string(), "--domain", std::to_string(domain_)};
+    if (std::find(more.begin(), more.end(), "--device") == more.end())
+      arguments.insert(arguments.end(), {"--device", "custom", "--friction", "inf"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    server_ = std::make_unique<ServerProcess>(arguments, log_fd_);
+    client_ = std::make_unique<TestClient>(domain_, 0);
+    ASSERT_TRUE(client_->connect()) << server_->log();
+    const auto target = client_->findTarget();
+    ASSERT_TRUE(target.has_value()) << server_->log();
+    target_ = *target;
+  }
+
+  // Centre of the tip at a depth below the surface; negative is above it.
+  [[nodiscard]] Point atDepth(double depth) const {
+    return along(target_.position, target_.normal, kTipRadius - depth);
+  }
+
+  // From above the surface down to `depth`, and held there until the force has settled.
+  void press(double depth) {
+    client_->startSending(atDepth(-0.002));
+    pause(20);
+    client_->moveTo(atDepth(depth), 150);
+    pause(150);
+    client_->forget();
+    pause(50);
+    ASSERT_FALSE(client_->forces().empty()) << server_->log();
+  }
+
+  std::uint32_t domain_ = palpate::testing::exclusiveDomain();
+  std::filesystem::path model_ =
+      std::filesystem::temp_directory_path() / ("palpate-e2e-" + std::to_string(getpid()) + ".h5");
+  int log_fd_ = -1;
+  std::unique_ptr<ServerProcess> server_;
+  std::unique_ptr<TestClient> client_;
+  Target target_;
+};
+
+}  // namespace palpate::server::testing
