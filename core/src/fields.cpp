@@ -48,22 +48,27 @@ NearField::NearField(const ModelView& view)
     : offset_(view.near_offset), node_(view.near_node), field_(view.near_field) {
   std::int64_t most = 0;
   for (std::size_t m = 0; m + 1 < offset_.size(); ++m) most = std::max(most, offset_[m + 1] - offset_[m]);
-  scratch_size_ = static_cast<int>(3 * most);
+  scratch_size_ = static_cast<int>(3 * most) + static_cast<int>(view.surfaceNodes());
+}
+
+NearField::Block NearField::block(std::int32_t position, std::span<const double> phi, double factor,
+                                  std::span<float> scratch) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t m = index(position);
+  const std::size_t first = index(offset_[m]), nodes = index(offset_[m + 1]) - first;
+  const std::span<float> u = scratch.first(3 * nodes);
+  std::fill(u.begin(), u.end(), 0.0F);
+  const Weights weight = scaled(phi, factor);
+  const float* const field = field_.data() + 3 * phi.size() * first;
+  addWeightedRows(field, 3 * nodes, weight.data(), phi.size(), 3 * nodes, u.data());
+  return {node_.subspan(first, nodes), u};
 }
 
 void NearField::add(const PositionMix& mix, std::span<const double> phi, double gain,
                     std::span<float> scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
   for (std::size_t b = 0; b < index(mix.count); ++b) {
-    const std::size_t m = index(mix.position[b]);
-    const std::size_t first = index(offset_[m]), nodes = index(offset_[m + 1]) - first;
-    const std::span<float> block = scratch.first(3 * nodes);
-    std::fill(block.begin(), block.end(), 0.0F);
-    const Weights weight = scaled(phi, gain * mix.weight[b]);
-    const float* const field = field_.data() + 3 * phi.size() * first;
-    addWeightedRows(field, 3 * nodes, weight.data(), phi.size(), 3 * nodes, block.data());
-    for (std::size_t i = 0; i < nodes; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        u[3 * index(node_[first + i]) + axis] += block[3 * i + axis];
+    const Block near = block(mix.position[b], phi, gain * mix.weight[b], scratch);
+    for (std::size_t i = 0; i < near.nodes.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis) u[3 * index(near.nodes[i]) + axis] += near.u[3 * i + axis];
   }
 }
 

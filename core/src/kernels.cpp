@@ -25,4 +25,19 @@ PALPATE_MULTIVERSION void addWeightedRows(const float* A, std::size_t stride, co
   }
 }
 
+PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows,
+                                  std::size_t length, float* out) noexcept PALPATE_NONBLOCKING {
+  constexpr std::size_t kLanes = 16;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const float* const a = A + r * stride;
+    float lane[kLanes] = {};
+    std::size_t i = 0;
+    for (; i + kLanes <= length; i += kLanes)
+      for (std::size_t k = 0; k < kLanes; ++k) lane[k] += a[i + k] * y[i + k];
+    for (std::size_t k = 0; i < length; ++i, ++k) lane[k] += a[i] * y[i];
+    out[r] = 0.0F;
+    for (const float part : lane) out[r] += part;
+  }
+}
+
 }  // namespace palpate

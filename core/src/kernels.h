@@ -12,4 +12,9 @@ namespace palpate {
 void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
                      std::size_t length, float* y) noexcept PALPATE_NONBLOCKING;
 
+/// out[r] = sum over i < length of A[r * stride + i] * y[i], in 16 partial sums that run side by side.
+/// Real-time: yes.
+void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
+             float* out) noexcept PALPATE_NONBLOCKING;
+
 }  // namespace palpate

@@ -28,6 +28,7 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
       surface_(view_),
       response_(view_, attributes_),
       far_field_(view_),
-      near_field_(view_) {}
+      near_field_(view_),
+      patch_average_(view_, attributes_) {}
 
 }  // namespace palpate

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <memory>
 
 #include "driver.h"
+#include "palpate/core/tool_coupling.h"
 #include "palpate/testing/allocation_guard.h"
 
 namespace palpate::testing {
@@ -65,6 +67,23 @@ TEST(Step, NeverAllocatesWithALoadDrivenModel) {
     for (const std::uint32_t flag : {kInContact, kBeyondDomain})
       EXPECT_EQ(seen & flag, flag) << "the path of flag " << flag << " was not taken";
   }
+}
+
+TEST(ToolCoupling, NeverAllocates) {
+  const MetaModel model = loadSynthetic();
+  FieldScratch scratch(model);
+  const std::array<ContactPoint, 2> s{model.surface().closestPoint({0.0, 0.0, 0.06}).s,
+                                      model.surface().closestPoint({0.02, 0.0, 0.06}).s};
+  const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3(0.0005, 0.0, -0.001)};
+  std::array<Vec3, 2> own = d;
+  std::size_t allocations = 0;
+  {
+    const AllocationGuard guard;
+    (void)ownDisplacements(model, s, d, 4, scratch, own);
+    allocations = guard.count();
+  }
+  EXPECT_EQ(allocations, 0U);
+  EXPECT_NE(own[0], d[0]);
 }
 
 }  // namespace palpate::testing

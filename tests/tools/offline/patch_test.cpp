@@ -38,7 +38,7 @@ TEST_F(Plate, DistancesChangeContinuouslyOverAnEdge) {
   const auto& triangle = surface_.triangles[100];
   SurfacePoint before{100, {0.4, 0.6, 0.0}};
   int other = -1;
-  for (const int t : surface_.triangles_of_node[static_cast<std::size_t>(triangle[0])])
+  for (const int t : surface_.graph.trianglesOf(triangle[0]))
     if (t != 100 && std::count(surface_.triangles[static_cast<std::size_t>(t)].begin(),
                                surface_.triangles[static_cast<std::size_t>(t)].end(), triangle[1]) > 0)
       other = t;

@@ -36,8 +36,18 @@ class NearField {
  public:
   explicit NearField(const ModelView& view);
 
-  /// Numbers of scratch that add() needs: 3 * the largest K_m.
+  /// The near block of one contact position; borrowed from the model and the scratch.
+  struct Block {
+    std::span<const std::int32_t> nodes;  ///< [K_m] surface nodes
+    std::span<const float> u;             ///< [K_m][3] m
+  };
+
+  /// Numbers of scratch: 3 * the largest K_m for a block, then Ns for whoever weighs its nodes.
   [[nodiscard]] int scratchSize() const noexcept { return scratch_size_; }
+  /// sum_alpha phi_alpha U_alpha of one position times `factor`. @param phi  [C] ParameterFunctions at p
+  /// @param scratch  scratchSize(), its beginning overwritten. Real-time: yes.
+  [[nodiscard]] Block block(std::int32_t position, std::span<const double> phi, double factor,
+                            std::span<float> scratch) const noexcept PALPATE_NONBLOCKING;
   /// u += gain * (the near blocks of one tool), m.
   /// @param phi  [C] ParameterFunctions at p, @param scratch  scratchSize(), @param u  [Ns][3]. Real-time: yes.
   void add(const PositionMix& mix, std::span<const double> phi, double gain, std::span<float> scratch,

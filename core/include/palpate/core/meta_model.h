@@ -9,6 +9,7 @@
 #include "palpate/core/load_error.h"
 #include "palpate/core/model_view.h"
 #include "palpate/core/parameter_functions.h"
+#include "palpate/core/patch_average.h"
 #include "palpate/core/sealed_image.h"
 #include "palpate/core/surface_mesh.h"
 
@@ -30,6 +31,8 @@ class MetaModel {
   [[nodiscard]] const ContactResponse& response() const noexcept { return response_; }
   [[nodiscard]] const SeparatedField& farField() const noexcept { return far_field_; }
   [[nodiscard]] const NearField& nearField() const noexcept { return near_field_; }
+  /// What a contact patch feels of a field, for tools that press together.
+  [[nodiscard]] const PatchAverage& patchAverage() const noexcept { return patch_average_; }
   /// Size of the file and of its copy in memory, bytes.
   [[nodiscard]] std::size_t bytes() const noexcept { return image_.bytes().size(); }
   /// True when the copy is locked into memory, so that the loop meets no page fault.
@@ -46,6 +49,7 @@ class MetaModel {
   ContactResponse response_;
   SeparatedField far_field_;
   NearField near_field_;
+  PatchAverage patch_average_;
 };
 
 }  // namespace palpate

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "palpate/core/surface_distance.h"
 #include "palpate/offline/fe_model.h"
 
 namespace palpate::offline {
@@ -21,8 +23,8 @@ struct ContactSurface {
   std::vector<std::int32_t> nodes;                     ///< Ns volume nodes
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, outward
   std::vector<Vec3> positions;                         ///< Ns, m
+  SurfaceGraph graph;                                  ///< the same, as distances are measured on it
   std::vector<double> areas;                           ///< Ns lumped rest areas A_i, m^2
-  std::vector<std::vector<std::int32_t>> triangles_of_node;
 
   ContactSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
                  std::vector<std::array<std::int32_t, 3>> surface_triangles);
@@ -50,9 +52,8 @@ struct Patch {
   }
 };
 
-/// Distances along the surface from s to the nodes nearer than a bound, by a front that unfolds one triangle
-/// at a time: exact on a flat (or developable) surface where the shortest path crosses the edge it is
-/// unfolded over, else the shorter way along an edge. DESIGN 2.3
+/// Distances along the surface from s to the nodes nearer than a bound, as the running system measures them
+/// (core's SurfaceFront). DESIGN 2.3
 /// @return pairs (surface node, distance in m), nearest first
 [[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const ContactSurface& surface,
                                                                             const SurfacePoint& s,

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "palpate/core/contact_point.h"
+#include "palpate/core/meta_model.h"
+#include "palpate/core/response.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.    DESIGN 1, 2.3
+/// @param source  the other tool's own part, clamped to the domain as in evaluateField()
+/// @return m, W; zero where the model has no answer at `at` or at source.s
+/// Cost O(C n); with the default organ see core/README.md. Real-time: yes. Threads: one per scratch.
+[[nodiscard]] Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source,
+                                     const ContactPoint& at,
+                                     FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
+
+/// Tools that press together: what each adds by itself, so that all patches move as prescribed.    DESIGN 3.1
+///   d_own,A + sum_{B != A} P_A u(s_B, d_own,B) = d_A,   then f_A = f(s_A, d_own,A), u = sum_A u(s_A, d_own,A)
+/// by Gauss-Seidel sweeps. Exact for a linear organ: the error of a nonlinear one is what palpate-query --tool2
+/// measures. The sweeps converge because the organ's compliance is positive definite; tools nearer to each other
+/// than a patch is wide ask for the nearly impossible, and get what so many sweeps give.
+/// @param s  contact points  @param d  prescribed, m, one for each  @param sweeps  >= 0; how many: core/README.md
+/// @param[in,out] own  in: where to start, d or what the last tick found; out: d_own, m, not clamped
+/// @return the largest change of an own part in the last sweep, m; 0 without one
+/// Cost sweeps * tools * (tools - 1) patchDisplacement(). Real-time: yes.
+double ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
+                        int sweeps, FieldScratch& scratch, std::span<Vec3> own) noexcept PALPATE_NONBLOCKING;
+
+}  // namespace palpate
