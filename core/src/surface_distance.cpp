@@ -12,20 +12,23 @@ std::size_t at(std::int32_t i) noexcept {
   return static_cast<std::size_t>(i);
 }
 
+SurfaceGraph::Corner cornerOf(const Vec3& C, const Vec3& A, const Vec3& B) {
+  const double base = (B - A).norm();
+  const double x = (C - A).dot(B - A) / base;
+  return {(C - A).norm(), (C - B).norm(), base, x, std::sqrt(std::max(0.0, (C - A).squaredNorm() - x * x))};
+}
+
 /// Distance at C from a virtual source that lies at distances da, db from A, B in the plane of the triangle.
-double unfold(const Vec3& A, const Vec3& B, const Vec3& C, double da, double db) {
-  const double along_edges = std::min(da + (C - A).norm(), db + (C - B).norm());
-  const double c = (B - A).norm();
-  const Vec3 x_axis = (B - A) / c;
-  const double cx = (C - A).dot(x_axis);
-  const double cy = std::sqrt(std::max(0.0, (C - A).squaredNorm() - cx * cx));
+double unfold(const SurfaceGraph::Corner& C, double da, double db) {
+  const double along_edges = std::min(da + C.to_a, db + C.to_b);
+  const double c = C.base;
   const double sx = (da * da - db * db + c * c) / (2.0 * c);
   const double height2 = da * da - sx * sx;
   if (height2 < -1e-9 * c * c) return along_edges;  // no such source: the distances come round different ways
   const double sy = std::sqrt(std::max(0.0, height2));  // below AB, C above it
-  const double crossing = cy + sy > 0.0 ? sx + (cx - sx) * sy / (cy + sy) : cx;
+  const double crossing = C.height + sy > 0.0 ? sx + (C.x - sx) * sy / (C.height + sy) : C.x;
   if (crossing < -1e-9 * c || crossing > c * (1.0 + 1e-9)) return along_edges;
-  return std::hypot(cx - sx, cy + sy);
+  return std::sqrt((C.x - sx) * (C.x - sx) + (C.height + sy) * (C.height + sy));
 }
 
 }  // namespace
@@ -37,6 +40,12 @@ SurfaceGraph::SurfaceGraph(std::span<const double> positions, std::span<const st
   for (const std::int32_t node : triangles_) ++first_[at(node) + 1];
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   around_.resize(triangles_.size());
+  for (std::int32_t t = 0; t < this->triangles(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::span<const std::int32_t> node = triangle(t);
+      corners_.push_back(
+          cornerOf(position(node[k]), position(node[(k + 1) % 3]), position(node[(k + 2) % 3])));
+    }
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t corner = 0; corner < triangles_.size(); ++corner)
     around_[at(next[at(triangles_[corner])]++)] = static_cast<std::int32_t>(corner / 3);
@@ -74,7 +83,7 @@ const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactP
     if (state_[at(node)] == State::kSettled) continue;
     state_[at(node)] = State::kSettled;
     settled_.emplace_back(node, distance);
-    for (const std::int32_t t : graph_.trianglesOf(node)) spread(graph_.triangle(t), node);
+    for (const std::int32_t t : graph_.trianglesOf(node)) spread(t, node);
   }
   return settled_;
 }
@@ -89,16 +98,17 @@ void SurfaceFront::offer(std::int32_t node, double distance) {
   queue_.emplace(distance, node);
 }
 
-void SurfaceFront::spread(std::span<const std::int32_t> triangle, std::int32_t node) {
-  const Vec3& X = graph_.position(node);
-  for (const std::int32_t next : triangle) {
-    if (state_[at(next)] == State::kSettled) continue;
-    offer(next, distance_[at(node)] + (graph_.position(next) - X).norm());
-    for (const std::int32_t other : triangle) {
-      if (other == next || other == node || state_[at(other)] != State::kSettled) continue;
-      offer(next, unfold(X, graph_.position(other), graph_.position(next), distance_[at(node)],
-                         distance_[at(other)]));
-    }
+void SurfaceFront::spread(std::int32_t triangle, std::int32_t node) {
+  const std::span<const std::int32_t> nodes = graph_.triangle(triangle);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (state_[at(nodes[k])] == State::kSettled) continue;
+    const std::int32_t a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
+    const SurfaceGraph::Corner& corner = graph_.corner(triangle, k);
+    const double da = distance_[at(a)], db = distance_[at(b)];
+    if (state_[at(a)] == State::kSettled && state_[at(b)] == State::kSettled)
+      offer(nodes[k], unfold(corner, da, db));
+    else
+      offer(nodes[k], node == a ? da + corner.to_a : db + corner.to_b);
   }
 }
 

@@ -1,25 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/tool_coupling.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 
 #include "load_driven.h"
+#include "palpate/core/workspace.h"
 
 namespace palpate {
 
 namespace {
 
+constexpr int kMost = 3 * kMaxTools;
+/// Unknowns of all tools, and the matrix between them; no allocation.
+using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
+using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+
 std::size_t index(std::int64_t i) noexcept {
   return static_cast<std::size_t>(i);
 }
 
-/// What a tool that imposes d by itself adds to the field.
+/// What a tool that imposes d by itself adds to the field; beyond its domain in proportion to d, so that the
+/// tools' own parts exist there too. A model driven by level ends where its load does.
 FieldSource sourceOf(const MetaModel& model, const ContactPoint& s, const Vec3& d) noexcept {
-  if (model.attributes().parameters == Parameters::kDisplacement) return {s, d, 1.0};
   Response response;
-  (void)respond(model, s, d, response);  // without an answer its parameter is zero, and so is the field
-  return {s, response.parameter, 1.0};
+  const ResponseStatus status = respond(model, s, d, response);
+  FieldSource source{s, response.parameter, 1.0};
+  const double answered = response.displacement.norm();
+  if (status == ResponseStatus::kClamped && answered > 0.0 &&
+      model.attributes().parameters != Parameters::kLevel)
+    source.gain = d.norm() / answered;
+  return source;  // without an answer its parameter is zero, and so is the field
+}
+
+/// The tools' own parts as the root of  x_A + sum_B P_A u_B(x_B) = d_A.
+class Coupling {
+ public:
+  Coupling(const MetaModel& model, std::span<const ContactPoint> s, FieldScratch& scratch) noexcept
+      : model_(model), s_(s), scratch_(scratch), size_(static_cast<Eigen::Index>(3 * s.size())) {}
+
+  /// x + what the others add.
+  [[nodiscard]] Numbers moved(const Numbers& x) noexcept {
+    Numbers sum = x;
+    for (Eigen::Index b = 0; b < size_; b += 3) addTo(sum, b, x.segment<3>(b), 1.0);
+    return sum;
+  }
+
+  /// Its derivative at rest, by differences of length h.
+  [[nodiscard]] Table slopeAtRest(double h) noexcept {
+    Table slope = Table::Identity(size_, size_);
+    for (Eigen::Index b = 0; b < size_; ++b) {
+      Numbers column = Numbers::Zero(size_);
+      addTo(column, b - b % 3, h * Vec3::Unit(b % 3), 1.0 / h);
+      slope.col(b) += column;
+    }
+    return slope;
+  }
+
+ private:
+  /// What tool b (its first unknown) moves the others by.
+  void addTo(Numbers& sum, Eigen::Index b, const Vec3& d, double factor) noexcept {
+    const FieldSource source = sourceOf(model_, s_[index(b / 3)], d);
+    for (Eigen::Index a = 0; a < size_; a += 3)
+      if (a != b) sum.segment<3>(a) += factor * patchDisplacement(model_, source, s_[index(a / 3)], scratch_);
+  }
+
+  const MetaModel& model_;
+  std::span<const ContactPoint> s_;
+  FieldScratch& scratch_;
+  Eigen::Index size_;
+};
+
+/// Makes the slope right along dx, where it is known to give dy (Broyden).
+void learn(Table& slope, const Numbers& dx, const Numbers& dy) noexcept {
+  const double square = dx.squaredNorm();
+  if (square > 0.0) slope += (dy - slope * dx) * (dx.transpose() / square);
+}
+
+/// The step that leaves least of r, at a price for its length: tools that touch the same place cannot be moved
+/// apart.
+Numbers damped(const Table& slope, const Numbers& r) noexcept {
+  constexpr double kDamping = 0.01;
+  Table normal = slope.transpose() * slope;
+  normal.diagonal().array() += kDamping * kDamping;
+  return normal.ldlt().solve(Numbers(slope.transpose() * r));
 }
 
 }  // namespace
@@ -48,19 +113,35 @@ Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source, const 
 }
 
 double ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                        int sweeps, FieldScratch& scratch, std::span<Vec3> own) noexcept PALPATE_NONBLOCKING {
-  double change = 0.0;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    change = 0.0;
-    for (std::size_t a = 0; a < s.size(); ++a) {
-      Vec3 next = d[a];
-      for (std::size_t b = 0; b < s.size(); ++b)
-        if (b != a) next -= patchDisplacement(model, sourceOf(model, s[b], own[b]), s[a], scratch);
-      change = std::max(change, (next - own[a]).norm());
-      own[a] = next;
-    }
+                        int iterations, FieldScratch& scratch,
+                        std::span<Vec3> own) noexcept PALPATE_NONBLOCKING {
+  const std::size_t tools = std::min<std::size_t>(s.size(), kMaxTools);
+  if (tools < 2) std::copy(d.begin(), d.end(), own.begin());
+  Numbers x(static_cast<Eigen::Index>(3 * tools)), wanted(x.size());
+  double length = 0.0;
+  for (std::size_t a = 0; a < tools; ++a) {
+    x.segment<3>(static_cast<Eigen::Index>(3 * a)) = own[a];
+    wanted.segment<3>(static_cast<Eigen::Index>(3 * a)) = d[a];
+    length = std::max({length, d[a].norm(), own[a].norm()});
   }
-  return change;
+  if (tools < 2 || length == 0.0) return 0.0;
+  Coupling coupling(model, s.first(tools), scratch);
+  Table slope = coupling.slopeAtRest(0.01 * length);
+  Numbers left = wanted - coupling.moved(x);
+  learn(slope, x, wanted - left);
+  for (int i = 0; i < iterations; ++i) {
+    const Numbers step = damped(slope, left);
+    x += step;
+    const Numbers now = wanted - coupling.moved(x);
+    learn(slope, step, left - now);
+    left = now;
+  }
+  double most = 0.0;
+  for (std::size_t a = 0; a < tools; ++a) {
+    own[a] = x.segment<3>(static_cast<Eigen::Index>(3 * a));
+    most = std::max(most, left.segment<3>(static_cast<Eigen::Index>(3 * a)).norm());
+  }
+  return most;
 }
 
 }  // namespace palpate

@@ -16,6 +16,13 @@ namespace palpate {
 /// A triangulated surface, and which triangles meet at a node. Owns its numbers; const once built.
 class SurfaceGraph {
  public:
+  /// A triangle in its plane, seen from one corner C: the other two, A and B, on the x axis.
+  struct Corner {
+    double to_a, to_b;  ///< |CA|, |CB|, m
+    double base;        ///< |AB|, m: A at (0, 0), B at (base, 0)
+    double x, height;   ///< C, m
+  };
+
   /// @param positions  [Ns][3] m  @param triangles  [T][3] indices of nodes, in range. O(Ns + T), allocates.
   SurfaceGraph(std::span<const double> positions, std::span<const std::int32_t> triangles);
 
@@ -28,6 +35,10 @@ class SurfaceGraph {
   [[nodiscard]] std::span<const std::int32_t> triangle(std::int32_t t) const noexcept {
     return std::span(triangles_).subspan(3 * static_cast<std::size_t>(t), 3);
   }
+  /// Corner k of a triangle; A and B are the corners k + 1 and k + 2, modulo 3.
+  [[nodiscard]] const Corner& corner(std::int32_t t, std::size_t k) const noexcept {
+    return corners_[3 * static_cast<std::size_t>(t) + k];
+  }
   /// Triangles that a node belongs to, in rising order.
   [[nodiscard]] std::span<const std::int32_t> trianglesOf(std::int32_t node) const noexcept;
   /// A_i, the lumped rest area of each node, [Ns], m^2: a third of each of its triangles.             DESIGN 1
@@ -36,6 +47,7 @@ class SurfaceGraph {
  private:
   std::vector<Vec3> positions_;
   std::vector<std::int32_t> triangles_;
+  std::vector<Corner> corners_;      ///< [T][3]
   std::vector<std::int32_t> first_;  ///< [Ns + 1] into around_
   std::vector<std::int32_t> around_;
 };
@@ -58,7 +70,7 @@ class SurfaceFront {
   enum class State : std::uint8_t { kUnseen, kOffered, kSettled };
 
   void offer(std::int32_t node, double distance);
-  void spread(std::span<const std::int32_t> triangle, std::int32_t node);
+  void spread(std::int32_t triangle, std::int32_t node);
   void forget();
 
   using Entry = std::pair<double, std::int32_t>;

@@ -20,14 +20,16 @@ namespace palpate {
 
 /// Tools that press together: what each adds by itself, so that all patches move as prescribed.    DESIGN 3.1
 ///   d_own,A + sum_{B != A} P_A u(s_B, d_own,B) = d_A,   then f_A = f(s_A, d_own,A), u = sum_A u(s_A, d_own,A)
-/// by Gauss-Seidel sweeps. Exact for a linear organ: the error of a nonlinear one is what palpate-query --tool2
-/// measures. The sweeps converge because the organ's compliance is positive definite; tools nearer to each other
-/// than a patch is wide ask for the nearly impossible, and get what so many sweeps give.
-/// @param s  contact points  @param d  prescribed, m, one for each  @param sweeps  >= 0; how many: core/README.md
+/// Quasi-Newton from the slopes at rest (Broyden, damped): exact for a linear organ; the error of a nonlinear one
+/// is what palpate-query --tool2 measures. Beyond its domain a tool's field goes on in proportion to d_own. Tools
+/// nearer to each other than a patch is wide, that ask for different d, get the least-squares answer.
+/// @param s  contact points, at most kMaxTools, all in contact  @param d  prescribed, m, finite, one for each
+/// @param iterations  >= 0; 4 from d itself, 2 from the last tick: core/README.md
 /// @param[in,out] own  in: where to start, d or what the last tick found; out: d_own, m, not clamped
-/// @return the largest change of an own part in the last sweep, m; 0 without one
-/// Cost sweeps * tools * (tools - 1) patchDisplacement(). Real-time: yes.
+/// @return what is left: the largest |d_A - d_own,A - sum_B P_A u_B|, m; 0 for one tool
+/// Cost tools * (tools - 1) * (4 + iterations) patchDisplacement(). Real-time: yes.
 double ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                        int sweeps, FieldScratch& scratch, std::span<Vec3> own) noexcept PALPATE_NONBLOCKING;
+                        int iterations, FieldScratch& scratch,
+                        std::span<Vec3> own) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate
