@@ -28,7 +28,7 @@ struct Run {
 
 Run run(const std::string& kind, double wall, const Mechanics& device = {0.045, 0.005, 0.0},
         const Hand& hand = {}, std::size_t delay = 1) {
-  const Motion motion = makeMotion(kind, kSurface, kUp, {});
+  const Motion motion = makeMotion(kind, kSurface, kUp, {.lead = leadOf(device, hand)});
   HeldDevice held(device, hand, motion.path);
   const Trace without = withoutOrgan(held, motion);
   const Trace with = closedLoop(held, motion, Wall{wall}, delay);
@@ -89,6 +89,20 @@ TEST(ClosedLoop, EveryMotionIsStableOnASoftSpring) {
   for (const Preset& preset : presets())
     for (const char* kind : {"press", "drag", "tap"})
       EXPECT_TRUE(run(kind, 300.0, preset.mechanics).verdict.stable) << preset.name << " " << kind;
+}
+
+TEST(ClosedLoop, ALooseHandBringsADeviceWithFrictionToTheOrgan) {
+  const Hand loose{0.02, 0.5, 50.0};
+  const Mechanics touch = findPreset("touch")->mechanics;
+  const Motion motion = makeMotion("press", kSurface, kUp, {.lead = leadOf(touch, loose)});
+  HeldDevice held(touch, loose, motion.path);
+  const Trace without = withoutOrgan(held, motion);
+  EXPECT_NEAR(judge(without, without, motion).depth, 0.003, 6e-4) << "as deep as the hand wants, and a swing";
+  const Motion timid = makeMotion("press", kSurface, kUp, {});
+  HeldDevice stuck(touch, loose, timid.path);
+  const Trace never = withoutOrgan(stuck, timid);
+  EXPECT_EQ(judge(never, never, timid).depth, 0.0) << "without the lead it never gets there";
+  EXPECT_GT(run("press", 300.0, touch, loose).verdict.depth, 3e-4);
 }
 
 TEST(ClosedLoop, ARunThatFliesAwayIsUnstable) {

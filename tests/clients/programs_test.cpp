@@ -27,7 +27,7 @@ std::size_t lines(const std::string& text) {
 }
 
 TEST(Programs, HaveHelpAndAVersion) {
-  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-watch"}) {
+  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-watch", "palpate-device"}) {
     const auto help = runProgram(program, {"--help"});
     EXPECT_EQ(help.exit_code, 0) << program;
     EXPECT_NE(help.out.find("--domain"), std::string::npos) << program;
@@ -36,7 +36,7 @@ TEST(Programs, HaveHelpAndAVersion) {
 }
 
 TEST(Programs, SayWhatTheyWaitForWhenThereIsNoServer) {
-  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-watch"}) {
+  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-watch", "palpate-device"}) {
     const auto result = runProgram(program, onDomain({"--wait", "0.3", "--json"}));
     EXPECT_EQ(result.exit_code, 1) << program;
     EXPECT_EQ(result.out, "") << program;
@@ -58,6 +58,15 @@ TEST(Programs, RefuseBadOptionsByName) {
   const auto at = runProgram("palpate-latency", {"--at", "1,2"});
   EXPECT_EQ(at.exit_code, 1);
   EXPECT_EQ(at.err, "palpate-latency: --at is '1,2', expected three finite numbers x,y,z\n");
+  const auto hand = runProgram("palpate-device", {"--hand", "0.1,2,0"});
+  EXPECT_EQ(hand.exit_code, 1);
+  EXPECT_EQ(hand.err, "palpate-device: hand stiffness (N/m) is 0, expected 1 to 100000\n");
+  const auto seconds = runProgram("palpate-device", {"--motion", "drag", "--seconds", "2"});
+  EXPECT_EQ(seconds.exit_code, 1);
+  EXPECT_EQ(seconds.err, "palpate-device: seconds is 2, expected 3.2 to 3600\n");
+  const auto preset = runProgram("palpate-device", {"--preset", "falcon"});
+  EXPECT_NE(preset.exit_code, 0);
+  EXPECT_NE(preset.err.find("--preset"), std::string::npos);
   const auto vtk = runProgram("palpate-watch", {"--vtk", "field.stl"});
   EXPECT_EQ(vtk.exit_code, 1);
   EXPECT_EQ(vtk.err, "palpate-watch: cannot write field.stl: expected a name that ends in .vtu or .vtk\n");
@@ -74,12 +83,13 @@ TEST(Tool, PressFeelsTheSpring) {
   EXPECT_EQ(report["tip_radius"], 0.004);  // the server's
   const std::size_t count = report["t_s"].size();
   EXPECT_GT(count, 100U);
-  for (const char* array : {"pose_m", "force_N", "flags", "penetration_m"})
+  for (const char* array : {"pose_m", "force_N", "flags", "penetration_m", "work_J"})
     EXPECT_EQ(report[array].size(), count);
   for (std::size_t i = 0; i < count; ++i) {
     const double depth = std::max(0.0, 0.054 - report["pose_m"][i][2].get<double>());
     EXPECT_NEAR(report["force_N"][i][2].get<double>(), 500.0 * depth, 1e-9)
         << i;  // each force belongs to its pose
+    EXPECT_NEAR(report["work_J"][i].get<double>(), 0.5 * 500.0 * depth * depth, 2e-6) << i;
   }
   EXPECT_NEAR(report["summary"]["peak_force_N"].get<double>(), 1.0, 1e-6);
   EXPECT_NEAR(report["summary"]["peak_depth_m"].get<double>(), 0.002, 1e-9);
@@ -107,6 +117,51 @@ TEST(Tool, StopsWhenTheServerLeaves) {
       runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "60", "--json"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(json::parse(result.out)["summary"]["server_left"]);
+}
+
+// Against a spring the hand's and the organ's stiffness share the depth.
+TEST(Device, PressRestsWhereHandAndOrganBalance) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 300.0, .tip_radius = 0.004});
+  const auto svg = std::filesystem::temp_directory_path() / ("device-" + std::to_string(getpid()) + ".svg");
+  const auto result =
+      runProgram("palpate-device", onDomain({"--preset", "premium15", "--hand", "0.1,3,200", "--motion",
+                                             "press", "--seconds", "2.5", "--json", "--plot", svg}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["device"]["mass"], 0.075);
+  EXPECT_TRUE(report["stable"]);
+  EXPECT_LT(report["settle_s"].get<double>(), 1.0);
+  const double rest = 0.054 - report["tip_m"][2000][2].get<double>();
+  EXPECT_NEAR(rest, 0.003 * 200.0 / 500.0, 2e-4) << "Coulomb friction holds it up to 0.04 N / 500 N/m away";
+  EXPECT_GE(report["penetration_m"].get<double>(), rest);
+  EXPECT_NEAR(report["max_force_N"].get<double>(), 300.0 * report["penetration_m"].get<double>(), 1e-3);
+  EXPECT_EQ(report["flags"], 1) << "contact, and nothing else";
+  EXPECT_NEAR(report["energy_net_J"].get<double>(), 0.0, 5e-5) << "a spring gives back what it took";
+  std::ifstream plot(svg);
+  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(plot), {})), "");
+  std::filesystem::remove(svg);
+}
+
+TEST(Device, AWallThatIsTooStiffForItsHandIsCalledUnstable) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 8000.0});
+  const auto result =
+      runProgram("palpate-device", onDomain({"--preset", "custom", "--mass", "0.05", "--hand", "0.02,0.5,50",
+                                             "--motion", "press", "--seconds", "2.5", "--json"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_FALSE(report["stable"]);
+  EXPECT_GT(report["oscillation_pp_m"].get<double>(),
+            2.0 * report["oscillation_without_organ_pp_m"].get<double>());
+  EXPECT_LT(report["energy_net_J"].get<double>(), 0.0) << "and gives energy that nobody put in";
+}
+
+TEST(Device, StopsWhenTheServerLeaves) {
+  const FakeServer server(exclusiveDomain(), {.leave_after = 200});
+  const auto result = runProgram("palpate-device", onDomain({"--seconds", "60", "--json"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_TRUE(report["server_left"]);
+  EXPECT_FALSE(report["stable"]) << "what was not seen to the end is not called stable";
 }
 
 TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {

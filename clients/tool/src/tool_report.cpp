@@ -66,6 +66,21 @@ std::string summaryOf(const Played& played, const Recording& recording) {
          (recording.server_left ? "the server shut down before the script's end\n" : "");
 }
 
+// Work done by the hand on the organ up to each sample, J: the integral of -force . d pose, by trapezoids.
+std::vector<double> workOf(const Recording& recording) {
+  std::vector<double> work;
+  for (std::size_t i = 0; i < recording.samples.size(); ++i) {
+    if (i == 0) {
+      work.push_back(0.0);
+      continue;
+    }
+    const Sample& before = recording.samples[i - 1];
+    const Sample& now = recording.samples[i];
+    work.push_back(work.back() - 0.5 * dot(forceOf(before) + forceOf(now), now.pose - before.pose));
+  }
+  return work;
+}
+
 }  // namespace
 
 std::string tableOf(const Played& played, const Recording& recording) {
@@ -116,6 +131,7 @@ nlohmann::json jsonOf(const Played& played, const Recording& recording) {
           {"force_N", force},
           {"flags", flags},
           {"penetration_m", penetration},
+          {"work_J", workOf(recording)},
           {"summary",
            {{"peak_force_N", length(forceOf(peak))},
             {"peak_force_vector_N", forceOf(peak)},

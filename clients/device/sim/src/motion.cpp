@@ -20,6 +20,7 @@ void inRange(const char* name, double value, double low, double high) {
 void check(const MotionOptions& options) {
   constexpr double kLeast = 1e-6;  // m
   inRange("depth (m)", options.depth, kLeast, 0.05);
+  inRange("lead (m)", options.lead, 0.0, 0.2);
   inRange("clearance (m)", options.clearance, kLeast, 0.2);
   inRange("drag distance (m)", options.drag_distance, kLeast, 0.1);
   inRange("number of taps", options.taps, 1, 1000);
@@ -28,11 +29,15 @@ void check(const MotionOptions& options) {
 
 }  // namespace
 
+double leadOf(const Mechanics& device, const Hand& hand) noexcept {
+  return device.friction / hand.stiffness;
+}
+
 Motion makeMotion(const std::string& kind, const Point& surface, const Point& normal,
                   const MotionOptions& options) {
   check(options);
-  const Point start = surface + (options.tip_radius + options.clearance) * normal;
-  const Point deep = surface + (options.tip_radius - options.depth) * normal;
+  const Point start = surface + (options.tip_radius + options.clearance + options.lead) * normal;
+  const Point deep = surface + (options.tip_radius - options.depth - options.lead) * normal;
   std::vector<client::Leg> legs;
   Point rest = deep;
   if (kind == "press" || kind == "drag") {
@@ -57,7 +62,13 @@ Motion makeMotion(const std::string& kind, const Point& surface, const Point& no
   const double hold_end = options.seconds - kRetreat;
   legs.push_back({rest, hold_end - hold_start, "hold"});
   legs.push_back({start, kRetreat, "retreat"});
-  return {client::Path(start, std::move(legs)), hold_start, hold_end, surface, normal, options.tip_radius};
+  return {client::Path(start, std::move(legs)),
+          hold_start,
+          hold_end,
+          surface,
+          normal,
+          options.tip_radius,
+          options.depth};
 }
 
 }  // namespace palpate::device

@@ -71,9 +71,7 @@ std::optional<double> settleTime(const Trace& trace, const Motion& motion) {
   const std::size_t end = indexAt(trace, motion.hold_end);
   if (trace.position.size() <= end || !isSane(trace)) return std::nullopt;
   const Point rest = meanOf(trace, end - indexAt(trace, 2.0 * kHalfMean), end);
-  const double imposed =
-      motion.tip_radius - dot(motion.path.at(motion.hold_start) - motion.surface, motion.normal);
-  const double band = std::max(0.05 * imposed, kNoiseFloor);
+  const double band = std::max(0.05 * motion.depth, kNoiseFloor);
   std::size_t i = end + 1;
   while (i > first && length(trace.position[i - 1] - rest) <= band) --i;
   if (i > end) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "palpate/client/path.h"
+#include "palpate/device/mechanics.h"
 
 namespace palpate::device {
 
@@ -11,7 +12,10 @@ using client::Point;
 
 /// How the hand moves.
 struct MotionOptions {
-  double depth{0.003};          ///< how far below the rest surface the hand wants the tip, m, in (0, 0.05]
+  double depth{0.003};  ///< how far below the rest surface the hand wants the tip, m, in (0, 0.05]
+  /// How much farther than that the hand goes each way because friction holds the tip back, m, in [0, 0.2]:
+  /// leadOf(device, hand). Without it a loose hand cannot bring a device with much friction to the organ.
+  double lead{0.0};
   double clearance{0.005};      ///< of the tip from the surface at the start and the end, m, in (0, 0.2]
   double drag_distance{0.015};  ///< way along the surface, m, in (0, 0.1]
   int taps{3};                  ///< before the last one, which is held, in [1, 1000]
@@ -27,7 +31,11 @@ struct Motion {
   Point surface;      ///< X, the spot on the rest surface, m
   Point normal;       ///< outward unit normal there
   double tip_radius;  ///< R, m
+  double depth;       ///< MotionOptions::depth, m
 };
+
+/// c / K: by so much the tip lags behind a hand that moves it slowly, m.
+[[nodiscard]] double leadOf(const Mechanics& device, const Hand& hand) noexcept;
 
 /// Minimum-jerk legs at a spot of the rest surface, each motion ending in a hold and a retreat to the start:
 ///   press  from the clearance to the depth in 0.6 s

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "palpate/report/program.h"
+#include "palpate/report/svg_plot.h"
+#include "palpate/report/text_chart.h"
+
+namespace palpate::device {
+namespace {
+
+using nlohmann::json;
+
+template <class... Values>
+std::string line(const char* format, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+double depthOf(const Motion& motion, const Point& tip) {
+  return motion.tip_radius - dot(tip - motion.surface, motion.normal);
+}
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+// K_vc as the server states it, N/m; nothing when it has none. Servers before live parameters do not say.
+template <class Status>
+json couplingOf(const Status& status) {
+  if constexpr (requires { status.coupling_stiffness; }) {
+    if (std::isfinite(status.coupling_stiffness)) return status.coupling_stiffness;
+  }
+  return nullptr;
+}
+
+std::string settled(const Verdict& verdict) {
+  return verdict.settle_s ? line("settles within %.3f s of the hold", *verdict.settle_s) : "does not settle";
+}
+
+}  // namespace
+
+std::string textOf(const Session& s) {
+  const Recording& recording = s.recording;
+  std::string text =
+      line("%s of a %s (%.3f kg, %.3f N s/m, %.2f N) held by a hand (%.3f kg, %.2f N s/m, %.0f N/m)\n",
+           s.kind.c_str(), s.preset.c_str(), s.mechanics.mass, s.mechanics.damping, s.mechanics.friction,
+           s.hand.mass, s.hand.damping, s.hand.stiffness);
+  std::vector<double> t, depth;
+  for (std::size_t i = 0; i < recording.trace.position.size(); ++i) {
+    t.push_back(static_cast<double>(i) * recording.trace.dt);
+    depth.push_back(std::max(0.0, 1e3 * depthOf(s.motion, recording.trace.position[i])));
+  }
+  text += report::textChart(t, depth, "s", "tip below the rest surface / mm") + '\n';
+  text += line("%s; oscillation %.4f mm (without organ %.4f mm); %s\n",
+               s.verdict.stable ? "stable" : "UNSTABLE", 1e3 * s.verdict.oscillation_pp,
+               1e3 * s.verdict.oscillation_without_organ_pp, settled(s.verdict).c_str());
+  text += line(
+      "largest force %.4f N, penetration %.3f mm; work on the organ %.6f J in all; waited %llu ms; flags: ",
+      s.verdict.max_force, 1e3 * largest(recording.penetration), recording.work.back(),
+      static_cast<unsigned long long>(recording.waited));
+  text += report::flagNames(recording.flags) + '\n';
+  if (recording.server_left) text += "the server shut down before the motion's end\n";
+  if (recording.interrupted) text += "interrupted before the motion's end\n";
+  return text;
+}
+
+json jsonOf(const Session& s) {
+  const Recording& recording = s.recording;
+  const json settle = s.verdict.settle_s ? json(*s.verdict.settle_s) : json(nullptr);
+  return {
+      {"preset", s.preset},
+      {"device",
+       {{"mass", s.mechanics.mass}, {"damping", s.mechanics.damping}, {"friction", s.mechanics.friction}}},
+      {"hand", {{"mass", s.hand.mass}, {"damping", s.hand.damping}, {"stiffness", s.hand.stiffness}}},
+      {"motion", s.kind},
+      {"seconds", s.motion.path.seconds()},
+      {"hold_start_s", s.motion.hold_start},
+      {"hold_end_s", s.motion.hold_end},
+      {"node", s.spot.mesh_tag},
+      {"position", s.spot.position},
+      {"normal", s.spot.normal},
+      {"model_id", s.server.surface.model_id},
+      {"stable", s.verdict.stable},
+      {"settle_s", settle},
+      {"oscillation_pp_m", s.verdict.oscillation_pp},
+      {"oscillation_without_organ_pp_m", s.verdict.oscillation_without_organ_pp},
+      {"max_force_N", s.verdict.max_force},
+      {"penetration_m", largest(recording.penetration)},
+      {"depth_m", s.verdict.depth},
+      {"energy_net_J", recording.work.back()},
+      {"coupling_N_per_m", couplingOf(s.server.status)},
+      {"flags", recording.flags},
+      {"flag_names", report::flagNames(recording.flags)},
+      {"waited_periods", recording.waited},
+      {"server_left", recording.server_left},
+      {"interrupted", recording.interrupted},
+      {"tip_m", recording.trace.position},
+      {"force_N", recording.trace.force},
+      {"work_J", recording.work}};
+}
+
+std::string plotOf(const Session& s) {
+  report::SvgPlot plot;
+  plot.title = "palpate-device --preset " + s.preset + " --motion " + s.kind;
+  plot.x_label = "time / s";
+  plot.y_label = "tip below the rest surface / mm";
+  const auto curve = [&](const char* name, const Trace& trace) {
+    report::Series series{name, {}, {}, {}};
+    for (std::size_t i = 0; i < trace.position.size(); ++i) {
+      series.x.push_back(static_cast<double>(i) * trace.dt);
+      series.y.push_back(1e3 * depthOf(s.motion, trace.position[i]));
+    }
+    plot.series.push_back(std::move(series));
+  };
+  curve("on the organ", s.recording.trace);
+  curve("without it", s.without_organ);
+  return plot.render();
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "palpate/client/server_finder.h"
+#include "palpate/client/surface.h"
+#include "palpate/device/mechanics.h"
+#include "run.h"
+
+namespace palpate::device {
+
+/// All that a report tells of.
+struct Session {
+  std::string preset;
+  Mechanics mechanics;
+  Hand hand;
+  std::string kind;  ///< of the motion
+  Motion motion;
+  client::Spot spot;
+  client::ServerInfo server;
+  Recording recording;
+  Trace without_organ;
+  Verdict verdict;
+};
+
+/// For people: what was run, a chart of the depth, and the verdict.
+[[nodiscard]] std::string textOf(const Session& session);
+/// The object of --json (clients/README.md).
+[[nodiscard]] nlohmann::json jsonOf(const Session& session);
+/// Depth of the tip over time, with and without the organ, as SVG.
+[[nodiscard]] std::string plotOf(const Session& session);
+
+}  // namespace palpate::device

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-device: a simulated haptic device in a hand touches the organ, driven by the server's forces.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "device_report.h"
+#include "palpate/client/error.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/device/closed_loop.h"
+#include "palpate/report/program.h"
+
+namespace palpate::device {
+namespace {
+
+struct Arguments {
+  std::string preset{"touch"};
+  std::optional<double> mass, damping, friction;
+  std::string hand{"0.1,2,200"};
+  std::string motion{"press"};
+  MotionOptions path;
+  std::string at;
+  std::uint32_t tool_id{0};
+  std::uint32_t domain{0};
+  double wait_s{10.0};
+  bool json{false};
+  std::string plot;
+};
+
+void addDevice(CLI::App& app, Arguments& arguments) {
+  app.add_option("--preset", arguments.preset,
+                 "the device: touch, omni, desktop, premium15, premium30 or custom")
+      ->check(CLI::IsMember({"touch", "omni", "desktop", "premium15", "premium30", "custom"}))
+      ->capture_default_str();
+  app.add_option("--mass", arguments.mass,
+                 "moving mass of the device, kg; default: the preset's, custom 0.1");
+  app.add_option("--damping", arguments.damping, "its damping, N s/m; default: the preset's, custom 0");
+  app.add_option("--friction", arguments.friction,
+                 "its Coulomb friction, N; default: the preset's, custom 0");
+  app.add_option("--hand", arguments.hand, "mass (kg), damping (N s/m), stiffness (N/m) of the hand: M,B,K")
+      ->capture_default_str();
+}
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  addDevice(app, arguments);
+  app.add_option("--motion", arguments.motion, "what the hand does: press, drag or tap")
+      ->check(CLI::IsMember({"press", "drag", "tap"}))
+      ->capture_default_str();
+  app.add_option("--seconds", arguments.path.seconds, "duration of the whole, s")->capture_default_str();
+  app.add_option("--depth", arguments.path.depth, "how far below the rest surface the hand wants the tip, m")
+      ->capture_default_str();
+  app.add_option("--at", arguments.at,
+                 "touch the accessible node nearest to x,y,z (m); default: the highest one");
+  app.add_option("--tool", arguments.tool_id, "tool id, 0 to 3")
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  app.add_option("--domain", arguments.domain, "DDS domain")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  app.add_option("--wait", arguments.wait_s, "how long to wait for a server, s")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  app.add_flag("--json", arguments.json, "print one JSON object on standard output");
+  app.add_option("--plot", arguments.plot, "write the depth over time to this SVG file");
+  app.set_version_flag("--version", PALPATE_VERSION);
+}
+
+Mechanics mechanicsOf(const Arguments& arguments) {
+  Mechanics mechanics{0.1, 0.0, 0.0};  // custom's
+  if (const auto preset = findPreset(arguments.preset)) mechanics = preset->mechanics;
+  mechanics.mass = arguments.mass.value_or(mechanics.mass);
+  mechanics.damping = arguments.damping.value_or(mechanics.damping);
+  mechanics.friction = arguments.friction.value_or(mechanics.friction);
+  check(mechanics);
+  return mechanics;
+}
+
+Hand handOf(const Arguments& arguments) {
+  const Point values = report::parsePoint("--hand", arguments.hand);
+  const Hand hand{values[0], values[1], values[2]};
+  check(hand);
+  return hand;
+}
+
+client::Spot spotOf(const Arguments& arguments, const client::Surface& surface) {
+  std::optional<Point> at;
+  if (!arguments.at.empty()) at = report::parsePoint("--at", arguments.at);
+  return client::chooseSpot(surface, at);
+}
+
+int body(int argc, char** argv) {
+  // 1. What to do; refuse what cannot be before anybody waits.
+  CLI::App app(
+      "Moves a simulated haptic device, held by a hand, against a palpate-server and judges its stability.");
+  Arguments arguments;
+  addOptions(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  const Mechanics mechanics = mechanicsOf(arguments);
+  const Hand hand = handOf(arguments);
+  if (!arguments.at.empty()) (void)report::parsePoint("--at", arguments.at);
+  arguments.path.lead = leadOf(mechanics, hand);
+  (void)makeMotion(arguments.motion, {}, {0, 0, 1}, arguments.path);
+  client::catchStopSignals();
+
+  // 2. Find the server and its organ.
+  const dds::Participant participant(arguments.domain);
+  std::cerr << "waiting for a server on DDS domain " << arguments.domain << "\n";
+  const auto patience = std::chrono::milliseconds(static_cast<long>(arguments.wait_s * 1e3));
+  const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+
+  // 3. The motion there, once without the organ and once against the server.
+  const client::Spot spot = spotOf(arguments, server.surface);
+  arguments.path.tip_radius = server.status.tip_radius;
+  const Motion motion = makeMotion(arguments.motion, spot.position, spot.normal, arguments.path);
+  HeldDevice device(mechanics, hand, motion.path);
+  const Trace without = withoutOrgan(device, motion);
+  const Recording recording = run(participant, arguments.tool_id, device);
+
+  // 4. Judge and tell.
+  const Session session{arguments.preset,
+                        mechanics,
+                        hand,
+                        arguments.motion,
+                        motion,
+                        spot,
+                        server,
+                        recording,
+                        without,
+                        judge(recording.trace, without, motion)};
+  (arguments.json ? std::cerr : std::cout) << textOf(session) << std::flush;
+  if (arguments.json) report::printJson(jsonOf(session));
+  if (!arguments.plot.empty()) report::writeFile(arguments.plot, plotOf(session));
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::device
+
+int main(int argc, char** argv) {
+  return palpate::report::runProgram("palpate-device", &palpate::device::body, argc, argv);
+}

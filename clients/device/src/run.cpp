@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run.h"
+
+#include <cmath>
+#include <iostream>
+
+#include "palpate/client/error.h"
+#include "palpate/client/pacer.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/client/thread_priority.h"
+
+namespace palpate::device {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kPeriod = 1e-3;  // s
+constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr std::uint64_t kPatience = 1000;  // periods
+constexpr int kPriority = 60;              // below the server's threads (DESIGN 3.3)
+constexpr int kReceivePriority = 65;
+
+// One exchange with the server each period.
+class Exchange {
+ public:
+  explicit Exchange(client::ToolClient& tool) : tool_(tool), pacer_(kPeriodNs) {}
+
+  /// Sends a pose and waits until the server has answered the one before, whichever periods it takes.
+  /// @return false when the run has to end
+  bool with(const Point& position, Recording& recording) {
+    const std::uint64_t before = last_sent_;
+    send(position);
+    for (std::uint64_t periods = 0;; ++periods) {
+      pacer_.wait();
+      take(recording);
+      if (recording.server_left || recording.interrupted) return false;
+      if (answer_.pose_seq >= before && answer_.pose_seq != 0 && !letting_go_) return true;
+      if (periods == kPatience) throw client::ClientError("the server has not answered for a second");
+      ++recording.waited;
+      send(position);
+    }
+  }
+  [[nodiscard]] const dds::ToolForce& answer() const { return answer_; }
+
+ private:
+  void send(const Point& position) {
+    const std::uint64_t seq = tool_.publish(position);
+    if (seq != 0) last_sent_ = seq;
+  }
+
+  void take(Recording& recording) {
+    recording.interrupted = client::stopRequested();
+    if (!tool_.latest(answer_)) return;
+    recording.flags |= answer_.flags;
+    recording.server_left = (answer_.flags & dds::flag::kShuttingDown) != 0;
+    const bool stale = (answer_.flags & dds::flag::kStalePose) != 0;
+    const bool ramping = (answer_.flags & dds::flag::kRamping) != 0;
+    letting_go_ = stale || (letting_go_ && ramping);
+    if (const auto& f = answer_.force; !std::isfinite(f[0] + f[1] + f[2]))
+      throw client::ClientError("the server sent a force that is no number");
+  }
+
+  client::ToolClient& tool_;
+  client::Pacer pacer_;
+  dds::ToolForce answer_{};
+  std::uint64_t last_sent_{0};
+  bool letting_go_{false};  // for staleness; not for a contact that begins
+};
+
+void note(const HeldDevice& device, const dds::ToolForce& answer, Recording& recording) {
+  recording.trace.position.push_back(device.position());
+  recording.trace.force.push_back({answer.force[0], answer.force[1], answer.force[2]});
+  recording.penetration.push_back(answer.penetration);
+  recording.work.push_back(-device.workOfForce());
+}
+
+}  // namespace
+
+Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device) {
+  client::ToolClient tool(participant, tool_id);
+  if (!tool.waitForServer(5s))
+    throw client::ClientError("the server takes no poses or sends no forces (waited 5 s)");
+  client::raiseReceiveThreads(kReceivePriority);
+  if (!client::raiseThisThread(kPriority))
+    std::cerr << "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
+  Recording recording;
+  recording.trace.dt = kPeriod;
+  Exchange exchange(tool);
+  const auto count = static_cast<std::size_t>(std::lround(device.path().seconds() / kPeriod));
+  note(device, {}, recording);
+  for (std::size_t i = 0; i < count && exchange.with(device.position(), recording); ++i) {
+    const auto& f = exchange.answer().force;
+    device.step({f[0], f[1], f[2]}, kPeriod);
+    note(device, exchange.answer(), recording);
+  }
+  return recording;
+}
+
+}  // namespace palpate::device

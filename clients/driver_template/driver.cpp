@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// A haptic device driver in one file. Copy it, fill in the four places marked FILL IN, build it against palpate::haptic.
+// As it is, it drives a fake device: a point that moves up and down by itself, so that it runs without hardware.
+#include <palpate/haptic/haptic_tool.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+
+namespace {
+
+using palpate::haptic::Quaternion;
+using palpate::haptic::Vec3;
+
+volatile std::sig_atomic_t stop = 0;
+
+struct Pose {
+  Vec3 position;           // of the tip's centre, in the device's frame, m
+  Quaternion orientation;  // x, y, z, w, unit length
+  std::uint32_t buttons;
+};
+
+// FILL IN 1: the device. Open it, read its pose, write a force, close it.
+class Device {
+ public:
+  Device() = default;  // open the device here; throw std::runtime_error when it is not there
+  ~Device() { write({0.0, 0.0, 0.0}); }  // let go, then close
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  // Largest force that the device may render, N: from its data sheet.
+  static constexpr double kForceLimit = 3.3;
+
+  // The newest pose; must not block for longer than a period of the loop.
+  Pose read() {
+    const std::chrono::duration<double> t = std::chrono::steady_clock::now() - start_;
+    return {{0.0, 0.0, 0.008 * std::cos(2.0 * 3.14159265 * 0.5 * t.count())}, {0.0, 0.0, 0.0, 1.0}, 0};
+  }
+
+  // Force on the tool in the device's frame, N.
+  void write(const Vec3& force) { written_ = force; }
+
+ private:
+  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
+  Vec3 written_{};
+};
+
+// FILL IN 2: how the device's frame lies in the organ's. Here: the same axes, the device's zero at `origin`, one to one. A scale
+// other than 1 for positions must be undone for forces (power in = power out), and forces are turned back by the same rotation.
+struct Workspace {
+  Vec3 origin{0.0, 0.0, 0.06};  // where the middle of the device's workspace lies in the organ's frame, m
+
+  Vec3 toWorld(const Vec3& p) const { return {origin[0] + p[0], origin[1] + p[1], origin[2] + p[2]}; }
+  Quaternion toWorld(const Quaternion& q) const { return q; }
+  Vec3 toDevice(const Vec3& force_in_world) const { return force_in_world; }
+};
+
+struct Arguments {
+  palpate::haptic::Options tool;
+  Workspace workspace;
+  double seconds = 0.0;  // 0: until it is stopped
+};
+
+[[noreturn]] void usage(int code) {
+  std::fprintf(code == 0 ? stdout : stderr,
+               "Usage: palpate-driver-template [--domain N] [--tool N] [--seconds N] [--origin X Y Z]\n");
+  std::exit(code);
+}
+
+double number(int argc, char** argv, int& i) {
+  char* end = nullptr;
+  const double value = ++i < argc ? std::strtod(argv[i], &end) : 0.0;
+  if (end == nullptr || end == argv[i] || *end != '\0' || !std::isfinite(value)) {
+    std::fprintf(stderr, "%s needs a number\n", argv[i - 1]);
+    usage(2);
+  }
+  return value;
+}
+
+Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  arguments.tool.force_limit = Device::kForceLimit;
+  arguments.tool.receive_priority = 65;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--help") == 0) usage(0);
+    if (std::strcmp(argv[i], "--domain") == 0) {
+      arguments.tool.domain = static_cast<std::uint32_t>(number(argc, argv, i));
+    } else if (std::strcmp(argv[i], "--tool") == 0) {
+      arguments.tool.tool_id = static_cast<std::uint32_t>(number(argc, argv, i));
+    } else if (std::strcmp(argv[i], "--seconds") == 0) {
+      arguments.seconds = number(argc, argv, i);
+    } else if (std::strcmp(argv[i], "--origin") == 0) {
+      for (double& x : arguments.workspace.origin) x = number(argc, argv, i);
+    } else {
+      std::fprintf(stderr, "unknown option %s\n", argv[i]);
+      usage(2);
+    }
+  }
+  return arguments;
+}
+
+int run(const Arguments& arguments) {
+  using Clock = std::chrono::steady_clock;
+  Device device;
+  palpate::haptic::HapticTool tool(arguments.tool);
+  if (!tool.waitForServer(std::chrono::seconds(10))) {
+    std::fprintf(stderr, "no server on DDS domain %u within 10 s\n", arguments.tool.domain);
+    return 1;
+  }
+  // FILL IN 3: the rate. The loop may be faster than the server's 1 kHz: forceAt() carries the force on in between. Most devices
+  // call back at their own rate; then the loop's body belongs into that callback.
+  constexpr auto kPeriod = std::chrono::microseconds(500);
+  double largest = 0.0;
+  long answered = 0;
+  const auto start = Clock::now();
+  for (auto next = start + kPeriod; stop == 0; next += kPeriod) {
+    const Pose pose = device.read();
+    const Vec3 p = arguments.workspace.toWorld(pose.position);
+    tool.send(p, arguments.workspace.toWorld(pose.orientation), pose.buttons);
+    const palpate::haptic::Force force = tool.forceAt(p);
+    // FILL IN 4: what else the device has to know of, e.g. force.flags on a lamp.
+    device.write(arguments.workspace.toDevice(force.force));
+    largest = std::fmax(largest, std::hypot(force.force[0], force.force[1], force.force[2]));
+    answered += force.gain > 0.0 ? 1 : 0;
+    if (arguments.seconds > 0.0 && Clock::now() - start >= std::chrono::duration<double>(arguments.seconds))
+      break;
+    std::this_thread::sleep_until(next);
+  }
+  std::printf("largest force %.4f N; %ld periods with a force\n", largest, answered);
+  return answered > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, [](int) { stop = 1; });
+  std::signal(SIGTERM, [](int) { stop = 1; });
+  try {
+    return run(parse(argc, argv));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "palpate-driver-template: %s\n", error.what());
+    return 1;
+  }
+}

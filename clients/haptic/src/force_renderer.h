@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "palpate/client/path.h"
+#include "palpate/haptic/haptic_tool.h"
+
+namespace palpate::haptic {
+
+using client::Point;
+
+/// What of a ToolForce is rendered. Plain: it crosses threads.
+struct Answer {
+  Vec3 force{};                       ///< N
+  std::array<double, 9> stiffness{};  ///< d force_i / d position_j, row-major, N/m
+  Vec3 anchor{};
+  Vec3 proxy{};
+  std::uint64_t pose_seq{0};
+  std::uint32_t flags{0};
+  std::uint32_t state{0};
+  std::int64_t arrived_ns{0};  ///< this machine's clock
+};
+
+/// From answers to the force of now: watchdog, extrapolation, limits (haptic_tool.h says which). Knows no DDS and no clock: the
+/// caller tells the time. Threads: one. Real-time: yes, all of it.
+class ForceRenderer {
+ public:
+  static constexpr double kStaleAfter = 0.020;  ///< s without an answer until the force falls
+  static constexpr double kRamp = 0.030;        ///< s from full force to none, and back
+  static constexpr std::size_t kPoses = 1024;   ///< that are remembered; a quarter of a second at 4 kHz
+
+  /// @param[in] max_extrapolation  m
+  explicit ForceRenderer(double max_extrapolation) noexcept : max_extrapolation_(max_extrapolation) {}
+
+  /// @param[in] seq  rises by one with each pose
+  void sent(std::uint64_t seq, const Point& position) noexcept PALPATE_NONBLOCKING;
+
+  /// @return false when it was left out: a number that is not finite, or the answer to an older pose than the last
+  /// one's
+  bool answered(const Answer& answer) noexcept PALPATE_NONBLOCKING;
+
+  /// The force of now.
+  /// @param[in] position  where the tool is; null: the answered force is held
+  /// @param[in] limit     of the size of the force, N
+  [[nodiscard]] Force at(const Point* position, std::int64_t now_ns,
+                         double limit) noexcept PALPATE_NONBLOCKING;
+
+ private:
+  struct SentPose {
+    std::uint64_t seq{0};
+    Point position{};
+  };
+
+  [[nodiscard]] Point extrapolated(const Point& position) const noexcept PALPATE_NONBLOCKING;
+  void watch(std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
+
+  double max_extrapolation_;
+  std::array<SentPose, kPoses> poses_{};  // by seq modulo kPoses
+  Answer answer_{};
+  bool has_answer_{false};
+  double age_{0.0};  // s
+  double gain_{0.0};
+  std::int64_t read_ns_{0};  // when at() was called last; 0: never
+};
+
+}  // namespace palpate::haptic

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "force_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace palpate::haptic {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr double kNoLimit = 1000.0;
+
+double sizeOf(const Vec3& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+// A tool 1 mm deep in a plane z = 0 of 500 N/m, 200 N/m sideways; answered at its pose, watchdog content.
+class Pressed : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    renderer.sent(7, kPose);
+    answer.force = {0.1, 0.0, 0.5};
+    answer.stiffness = {-200, 0, 0, 0, -200, 0, 0, 0, -500};
+    answer.pose_seq = 7;
+    fresh(answer);
+  }
+  // The answer comes again and again until the ramp is over.
+  void fresh(Answer a) {
+    for (int i = 0; i < 40; ++i) {
+      a.arrived_ns = now += kMs;
+      ASSERT_TRUE(renderer.answered(a));
+      (void)renderer.at(nullptr, now, kNoLimit);
+    }
+  }
+  Vec3 at(const Point& p, double limit = kNoLimit) { return renderer.at(&p, now, limit).force; }
+
+  const Point kPose{0.0, 0.0, -0.001};
+  ForceRenderer renderer{0.002};
+  Answer answer;
+  std::int64_t now{1000 * kMs};
+};
+
+TEST_F(Pressed, IsHeldWithoutAPosition) {
+  EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).force, answer.force);
+  EXPECT_EQ(at(kPose), answer.force);
+}
+
+TEST_F(Pressed, FollowsTheStiffnessFromTheAnsweredPose) {
+  const Vec3 deeper = at({0.0001, 0.0, -0.0015});
+  EXPECT_NEAR(deeper[0], 0.1 - 0.02, 1e-12);
+  EXPECT_NEAR(deeper[2], 0.5 + 0.25, 1e-12);
+}
+
+TEST_F(Pressed, GoesNoFartherThanTheBound) {
+  const Vec3 far = at({0.0, 0.0, -0.5});
+  EXPECT_NEAR(far[2], 0.5 + 500.0 * 0.002, 1e-12);
+  EXPECT_EQ(far, at({0.0, 0.0, -0.4}));
+}
+
+TEST_F(Pressed, NeverPullsWhereItPushed) {
+  for (double z = -0.001; z < 0.003; z += 1e-5) {
+    const Vec3 f = at({0.0, 0.0, z});
+    EXPECT_GE(f[0] * answer.force[0] + f[2] * answer.force[2], -1e-12) << z;
+  }
+}
+
+TEST_F(Pressed, NeverPushesAlongTheWay) {
+  answer.stiffness = {300, 0, 0, 0, 300, 0, 0, 0, -500};  // sideways it would run away
+  fresh(answer);
+  EXPECT_NEAR(at({0.0005, 0.0, -0.001})[0], 0.1, 1e-12);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> entry(-800.0, 800.0), part(-0.001, 0.001);
+  for (int i = 0; i < 2000; ++i) {
+    for (double& s : answer.stiffness) s = entry(random);
+    answer.arrived_ns = now;
+    ASSERT_TRUE(renderer.answered(answer));
+    const Point way{part(random), part(random), part(random)};
+    const Vec3 f = at(kPose + way);
+    const Point change{f[0] - answer.force[0], f[1] - answer.force[1], f[2] - answer.force[2]};
+    const bool was_clipped_from_pulling = f[0] * answer.force[0] + f[2] * answer.force[2] < 1e-9;
+    EXPECT_TRUE(was_clipped_from_pulling || dot(change, way) <= 1e-12);
+  }
+}
+
+TEST_F(Pressed, IsContinuousInThePosition) {
+  const double step = 1e-6;  // m
+  const Point start{-0.004, 0.001, -0.006}, way{0.7, -0.3, 0.648};
+  Vec3 before = at(start);
+  for (int i = 1; i < 12000; ++i) {
+    const Vec3 f = at(start + (i * step) * way);
+    const double jump = std::hypot(f[0] - before[0], f[1] - before[1], f[2] - before[2]);
+    ASSERT_LE(jump, 2.0 * 500.0 * step) << i;
+    before = f;
+  }
+}
+
+TEST_F(Pressed, IsNeverLongerThanTheLimit) {
+  EXPECT_NEAR(sizeOf(at({0.0, 0.0, -0.003}, 0.6)), 0.6, 1e-12);
+  EXPECT_NEAR(sizeOf(renderer.at(nullptr, now, 0.2).force), 0.2, 1e-12);
+}
+
+TEST_F(Pressed, StartsFromThePoseThatWasAnswered) {
+  for (std::uint64_t seq = 8; seq < 12; ++seq)
+    renderer.sent(seq, {0, 0, -0.001 - 1e-4 * static_cast<double>(seq)});
+  EXPECT_EQ(at(kPose), answer.force) << "poses sent since do not matter";
+  answer.pose_seq = 9;
+  answer.arrived_ns = now;
+  ASSERT_TRUE(renderer.answered(answer));
+  EXPECT_NEAR(at({0, 0, -0.0019})[2], 0.5, 1e-12);
+  EXPECT_NEAR(at(kPose)[2], 0.5 - 500.0 * 0.0009, 1e-12);
+}
+
+TEST_F(Pressed, IsHeldWhenTheAnsweredPoseIsForgotten) {
+  for (std::uint64_t seq = 8; seq < 8 + ForceRenderer::kPoses; ++seq) renderer.sent(seq, kPose);
+  EXPECT_EQ(at({0, 0, -0.002}), answer.force);
+}
+
+TEST_F(Pressed, IsHeldAtAPositionThatIsNoNumber) {
+  EXPECT_EQ(at({NAN, 0, 0}), answer.force);
+  EXPECT_EQ(at({0, std::numeric_limits<double>::infinity(), 0}), answer.force);
+}
+
+TEST_F(Pressed, LeavesOutWhatIsNoNumberOrOlder) {
+  Answer bad = answer;
+  bad.force[1] = NAN;
+  EXPECT_FALSE(renderer.answered(bad));
+  bad = answer;
+  bad.stiffness[8] = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(renderer.answered(bad));
+  bad = answer;
+  bad.pose_seq = 6;
+  EXPECT_FALSE(renderer.answered(bad));
+  EXPECT_EQ(at(kPose), answer.force);
+}
+
+TEST_F(Pressed, FallsAfter20MsAndIsGoneAfter50) {
+  const std::int64_t arrived = now;
+  const auto gain = [&](double ms) {
+    return renderer.at(nullptr, arrived + static_cast<std::int64_t>(ms * 1e6), kNoLimit).gain;
+  };
+  EXPECT_EQ(gain(20.0), 1.0);
+  EXPECT_NEAR(gain(35.0), 0.5, 1e-9);
+  EXPECT_NEAR(gain(49.0), 1.0 / 30.0, 1e-9);
+  EXPECT_EQ(gain(50.0), 0.0);
+  EXPECT_EQ(sizeOf(renderer.at(nullptr, arrived + 80 * kMs, kNoLimit).force), 0.0);
+  EXPECT_NEAR(renderer.at(nullptr, arrived + 80 * kMs, kNoLimit).age_s, 0.080, 1e-12);
+}
+
+TEST_F(Pressed, ComesBackWithin30MsAndNeverAtOnce) {
+  now += 100 * kMs;
+  (void)renderer.at(nullptr, now, kNoLimit);
+  double before = 0.0;
+  for (int ms = 1; ms <= 40; ++ms) {
+    answer.arrived_ns = now += kMs;
+    ASSERT_TRUE(renderer.answered(answer));
+    const double gain = renderer.at(nullptr, now, kNoLimit).gain;
+    EXPECT_LE(gain - before, 1.0 / 30.0 + 1e-9);
+    before = gain;
+  }
+  EXPECT_EQ(before, 1.0);
+}
+
+TEST(ForceRenderer, IsZeroBeforeTheFirstAnswer) {
+  ForceRenderer renderer(0.002);
+  renderer.sent(1, {0, 0, 0});
+  const Point p{0, 0, 0};
+  const Force force = renderer.at(&p, kMs, kNoLimit);
+  EXPECT_EQ(sizeOf(force.force), 0.0);
+  EXPECT_EQ(force.gain, 0.0);
+  EXPECT_TRUE(std::isinf(force.age_s));
+}
+
+}  // namespace
+}  // namespace palpate::haptic
