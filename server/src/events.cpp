@@ -42,6 +42,7 @@ constexpr std::uint64_t kOverrunKind = 1ULL << 63;
 constexpr std::uint64_t kDropKind = kOverrunKind + 1;
 constexpr std::uint64_t kUnknownToolKind = kOverrunKind + 2;
 constexpr std::uint64_t kFailedWriteKind = kOverrunKind + 3;
+constexpr std::uint64_t kParametersKind = kOverrunKind + 4;
 
 }  // namespace
 
@@ -59,6 +60,10 @@ void Events::run() noexcept {
 }
 
 void Events::drain(std::int64_t now_ns) {
+  if (const auto line = parameters_.poll()) {
+    warn(kParametersKind, *line, now_ns);
+    noteParameters();
+  }
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
   noteUnknownTools(now_ns);
@@ -67,6 +72,12 @@ void Events::drain(std::int64_t now_ns) {
     warn(kFailedWriteKind, "DDS refused to send (" + std::to_string(failed) + " so far)", now_ns);
   }
   health_.failed_writes = failed;
+}
+
+void Events::noteParameters() {
+  changed_ = changed_ || health_.parameters_revision != parameters_.book().revision();
+  health_.parameters = parameters_.book().inForce();
+  health_.parameters_revision = parameters_.book().revision();
 }
 
 void Events::noteUnknownTools(std::int64_t now_ns) {

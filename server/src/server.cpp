@@ -81,7 +81,8 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       force_out_(participant_, channels_),
       surface_out_(participant_, channels_, facts_, model),
       status_out_(participant_, facts_),
-      events_(channels_, status_out_),
+      parameters_(participant_, channels_, facts_),
+      events_(channels_, status_out_, parameters_),
       tick_(model, work_, channels_, static_cast<std::uint64_t>(config.surface_every), periodOf(config)),
       poses_in_(participant_, channels_, config.step),
       ramp_time_(config.step.ramp_time) {

@@ -15,18 +15,19 @@ dds::Percentiles percentiles(const rt::CycleStats& stats) {
   return us;
 }
 
-void sayParameters(const Facts& facts, dds::ServerStatus& status) {
-  const StepConfig& step = facts.step;
+void sayParameters(const Facts& facts, const Health& health, dds::ServerStatus& status) {
+  const LiveParameters& live = health.parameters;
   dds::assignText(status.device, facts.device);
-  status.tip_radius = step.tip_radius;
-  status.force_limit = step.force_limit;
-  status.friction = step.friction;
-  status.coupling_stiffness = step.coupling_stiffness;
-  status.coupling_damping = step.coupling_damping;
-  status.youngs_modulus = step.youngs_modulus == 0.0 ? facts.youngs_modulus : step.youngs_modulus;
-  status.force_rate_limit = step.force_rate_limit;
-  status.speed_limit = step.speed_limit;
-  status.tools = static_cast<std::uint32_t>(step.tools);
+  status.tip_radius = facts.step.tip_radius;
+  status.speed_limit = facts.step.speed_limit;
+  status.tools = static_cast<std::uint32_t>(facts.step.tools);
+  status.force_limit = live.force_limit;
+  status.friction = live.friction;
+  status.coupling_stiffness = live.coupling_stiffness;
+  status.coupling_damping = live.coupling_damping;
+  status.youngs_modulus = live.youngs_modulus == 0.0 ? facts.youngs_modulus : live.youngs_modulus;
+  status.force_rate_limit = live.force_rate_limit;
+  status.parameters_revision = health.parameters_revision;
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ dds::ServerStatus toWire(const Facts& facts, const Health& health, std::uint32_t
   status.organ_id = facts.organ_id;
   status.state = state;
   status.rate_hz = facts.rate_hz;
-  sayParameters(facts, status);
+  sayParameters(facts, health, status);
   status.memory_locked = facts.memory_locked;
   status.realtime = facts.realtime;
   dds::assignText(status.realtime_detail, facts.realtime_detail);

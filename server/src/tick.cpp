@@ -40,6 +40,8 @@ void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   last_overruns_ = cycle.overruns;
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) readPose(tool, cycle.woke_ns);
   input_.dt_ns = last_woke_ns_ == 0 ? 0 : cycle.woke_ns - last_woke_ns_;
+  input_.has_live =
+      channels_.parameters.read(input_.live) ? 1 : 0;  // told once, the engine goes over by itself
   input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
   last_woke_ns_ = cycle.woke_ns;
 }

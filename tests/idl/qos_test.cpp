@@ -77,12 +77,27 @@ TEST(Qos, SurfaceAndStatusAreLatched) {
   expectOnBothEnds<ServerStatus>(expectLatched);
 }
 
+TEST(Qos, RequestsAndAnswersWaitToBeTaken) {
+  expectOnBothEnds<ParameterRequest>([](const Policies& p) {
+    EXPECT_EQ(p.reliability, DDS_RELIABILITY_RELIABLE);
+    EXPECT_EQ(p.durability, DDS_DURABILITY_VOLATILE);
+    EXPECT_EQ(p.depth, kQueuedRequests);
+  });
+  expectOnBothEnds<ServerParameters>([](const Policies& p) {
+    EXPECT_EQ(p.reliability, DDS_RELIABILITY_RELIABLE);
+    EXPECT_EQ(p.durability, DDS_DURABILITY_TRANSIENT_LOCAL);
+    EXPECT_EQ(p.depth, kQueuedRequests);
+  });
+}
+
 TEST(Qos, TopicNamesAreThoseOfTheDesign) {
   EXPECT_STREQ(TopicTraits<ToolPose>::kName, "palpate/tool/measured_cp");
   EXPECT_STREQ(TopicTraits<ToolForce>::kName, "palpate/tool/servo_cf");
   EXPECT_STREQ(TopicTraits<SurfaceDisplacement>::kName, "palpate/organ/displacement");
   EXPECT_STREQ(TopicTraits<SurfaceMesh>::kName, "palpate/organ/surface");
   EXPECT_STREQ(TopicTraits<ServerStatus>::kName, "palpate/server/status");
+  EXPECT_STREQ(TopicTraits<ParameterRequest>::kName, "palpate/server/parameter_request");
+  EXPECT_STREQ(TopicTraits<ServerParameters>::kName, "palpate/server/parameters");
 }
 
 TEST(Qos, AReaderThatAsksForMoreIsReportedByName) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <limits>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -177,6 +178,29 @@ TEST(RoundTrip, LateJoinerGetsTheStatus) {
   EXPECT_EQ(got[0].tick_us.max, 4.0);
   EXPECT_EQ(got[0].wakeup_us.count, 6U);
   EXPECT_STREQ(got[0].message, "running");
+}
+
+TEST(RoundTrip, AnswersInARowAllArriveAndALateJoinerGetsTheNewest) {
+  Link<ServerParameters> link;
+  link.connect();
+  ServerParameters sent{};
+  sent.friction = std::numeric_limits<double>::infinity();
+  assignText(sent.message, "friction is 3");
+  for (sent.request_id = 1; sent.request_id <= 5; ++sent.request_id) ASSERT_TRUE(link.writer.write(sent));
+  std::vector<ServerParameters> got;
+  ASSERT_TRUE(eventually([&] {
+    std::vector<ServerParameters> some(kMaxTake);
+    some.resize(link.reader.take(some));
+    got.insert(got.end(), some.begin(), some.end());
+    return got.size() == 5;
+  }));
+  for (std::size_t i = 0; i < got.size(); ++i) EXPECT_EQ(got[i].request_id, i + 1);
+  EXPECT_EQ(got[0].friction, sent.friction);
+  EXPECT_STREQ(got[0].message, "friction is 3");
+  const Reader<ServerParameters> late(link.participant);
+  std::vector<ServerParameters> newest(kMaxTake);
+  ASSERT_TRUE(eventually([&] { return late.take(newest) == 1; }));
+  EXPECT_EQ(newest[0].request_id, 5U);
 }
 
 TEST(RoundTrip, EveryToolKeepsItsOwnNewestPose) {

@@ -35,7 +35,8 @@ class EventsTest : public ::testing::Test {
   Facts facts_;
   dds::Participant participant_{palpate::testing::exclusiveDomain()};
   StatusPublisher status_{participant_, facts_};
-  Events events_{*channels_, status_};
+  ParameterService parameters_{participant_, *channels_, facts_};
+  Events events_{*channels_, status_, parameters_};
 };
 
 TEST_F(EventsTest, GathersTheTimesOfEveryTick) {

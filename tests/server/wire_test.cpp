@@ -79,7 +79,11 @@ TEST(StatusOnTheWire, SaysWhatTheHandFeels) {
   facts.step.force_rate_limit = 900.0;
   facts.step.speed_limit = 1.5;
   facts.step.tools = 2;
-  dds::ServerStatus status = toWire(facts, Health{}, dds::server_state::kRunning);
+  Health health;
+  health.parameters = liveParameters(facts.step);
+  health.parameters_revision = 4;
+  dds::ServerStatus status = toWire(facts, health, dds::server_state::kRunning);
+  EXPECT_EQ(status.parameters_revision, 4U);
   EXPECT_STREQ(status.device, "omni");
   EXPECT_EQ(status.force_limit, 2.0);
   EXPECT_EQ(status.friction, 0.25);
@@ -89,8 +93,8 @@ TEST(StatusOnTheWire, SaysWhatTheHandFeels) {
   EXPECT_EQ(status.speed_limit, 1.5);
   EXPECT_EQ(status.tools, 2U);
   EXPECT_EQ(status.youngs_modulus, 160e3) << "the model's own, none was asked for";
-  facts.step.youngs_modulus = 5e3;
-  status = toWire(facts, Health{}, dds::server_state::kRunning);
+  health.parameters.youngs_modulus = 5e3;
+  status = toWire(facts, health, dds::server_state::kRunning);
   EXPECT_EQ(status.youngs_modulus, 5e3);
 }
 

@@ -7,12 +7,17 @@
 
 namespace palpate::dds {
 
-/// The three rows of the QoS table in DESIGN 4.
+/// The three rows of the QoS table in DESIGN 4, and a pair for questions.
 enum class QosProfile {
-  kServo,   ///< 1 kHz: best effort, keep last 1, deadline 5 ms, liveliness automatic 50 ms
-  kField,   ///< best effort, keep last 1
-  kLatched  ///< reliable, transient local, keep last 1: whoever comes later gets the newest
+  kServo,    ///< 1 kHz: best effort, keep last 1, deadline 5 ms, liveliness automatic 50 ms
+  kField,    ///< best effort, keep last 1
+  kLatched,  ///< reliable, transient local, keep last 1: whoever comes later gets the newest
+  kRequest,  ///< reliable, keep last 16
+  kAnswer    ///< reliable, keep last 16, transient local: whoever comes later gets the newest one
 };
+
+/// Requests and answers of one server that are kept until they are taken.
+inline constexpr int kQueuedRequests = 16;
 
 /// The most instances (tool, organ or server ids) that one reader keeps: a client that invents ids cannot
 /// fill the server's memory.

@@ -55,4 +55,20 @@ struct TopicTraits<ServerStatus> {
   static const dds_topic_descriptor_t& descriptor() noexcept { return palpate_ServerStatus_desc; }
 };
 
+template <>
+struct TopicTraits<ParameterRequest> {
+  static constexpr const char* kName = "palpate/server/parameter_request";
+  static constexpr QosProfile kProfile = QosProfile::kRequest;
+  static constexpr bool kFlat = true;
+  static const dds_topic_descriptor_t& descriptor() noexcept { return palpate_ParameterRequest_desc; }
+};
+
+template <>
+struct TopicTraits<ServerParameters> {
+  static constexpr const char* kName = "palpate/server/parameters";
+  static constexpr QosProfile kProfile = QosProfile::kAnswer;
+  static constexpr bool kFlat = true;
+  static const dds_topic_descriptor_t& descriptor() noexcept { return palpate_ServerParameters_desc; }
+};
+
 }  // namespace palpate::dds

@@ -17,6 +17,8 @@ using SurfaceDisplacement = palpate_SurfaceDisplacement;
 using SurfaceMesh = palpate_SurfaceMesh;
 using Percentiles = palpate_Percentiles;
 using ServerStatus = palpate_ServerStatus;
+using ParameterRequest = palpate_ParameterRequest;
+using ServerParameters = palpate_ServerParameters;
 
 /// Bits of ToolForce::flags, as palpate.idl documents them.
 namespace flag {
@@ -38,6 +40,17 @@ inline constexpr std::uint32_t kUnknownTool = palpate_FLAG_UNKNOWN_TOOL;
 inline constexpr std::uint32_t kToolNotConfigured = palpate_FLAG_TOOL_NOT_CONFIGURED;
 inline constexpr std::uint32_t kTickOverrun = palpate_FLAG_TICK_OVERRUN;
 }  // namespace flag
+
+/// Bits of ParameterRequest::fields.
+namespace parameter {
+inline constexpr std::uint32_t kYoungsModulus = palpate_PARAMETER_YOUNGS_MODULUS;
+inline constexpr std::uint32_t kFriction = palpate_PARAMETER_FRICTION;
+inline constexpr std::uint32_t kCouplingStiffness = palpate_PARAMETER_COUPLING_STIFFNESS;
+inline constexpr std::uint32_t kCouplingDamping = palpate_PARAMETER_COUPLING_DAMPING;
+inline constexpr std::uint32_t kForceLimit = palpate_PARAMETER_FORCE_LIMIT;
+inline constexpr std::uint32_t kForceRateLimit = palpate_PARAMETER_FORCE_RATE_LIMIT;
+inline constexpr std::uint32_t kAll = 63;
+}  // namespace parameter
 
 /// Values of ToolForce::state.
 namespace tool_state {

@@ -25,6 +25,9 @@ struct Channels {
   std::array<rt::TripleBuffer<PoseSample>, kMaxTools> poses;
   rt::TripleBuffer<Strangers> strangers;
 
+  // Events -> tick: latest wins. What is in it was checked.
+  rt::TripleBuffer<LiveParameters> parameters;
+
   // Tick -> force-out: a ring, because every tick is answered. 512 records are 128 ms of four tools.
   rt::SpscQueue<ForceRecord, 512> forces;
   rt::Semaphore force_ready;

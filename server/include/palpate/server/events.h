@@ -8,16 +8,21 @@
 
 #include "palpate/server/channels.h"
 #include "palpate/server/health.h"
+#include "palpate/server/parameter_service.h"
 #include "palpate/server/status_publisher.h"
 
 namespace palpate::server {
 
-/// Turns what the other threads leave in their rings into log lines and ServerStatus. The only thread that
+/// Turns what the other threads leave in their rings into log lines and ServerStatus, and has requests for other
+/// parameters answered. The only thread that
 /// logs while the server runs. What a client can cause is logged at most once a second each, so that it
 /// cannot fill a disk.
 class Events {
  public:
-  Events(Channels& channels, StatusPublisher& status) : channels_(channels), status_(status) {}
+  Events(Channels& channels, StatusPublisher& status, ParameterService& parameters)
+      : channels_(channels), status_(status), parameters_(parameters) {
+    noteParameters();
+  }
 
   /// Body of the events thread. Publishes that the server is stopping, and returns, once it stops.
   void run() noexcept;
@@ -28,6 +33,7 @@ class Events {
   [[nodiscard]] const Health& health() const noexcept { return health_; }
 
  private:
+  void noteParameters();
   void noteUnknownTools(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
   void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
@@ -37,6 +43,7 @@ class Events {
 
   Channels& channels_;
   StatusPublisher& status_;
+  ParameterService& parameters_;
   Health health_;
   std::array<std::uint32_t, kMaxTools> last_flags_{};
   std::map<std::uint64_t, std::int64_t> last_warned_ns_;  // by kind of event; a fixed, small set

@@ -18,6 +18,8 @@ struct Health {
   std::uint64_t failed_writes{0};
   std::uint32_t recent_flags{0};  ///< of all tools since the last status, or-ed
   std::string message;            ///< newest event
+  LiveParameters parameters;      ///< in force
+  std::uint64_t parameters_revision{0};
 };
 
 }  // namespace palpate::server

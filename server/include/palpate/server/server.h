@@ -14,6 +14,7 @@
 #include "palpate/server/events.h"
 #include "palpate/server/facts.h"
 #include "palpate/server/force_publisher.h"
+#include "palpate/server/parameter_service.h"
 #include "palpate/server/pose_subscriber.h"
 #include "palpate/server/surface_publisher.h"
 #include "palpate/server/tick.h"
@@ -51,6 +52,7 @@ class Server {
   ForcePublisher force_out_;
   SurfacePublisher surface_out_;
   StatusPublisher status_out_;
+  ParameterService parameters_;
   Events events_;
   Tick tick_;
   PoseSubscriber poses_in_;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "palpate/idl/reader.h"
+#include "palpate/idl/writer.h"
+#include "palpate/server/channels.h"
+#include "palpate/server/parameter_book.h"
+
+namespace palpate::server {
+
+/// Takes parameter requests from DDS, answers each, and hands what was accepted to the tick. Threads: one, the events
+/// thread; nobody is in a hurry here. Real-time: no.
+class ParameterService {
+ public:
+  /// Publishes what is in force. @throw dds::DdsError
+  ParameterService(const dds::Participant& participant, Channels& channels, const Facts& facts);
+
+  /// Answers the requests that have come, at most dds::kMaxTake.
+  /// @return one line about the newest of them, for the log, if any came
+  [[nodiscard]] std::optional<std::string> poll();
+
+  [[nodiscard]] const ParameterBook& book() const noexcept { return book_; }
+
+ private:
+  [[nodiscard]] std::string serve(const dds::ParameterRequest& request);
+
+  Channels& channels_;
+  std::uint32_t server_id_;
+  ParameterBook book_;
+  dds::Writer<dds::ServerParameters> answers_;
+  dds::Reader<dds::ParameterRequest> requests_;
+};
+
+}  // namespace palpate::server
