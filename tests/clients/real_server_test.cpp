@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "../server/server_process.h"
+#include "palpate/idl/types.h"
 #include "palpate/testing/synthetic_model.h"
 #include "run_program.h"
 #include "test_domain.h"
@@ -22,11 +24,12 @@ struct Running {
   std::string domain{std::to_string(exclusiveDomain())};
   std::unique_ptr<server::testing::ServerProcess> process;
 
-  Running() {
+  // By default the model's own force, no coupling.
+  explicit Running(const std::vector<std::string>& options = {"--device", "custom", "--friction", "inf"}) {
     writeSyntheticModel(model.path());
-    process = std::make_unique<server::testing::ServerProcess>(
-        std::vector<std::string>{"--model", model.path().string(), "--domain", domain, "--device", "custom",
-                                 "--friction", "inf"});  // the model's own force, no coupling
+    std::vector<std::string> arguments{"--model", model.path().string(), "--domain", domain};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    process = std::make_unique<server::testing::ServerProcess>(arguments);
   }
   [[nodiscard]] json run(const std::string& program, std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--json", "--wait", "30", "--domain", domain});
@@ -48,6 +51,33 @@ TEST(RealServer, PressIsPushedBackAlongTheNormal) {
   EXPECT_LT(std::hypot(force[0].get<double>(), force[1].get<double>()), 0.05);
   EXPECT_GT(report["summary"]["contact_s"].get<double>(), 0.5);
   EXPECT_FALSE(report["summary"]["server_left"].get<bool>());
+}
+
+TEST(RealServer, ASimulatedDeviceComesToRestOnTheOrgan) {
+  const Running server({"--device", "touch"});
+  const json report = server.run("palpate-device", {"--preset", "touch", "--hand", "0.1,2,200", "--motion",
+                                                    "press", "--seconds", "2.5"});
+  ASSERT_FALSE(report.is_null());
+  EXPECT_TRUE(report["stable"]);
+  EXPECT_FALSE(report["settle_s"].is_null());
+  EXPECT_GT(report["penetration_m"].get<double>(), 5e-4);
+  EXPECT_LT(report["penetration_m"].get<double>(), 0.003) << "the organ holds against the hand";
+  EXPECT_GT(report["max_force_N"].get<double>(), 0.1);
+  EXPECT_LE(report["max_force_N"].get<double>(), 3.3 + 1e-9);
+  EXPECT_EQ(report["server_device"], "touch");
+  EXPECT_NE(report["flags"].get<unsigned>() & dds::flag::kInContact, 0U);
+  EXPECT_EQ(report["tip_m"].size(), 2501U);
+}
+
+TEST(RealServer, ADriverFromTheTemplateFeelsTheOrgan) {
+  const Running server;
+  const auto result = runProgram("palpate-driver-template", {"--domain", server.domain, "--origin", "0", "0",
+                                                             "0.058", "--seconds", "3"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  double largest = 0.0;
+  ASSERT_EQ(std::sscanf(result.out.c_str(), "largest force %lf N", &largest), 1) << result.out;
+  EXPECT_GT(largest, 0.3) << "its fake device goes 5 mm below the top of the organ";
+  EXPECT_LE(largest, 3.3 + 1e-4);
 }
 
 TEST(RealServer, LatencyAndWatchReportTheSameRun) {

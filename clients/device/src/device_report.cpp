@@ -30,13 +30,9 @@ double largest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-// K_vc as the server states it, N/m; nothing when it has none. Servers before live parameters do not say.
-template <class Status>
-json couplingOf(const Status& status) {
-  if constexpr (requires { status.coupling_stiffness; }) {
-    if (std::isfinite(status.coupling_stiffness)) return status.coupling_stiffness;
-  }
-  return nullptr;
+// K_vc as the server states it, N/m; JSON knows no infinity, so nothing when there is no coupling.
+json couplingOf(const dds::ServerStatus& status) {
+  return std::isfinite(status.coupling_stiffness) ? json(status.coupling_stiffness) : json(nullptr);
 }
 
 std::string settled(const Verdict& verdict) {
@@ -95,6 +91,7 @@ json jsonOf(const Session& s) {
       {"depth_m", s.verdict.depth},
       {"energy_net_J", recording.work.back()},
       {"coupling_N_per_m", couplingOf(s.server.status)},
+      {"server_device", std::string(s.server.status.device)},
       {"flags", recording.flags},
       {"flag_names", report::flagNames(recording.flags)},
       {"waited_periods", recording.waited},

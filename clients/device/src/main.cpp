@@ -108,6 +108,10 @@ int body(int argc, char** argv) {
   const auto patience = std::chrono::milliseconds(static_cast<long>(arguments.wait_s * 1e3));
   const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
 
+  if (arguments.preset != server.status.device)
+    std::cerr << "note: the server is set for device '" << server.status.device << "', this is '"
+              << arguments.preset << "'\n";
+
   // 3. The motion there, once without the organ and once against the server.
   const client::Spot spot = spotOf(arguments, server.surface);
   arguments.path.tip_radius = server.status.tip_radius;

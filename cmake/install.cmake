@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+# What `cmake --install` gives: the library for drivers (component haptic) and the programs (component programs).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS palpate_haptic EXPORT palpateTargets COMPONENT haptic
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT haptic NAMELINK_COMPONENT haptic
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY clients/haptic/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT haptic)
+
+set(PALPATE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/palpate)
+set(PALPATE_DATA_DIR ${CMAKE_INSTALL_DATADIR}/palpate)
+install(EXPORT palpateTargets NAMESPACE palpate:: DESTINATION ${PALPATE_CMAKE_DIR} COMPONENT haptic)
+configure_package_config_file(cmake/palpateConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/palpateConfig.cmake
+  INSTALL_DESTINATION ${PALPATE_CMAKE_DIR} PATH_VARS PALPATE_DATA_DIR)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/palpateConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/palpateConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/palpateConfigVersion.cmake
+  DESTINATION ${PALPATE_CMAKE_DIR} COMPONENT haptic)
+
+# The wire's description, for those who speak it in another language; and the driver to start from.
+install(FILES idl/palpate.idl DESTINATION ${PALPATE_DATA_DIR} COMPONENT haptic)
+install(FILES clients/driver_template/driver.cpp clients/driver_template/README.md
+  DESTINATION ${PALPATE_DATA_DIR}/driver_template COMPONENT haptic)
+
+set(PALPATE_PROGRAMS palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
+  palpate-organ palpate-solve palpate-inspect palpate-query palpate-reproduce palpate-replay)
+foreach(program IN LISTS PALPATE_PROGRAMS)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+  endif()
+endforeach()
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+install(FILES server/server.toml DESTINATION ${PALPATE_DATA_DIR} COMPONENT programs)

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+# Installs the haptic library into a scratch prefix, builds the project beside this file against it, runs what came out.
+file(REMOVE_RECURSE ${SCRATCH})
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+# Nobody else's DDS: loopback, without multicast.
+set(ENV{CYCLONEDDS_URI} "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/>\
+</Interfaces><AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>\
+<MaxAutoParticipantIndex>30</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>")
+set(prefix ${SCRATCH}/prefix)
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component haptic)
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${SCRATCH}/build -G ${GENERATOR}
+  -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_BUILD_TYPE=Release
+  -DCMAKE_PREFIX_PATH=${prefix} -DPALPATE_DRIVER_TEMPLATE=${prefix}/share/palpate/driver_template/driver.cpp)
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
+run(${SCRATCH}/build/consumer_c)
+run(${SCRATCH}/build/consumer_cpp)
+run(${SCRATCH}/build/driver --help)
+
+# A newer palpate than there is must not be found.
+file(WRITE ${SCRATCH}/newer/CMakeLists.txt
+  "cmake_minimum_required(VERSION 3.25)\nproject(newer LANGUAGES NONE)\nfind_package(palpate 99.0 REQUIRED)\n")
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${SCRATCH}/newer -B ${SCRATCH}/newer/build -DCMAKE_PREFIX_PATH=${prefix}
+  RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE complaint)
+if(code EQUAL 0 OR NOT complaint MATCHES "0.1.0")
+  message(FATAL_ERROR "palpate 99.0 was found, or not refused for its version: ${complaint}")
+endif()
