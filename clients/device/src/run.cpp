@@ -25,26 +25,30 @@ class Exchange {
  public:
   explicit Exchange(client::ToolClient& tool) : tool_(tool), pacer_(kPeriodNs) {}
 
-  /// Sends a pose and waits until the server has answered the one before, whichever periods it takes.
+  void send(const Point& position) {
+    before_ = last_sent_;
+    sent_ = position;
+    publish();
+  }
+
+  /// Waits for the next period, and on until the server has answered the pose before the one sent last.
   /// @return false when the run has to end
-  bool with(const Point& position, Recording& recording) {
-    const std::uint64_t before = last_sent_;
-    send(position);
+  bool await(Recording& recording) {
     for (std::uint64_t periods = 0;; ++periods) {
       pacer_.wait();
       take(recording);
       if (recording.server_left || recording.interrupted) return false;
-      if (answer_.pose_seq >= before && answer_.pose_seq != 0 && !letting_go_) return true;
+      if (answer_.pose_seq >= before_ && answer_.pose_seq != 0 && !letting_go_) return true;
       if (periods == kPatience) throw client::ClientError("the server has not answered for a second");
       ++recording.waited;
-      send(position);
+      publish();
     }
   }
   [[nodiscard]] const dds::ToolForce& answer() const { return answer_; }
 
  private:
-  void send(const Point& position) {
-    const std::uint64_t seq = tool_.publish(position);
+  void publish() {
+    const std::uint64_t seq = tool_.publish(sent_);
     if (seq != 0) last_sent_ = seq;
   }
 
@@ -63,8 +67,10 @@ class Exchange {
   client::ToolClient& tool_;
   client::Pacer pacer_;
   dds::ToolForce answer_{};
+  Point sent_{};
   std::uint64_t last_sent_{0};
-  bool letting_go_{false};  // for staleness; not for a contact that begins
+  std::uint64_t before_{0};  // the last number of the pose before
+  bool letting_go_{false};   // for staleness; not for a contact that begins
 };
 
 void note(const HeldDevice& device, const dds::ToolForce& answer, Recording& recording) {
@@ -88,10 +94,13 @@ Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDe
   Exchange exchange(tool);
   const auto count = static_cast<std::size_t>(std::lround(device.path().seconds() / kPeriod));
   note(device, {}, recording);
-  for (std::size_t i = 0; i < count && exchange.with(device.position(), recording); ++i) {
-    const auto& f = exchange.answer().force;
-    device.step({f[0], f[1], f[2]}, kPeriod);
-    note(device, exchange.answer(), recording);
+  bool goes_on = true;
+  for (std::size_t i = 0; i < count && goes_on; ++i) {
+    const dds::ToolForce answer = exchange.answer();  // what the device knows when the period begins
+    exchange.send(device.position());
+    device.step({answer.force[0], answer.force[1], answer.force[2]}, kPeriod);
+    note(device, answer, recording);
+    goes_on = exchange.await(recording);
   }
   return recording;
 }

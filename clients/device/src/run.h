@@ -21,10 +21,11 @@ struct Recording {
   bool interrupted{false};
 };
 
-/// Runs a device for the length of its path: each period of 1 ms it sends its pose, reads the newest force and goes on by
-/// 1 ms with it. The device's time is its steps: where the answer to the pose before last is missing, or the server lets
-/// the force go because poses came late, the device stands still and sends on, so that a stall of a process
-/// is neither felt nor mistaken for an instability.
+/// Runs a device for the length of its path, in periods of 1 ms: at the begin of each it sends its pose, and goes on by
+/// 1 ms with the newest force that it has by then, usually that of the pose before (closedLoop() with a delay of 1). The
+/// device's time is its steps: where the answer to the pose before is missing, or the server lets the force go
+/// because poses came late, the device stands still and sends on, so that a stall of a process is neither felt nor mistaken
+/// for an instability.
 /// @throw client::ClientError when no server takes poses, or none answers for a second
 [[nodiscard]] Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device);
 

@@ -7,8 +7,8 @@
 namespace palpate::device {
 namespace {
 
-constexpr double kShortestHold = 1.0;  // s; the oscillation is judged from 0.5 s on
-constexpr double kRetreat = 0.4;       // s
+constexpr double kShortestHold = 0.8;  // s; the oscillation is judged from 0.5 s on
+constexpr double kRetreat = 0.2;       // s
 
 void inRange(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -38,9 +38,11 @@ Motion makeMotion(const std::string& kind, const Point& surface, const Point& no
   check(options);
   const Point start = surface + (options.tip_radius + options.clearance + options.lead) * normal;
   const Point deep = surface + (options.tip_radius - options.depth - options.lead) * normal;
+  const Point touch = surface + (options.tip_radius - options.lead) * normal;
   std::vector<client::Leg> legs;
   Point rest = deep;
   if (kind == "press" || kind == "drag") {
+    legs.push_back({touch, 0.4, "approach"});
     legs.push_back({deep, 0.6, "press"});
   } else if (kind == "tap") {
     for (int i = 0; i < options.taps; ++i) {

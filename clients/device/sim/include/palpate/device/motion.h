@@ -19,7 +19,7 @@ struct MotionOptions {
   double clearance{0.005};      ///< of the tip from the surface at the start and the end, m, in (0, 0.2]
   double drag_distance{0.015};  ///< way along the surface, m, in (0, 0.1]
   int taps{3};                  ///< before the last one, which is held, in [1, 1000]
-  double seconds{4.0};       ///< of the whole; the hold takes what is left, at least 1 s of it, at most 3600
+  double seconds{4.0};  ///< of the whole; the hold takes what is left, at least 0.8 s of it, at most 3600
   double tip_radius{0.005};  ///< R, m, in [0, 0.05]; take the server's
 };
 
@@ -38,12 +38,12 @@ struct Motion {
 [[nodiscard]] double leadOf(const Mechanics& device, const Hand& hand) noexcept;
 
 /// Minimum-jerk legs at a spot of the rest surface, each motion ending in a hold and a retreat to the start:
-///   press  from the clearance to the depth in 0.6 s
+///   press  to the surface in 0.4 s, to the depth in 0.6 s: contact is made slowly, as by palpate-tool
 ///   drag   the same, a rest of 0.2 s, then along the surface (tangentOf the normal) in 1 s
-///   tap    in and out `taps` times, 0.1 s each way, then in once more
+///   tap    in and out `taps` times, 0.1 s each way, then in once more: contact is made fast
 /// @param[in] surface, normal  X, m, and the outward unit normal there
 /// @throw std::invalid_argument for another kind, or naming the first field out of its range; the shortest `seconds`
-/// is what the legs take and 1 s
+/// is what the legs take and 0.8 s
 [[nodiscard]] Motion makeMotion(const std::string& kind, const Point& surface, const Point& normal,
                                 const MotionOptions& options);
 
