@@ -13,6 +13,7 @@ namespace {
 struct Given {
   std::optional<std::string> model;
   std::optional<std::string> config;
+  std::optional<std::string> record;
   std::optional<std::string> realtime;
   std::optional<std::int64_t> domain;
   std::optional<std::int64_t> server_id;
@@ -55,6 +56,8 @@ void declare(CLI::App& app, Given& given) {
   app.set_version_flag("--version", std::string("palpate-server ") + PALPATE_VERSION);
   app.add_option("--model", given.model, "Model file made by palpate-solve")->type_name("FILE");
   app.add_option("--config", given.config, "Options as TOML, see server/server.toml")->type_name("FILE");
+  app.add_option("--record", given.record, "Write every tick's input and answer here, for palpate-replay")
+      ->type_name("FILE");
   app.add_option("--domain", given.domain, "DDS domain, 0 to 230, default 0");
   app.add_option("--rate", given.rate,
                  "Ticks per second, 50 to 10000, default 1000 (lower with a longer tool.stale_timeout)")
@@ -121,6 +124,9 @@ ServerConfig combine(const Given& given) {
   ServerConfig config;
   if (given.config) readConfigFile(*given.config, config);
   if (given.model) config.model = *given.model;
+  if (given.record) config.record = *given.record;
+  if (given.record && given.record->empty())
+    throw ConfigError("--record is empty, expected the path of a file");
   overwrite(given.domain, config.domain);
   overwrite(given.rate, config.rate);
   overwrite(given.server_id, config.server_id);

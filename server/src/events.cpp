@@ -43,6 +43,8 @@ constexpr std::uint64_t kDropKind = kOverrunKind + 1;
 constexpr std::uint64_t kUnknownToolKind = kOverrunKind + 2;
 constexpr std::uint64_t kFailedWriteKind = kOverrunKind + 3;
 constexpr std::uint64_t kParametersKind = kOverrunKind + 4;
+constexpr std::uint64_t kRecordingFailedKind = kOverrunKind + 5;
+constexpr std::uint64_t kUnrecordedKind = kOverrunKind + 6;
 
 }  // namespace
 
@@ -67,6 +69,7 @@ void Events::drain(std::int64_t now_ns) {
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
   noteUnknownTools(now_ns);
+  noteRecording(now_ns);
   const std::uint64_t failed = channels_.failed_writes.load(std::memory_order_relaxed);
   if (failed > health_.failed_writes) {
     warn(kFailedWriteKind, "DDS refused to send (" + std::to_string(failed) + " so far)", now_ns);
@@ -89,6 +92,18 @@ void Events::noteUnknownTools(std::int64_t now_ns) {
   warn(kUnknownToolKind,
        "pose of tool " + std::to_string(id) + ": tool ids are 0 to " + std::to_string(kMaxTools - 1) +
            ", no force (" + std::to_string(unknown) + " so far)",
+       now_ns);
+}
+
+void Events::noteRecording(std::int64_t now_ns) {
+  if (channels_.recording_failed.load(std::memory_order_relaxed) && !recording_failed_) {
+    recording_failed_ = true;
+    warn(kRecordingFailedKind, "recording ends early: its file cannot be written any more", now_ns);
+  }
+  const std::uint64_t unrecorded = channels_.unrecorded.load(std::memory_order_relaxed);
+  if (unrecorded == unrecorded_ || recording_failed_) return;
+  unrecorded_ = unrecorded;
+  warn(kUnrecordedKind, "recording: the ring was full (" + std::to_string(unrecorded) + " ticks lost so far)",
        now_ns);
 }
 

@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -37,6 +38,11 @@ Facts factsOf(const MetaModel& model, const ServerConfig& config) {
 
 std::int64_t periodOf(const ServerConfig& config) {
   return std::llround(1e9 / config.rate);
+}
+
+record::SessionFacts sessionOf(const Facts& facts) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return {facts.model_id, std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), facts.step};
 }
 
 const char* reasonNotLocked(const rt::MemoryLock& lock) {
@@ -86,6 +92,7 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       tick_(model, work_, channels_, static_cast<std::uint64_t>(config.surface_every), periodOf(config)),
       poses_in_(participant_, channels_, config.step),
       ramp_time_(config.step.ramp_time) {
+  if (!config.record.empty()) recorder_.emplace(channels_, config.record, sessionOf(facts_));
   facts_.memory_locked = lockAll(model);
   settleRealtime(config.realtime);
   try {
@@ -120,6 +127,7 @@ void Server::startThreads(const ServerConfig& config) {
   force_thread_ = start("force-out", kForcePriority, [this] { force_out_.run(); });
   surface_thread_ = start("surface-out", kSurfacePriority, [this] { surface_out_.run(); });
   events_thread_ = start("events", 0, [this] { events_.run(); });
+  if (recorder_) recorder_thread_ = start("recorder", 0, [this] { recorder_->run(); });
   tick_thread_ = std::make_unique<rt::PeriodicThread>(rt::ThreadOptions{"tick", kTickPriority, policy},
                                                       periodOf(config), &Tick::onCycle, &tick_);
 }
@@ -137,6 +145,10 @@ void Server::stop() {
   force_thread_.reset();  // joins
   surface_thread_.reset();
   events_thread_.reset();
+  if (recorder_thread_) {
+    recorder_thread_.reset();
+    spdlog::info(recorder_->summary());
+  }
   tick_thread_.reset();
 }
 

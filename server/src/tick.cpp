@@ -29,9 +29,11 @@ void Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   channels_.force_ready.post();
   // 4. The surface, likewise.
   writeSurface(cycle);
-  // 5. How it went, for whoever watches.
+  // 5. What went in and came out, for a session that is recorded.
+  writeRecording(cycle);
+  // 6. How it went, for whoever watches.
   writeRecord(cycle);
-  // 6. At the end of the server: tell when nothing pushes any more.
+  // 7. At the end of the server: tell when nothing pushes any more.
   reportZeroForce();
 }
 
@@ -130,6 +132,12 @@ void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   std::copy(field.begin(), field.end(), frame.displacement.begin());
   channels_.surface.publish();
   channels_.surface_ready.post();
+}
+
+void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  if (!channels_.recording) return;
+  if (!channels_.recording->push({cycle.index, input_, result_}))
+    channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 
 void Tick::writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
+#include "palpate/record/recording.h"
 #include "palpate/rt/semaphore.h"
 #include "palpate/rt/spsc_queue.h"
 #include "palpate/rt/triple_buffer.h"
@@ -43,6 +45,14 @@ struct Channels {
   // nothing.
   std::atomic<std::uint64_t> unknown_poses{0};
   std::atomic<std::uint32_t> unknown_id{0};
+
+  // Tick -> recorder, only with --record: 4096 ticks are 4 s at 1 kHz, longer than a disk stalls. On the heap, made before
+  // the loop. Polled. A full ring loses the newest tick, which the counter says; relaxed, it orders nothing.
+  std::unique_ptr<rt::SpscQueue<record::RecordedTick, 4096>> recording;
+  std::atomic<std::uint64_t> unrecorded{0};
+
+  // Recorder -> events: the file cannot be written any more. A flag, relaxed.
+  std::atomic<bool> recording_failed{false};
 
   // Force-out and surface-out -> events. Counters; relaxed, they order nothing.
   std::atomic<std::uint64_t> failed_writes{0};

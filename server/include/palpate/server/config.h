@@ -39,8 +39,9 @@ struct ServerConfig {
   std::int64_t server_id{0};                                 ///< key of ServerStatus, in [0, 2^32 - 1]
   std::int64_t organ_id{0};                                  ///< key of the surface topics, in [0, 2^32 - 1]
   std::int64_t surface_every{1};                             ///< ticks per surface field, in [1, 1000]
-  std::string device{kDefaultDevice};                        ///< a preset of device_preset.h, or custom
-  DeviceOverrides said;                                      ///< of the file and the command line
+  std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
+  std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
+  DeviceOverrides said;                ///< of the file and the command line
   /// parameters of the engine, the device's included: withDevice() was applied. [tool] and [organ] in the file
   StepConfig step{withDevice({}, std::string(kDefaultDevice), {})};
 };

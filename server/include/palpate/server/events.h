@@ -35,6 +35,7 @@ class Events {
  private:
   void noteParameters();
   void noteUnknownTools(std::int64_t now_ns);
+  void noteRecording(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
   void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
   void warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns);
@@ -49,6 +50,8 @@ class Events {
   std::map<std::uint64_t, std::int64_t> last_warned_ns_;  // by kind of event; a fixed, small set
   bool changed_{true};                                    // since the last status
   std::int64_t published_ns_{0};
+  bool recording_failed_{false};
+  std::uint64_t unrecorded_{0};
 };
 
 }  // namespace palpate::server

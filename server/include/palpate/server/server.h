@@ -16,6 +16,7 @@
 #include "palpate/server/force_publisher.h"
 #include "palpate/server/parameter_service.h"
 #include "palpate/server/pose_subscriber.h"
+#include "palpate/server/recorder.h"
 #include "palpate/server/surface_publisher.h"
 #include "palpate/server/tick.h"
 
@@ -25,7 +26,7 @@ namespace palpate::server {
 class Server {
  public:
   /// Starts everything. `model` must outlive the server.
-  /// @throw dds::DdsError, rt::RealtimeError (policy require), std::invalid_argument (parameters of the
+  /// @throw record::RecordError, dds::DdsError, rt::RealtimeError (policy require), std::invalid_argument (parameters of the
   /// engine)
   Server(const MetaModel& model, const ServerConfig& config);
   ~Server() { stop(); }
@@ -45,6 +46,7 @@ class Server {
   Facts facts_;
   Workspace work_;
   Channels channels_;
+  std::optional<Recorder> recorder_;
   std::optional<rt::CpuLatencyHold> awake_;
 
   // In the order of a pose's way: subscriber, tick, publishers.
@@ -61,6 +63,7 @@ class Server {
   std::unique_ptr<rt::Thread> force_thread_;
   std::unique_ptr<rt::Thread> surface_thread_;
   std::unique_ptr<rt::Thread> events_thread_;
+  std::unique_ptr<rt::Thread> recorder_thread_;
   std::unique_ptr<rt::PeriodicThread> tick_thread_;
 };
 

@@ -50,6 +50,7 @@ class Tick {
   void writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportZeroForce() noexcept PALPATE_NONBLOCKING;

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// The recording's file: what is written is read, and what was damaged is refused.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "palpate/record/fields.h"
+#include "palpate/record/record_reader.h"
+#include "palpate/record/record_writer.h"
+
+namespace palpate::record {
+namespace {
+
+SessionFacts someFacts() {
+  SessionFacts facts;
+  facts.model_id = "0123456789abcdef";
+  facts.started_ns = 1'700'000'000'000'000'000;
+  facts.config.friction = std::numeric_limits<double>::infinity();
+  facts.config.tools = 2;
+  return facts;
+}
+
+// Ticks in which everything changes now and then, and stays now and then.
+std::vector<RecordedTick> someTicks(std::size_t count) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  std::vector<RecordedTick> ticks(count);
+  RecordedTick tick;
+  for (std::size_t i = 0; i < count; ++i) {
+    tick.index = i;
+    tick.input.dt_ns = 1'000'000 + static_cast<std::int64_t>(random() % 1000);
+    if (i % 50 == 49) tick.input.period_ns += 1;
+    tick.input.shutting_down = i > count - 10 ? 1 : 0;
+    tick.input.has_live = i % 30 == 29 ? 1 : 0;
+    if (tick.input.has_live != 0) tick.input.live.friction = number(random);
+    for (std::size_t t = 0; t < tick.input.tools.size(); ++t) {
+      ToolInput& input = tick.input.tools[t];
+      input = ToolInput{};
+      if (i % (t + 3) != 0) {
+        input.present = 1;
+        input.age_ns = static_cast<std::int64_t>(random() % 100000);
+        input.flags = i % 7 == 0 ? kPoseOutOfOrder : 0;
+        input.position = {0.1 * static_cast<double>(i / 5), i % 4 == 0 ? -0.0 : 0.0, std::nan("")};
+      }
+      if (i % (t + 2) != 0) continue;
+      ToolResult& result = tick.result.tools[t];
+      result.flags = random();
+      for (double& force : result.force) force = number(random);
+      result.penetration = number(random);
+    }
+    ticks[i] = tick;
+  }
+  return ticks;
+}
+
+void expectSame(const RecordedTick& a, const RecordedTick& b) {
+  ASSERT_EQ(a.index, b.index);
+  EXPECT_EQ(a.input.dt_ns, b.input.dt_ns);
+  EXPECT_EQ(a.input.period_ns, b.input.period_ns);
+  EXPECT_EQ(a.input.shutting_down, b.input.shutting_down);
+  EXPECT_EQ(a.input.has_live, b.input.has_live);
+  if (a.input.has_live != 0) {
+    EXPECT_EQ(a.input.live.friction, b.input.live.friction);
+  }
+  for (std::size_t t = 0; t < a.input.tools.size(); ++t) {
+    const ToolInput& x = a.input.tools[t];
+    const ToolInput& y = b.input.tools[t];
+    EXPECT_EQ(x.present, y.present);
+    EXPECT_EQ(x.flags, y.flags);
+    EXPECT_EQ(x.age_ns, y.age_ns);
+    if (x.present != 0) {
+      EXPECT_EQ(std::memcmp(&x.position, &y.position, sizeof x.position), 0) << a.index;
+    }
+    EXPECT_EQ(std::memcmp(&a.result.tools[t], &b.result.tools[t], sizeof(ToolResult)), 0) << a.index;
+  }
+}
+
+class Recording : public ::testing::Test {
+ protected:
+  ~Recording() override { std::filesystem::remove(path_); }
+
+  void write(const std::vector<RecordedTick>& ticks, std::uint64_t lost = 0, bool finish = true) const {
+    RecordWriter writer(path_, someFacts());
+    for (const RecordedTick& tick : ticks) writer.write(tick);
+    if (finish) {
+      writer.finish(ticks.size() + lost);
+    } else {
+      writer.flush();
+    }
+  }
+
+  // Reads all of it. @return the refusal without the file's name, or nothing
+  [[nodiscard]] std::string refusal() const {
+    try {
+      RecordReader reader(path_);
+      RecordedTick tick;
+      while (reader.next(tick)) {
+      }
+      return {};
+    } catch (const RecordError& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.find(path_.string() + ": "), 0U) << line;
+      return line.substr(path_.string().size() + 2);
+    }
+  }
+
+  void flipBit(std::uint64_t byte, int bit) const {
+    std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekg(static_cast<std::streamoff>(byte));
+    const int old = file.get();
+    file.seekp(static_cast<std::streamoff>(byte));
+    file.put(static_cast<char>(old ^ (1 << bit)));
+  }
+
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("palpate-record-" + std::to_string(getpid()) + ".rec");
+};
+
+TEST_F(Recording, IsReadAsItWasWritten) {
+  const auto ticks = someTicks(1000);
+  write(ticks, 5);
+  RecordReader reader(path_);
+  EXPECT_EQ(reader.facts().model_id, someFacts().model_id);
+  EXPECT_EQ(reader.facts().started_ns, someFacts().started_ns);
+  EXPECT_EQ(reader.facts().config.tools, 2);
+  EXPECT_TRUE(std::isinf(reader.facts().config.friction));
+  RecordedTick tick;
+  for (const RecordedTick& wanted : ticks) {
+    ASSERT_TRUE(reader.next(tick));
+    ASSERT_NO_FATAL_FAILURE(expectSame(wanted, tick));
+  }
+  EXPECT_FALSE(reader.next(tick));
+  EXPECT_EQ(reader.end().ticks, 1000U);
+  EXPECT_EQ(reader.end().missing, 5U);
+}
+
+TEST_F(Recording, LeavesOutWhatRepeats) {
+  std::vector<RecordedTick> ticks(1000);
+  for (std::size_t i = 0; i < ticks.size(); ++i) ticks[i].index = i;
+  write(ticks);
+  EXPECT_LT(std::filesystem::file_size(path_), 1000U * 30U) << "nobody there";
+  for (RecordedTick& tick : ticks) tick.input.tools[0].present = 1;
+  write(ticks);
+  EXPECT_LT(std::filesystem::file_size(path_), 1000U * 50U) << "a tool that stands still in the air";
+}
+
+TEST_F(Recording, EveryFlippedBitIsFound) {
+  write(someTicks(20));
+  const std::uint64_t size = std::filesystem::file_size(path_);
+  for (std::uint64_t byte = 0; byte < size; ++byte) {
+    const int bit = static_cast<int>(byte % 8);
+    flipBit(byte, bit);
+    EXPECT_NE(refusal(), "") << "byte " << byte;
+    flipBit(byte, bit);
+  }
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Recording, EveryTruncationIsFound) {
+  write(someTicks(20));
+  const std::uint64_t size = std::filesystem::file_size(path_);
+  for (std::uint64_t left = 0; left < size; ++left) {
+    std::filesystem::resize_file(path_, left);
+    EXPECT_NE(refusal(), "") << left << " bytes left";
+    write(someTicks(20));
+  }
+}
+
+TEST_F(Recording, WithoutAnEndIsCalledTruncatedAfterAllItsTicks) {
+  write(someTicks(20), 0, false);
+  EXPECT_NE(refusal().find("truncated after byte"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("20 ticks and no end"), std::string::npos) << refusal();
+}
+
+TEST_F(Recording, RefusesWhatItIsNot) {
+  std::ofstream(path_) << "not a recording of anything";
+  EXPECT_EQ(refusal(), "is no recording of palpate-server");
+  write(someTicks(3));
+  std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out).seekp(8).put(9);
+  EXPECT_NE(refusal().find("version is 9, expected 1"), std::string::npos) << refusal();
+  write(someTicks(3));
+  std::ofstream(path_, std::ios::app) << "more";
+  EXPECT_NE(refusal().find("something follows the end"), std::string::npos) << refusal();
+  std::filesystem::remove(path_);
+  EXPECT_EQ(refusal(), "cannot be read as a file");
+}
+
+TEST_F(Recording, RefusesTicksOutOfOrder) {
+  auto ticks = someTicks(3);
+  ticks[2].index = 1;
+  write(ticks);
+  EXPECT_NE(refusal().find("tick 1 after tick 1"), std::string::npos) << refusal();
+}
+
+TEST(RecordWriter, RefusesAFileThatCannotBeWritten) {
+  EXPECT_THROW(RecordWriter("/nonexistent/session.rec", someFacts()), RecordError);
+}
+
+TEST(RecordWriter, SaysWhenTheDiskIsFull) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  EXPECT_THROW(RecordWriter("/dev/full", someFacts()), RecordError);
+}
+
+}  // namespace
+}  // namespace palpate::record
