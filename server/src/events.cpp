@@ -20,7 +20,8 @@ struct FlagText {
   const char* text;
 };
 
-// What is worth a line when it begins. Contact and ramps are not: they are what the server is for.
+// What is worth a line when it begins. Contact and ramps are not: they are what the server is for. Missed ticks have
+// one line for all tools.
 constexpr FlagText kFlagTexts[] = {
     {kNonFinitePose, "pose is not finite: treated as stale"},
     {kNonUnitQuaternion, "orientation is not a unit quaternion: pose treated as stale"},
@@ -34,7 +35,6 @@ constexpr FlagText kFlagTexts[] = {
     {kPoseJump, "pose jumped faster than the speed limit, contact given up"},
     {kTwoPublishers, "a second publisher sends poses of this tool, they are not used"},
     {kToolNotConfigured, "tool is not among those configured, no force"},
-    {kTickOverrun, "ticks were missed"},
 };
 
 // Kinds of warning, beyond one for each tool and flag (tool << 32 | flag).

@@ -77,7 +77,7 @@ class ServerEndToEnd : public ::testing::Test {
     pause(150);
     client_->forget();
     pause(50);
-    ASSERT_FALSE(client_->forces().empty()) << server_->log();
+    ASSERT_TRUE(client_->waitFor([](const dds::ToolForce&) { return true; }).has_value()) << server_->log();
   }
 
   std::uint32_t domain_ = palpate::testing::exclusiveDomain();
