@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "load_driven.h"
+#include "palpate/core/length.h"
 
 namespace palpate {
 
@@ -134,7 +135,7 @@ ResponseStatus answerToForce(const ContactSeries& series, const Vec3& f,
   out.stiffness.setZero();
   if (isPositiveDefinite(compliance)) out.stiffness = compliance.inverse();
   out.domain_radius = radiusAlong(series, out.force, out.stiffness);
-  return checked(f.stableNorm() > series.limit() ? ResponseStatus::kClamped : ResponseStatus::kOk, out);
+  return checked(lengthOf(f) > series.limit() ? ResponseStatus::kClamped : ResponseStatus::kOk, out);
 }
 
 ResponseStatus findForce(const ContactSeries& series, const Vec3& d,
@@ -153,7 +154,7 @@ ResponseStatus findForce(const ContactSeries& series, const Vec3& d,
   }
   if (status == ResponseStatus::kOk || !out.force.allFinite()) return status;
   const Mat3 projection = projectionGradient(f, series.limit());
-  out.stiffness = projection * search.gradient(f).inverse() * (target.norm() / d.stableNorm());
+  out.stiffness = projection * search.gradient(f).inverse() * (target.norm() / lengthOf(d));
   return checked(status, out);
 }
 

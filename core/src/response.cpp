@@ -5,17 +5,18 @@
 #include <array>
 
 #include "load_driven.h"
+#include "palpate/core/length.h"
 
 namespace palpate {
 
 Vec3 clampToDomain(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
-  const double length = d.stableNorm();  // |d|^2 of a huge displacement overflows
+  const double length = lengthOf(d);  // |d|^2 of a huge displacement overflows
   return length > radius ? Vec3(d.stableNormalized() * radius) : d;
 }
 
 Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
   const Vec3 direction = d.stableNormalized();
-  return (radius / d.stableNorm()) * (Mat3::Identity() - direction * direction.transpose());
+  return (radius / lengthOf(d)) * (Mat3::Identity() - direction * direction.transpose());
 }
 
 namespace {
