@@ -63,6 +63,8 @@ void FakeServer::run() {
       used_ = true;
     }
     answer(pose, ++seq);
+    if (options_.stall_every > 0 && seq % options_.stall_every == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(40));
   }
 }
 
