@@ -256,6 +256,18 @@ TEST_F(TickTest, AFullRingCostsTheNewestRecordAndTheCounterShowsIt) {
   EXPECT_EQ(takeForces().back().seq, capacity + 4) << "the receiver sees a gap of three";
 }
 
+TEST_F(TickTest, AFullRecordingRingCostsTheNewestTicksAndTheCounterShowsIt) {
+  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 4096>>();
+  send(poseAtDepth(0, -0.01));
+  for (std::size_t i = 0; i < channels_->recording->capacity() + 3; ++i) runOneTick();
+  EXPECT_EQ(channels_->unrecorded, 3U);
+  record::RecordedTick tick;
+  ASSERT_TRUE(channels_->recording->pop(tick));
+  EXPECT_EQ(tick.index, 0U);
+  EXPECT_EQ(tick.input.tools[0].present, 1U);
+  EXPECT_EQ(tick.input.dt_ns, 0);
+}
+
 TEST_F(TickTest, WritesTheSurfaceOnlyAsOftenAsAsked) {
   Tick seldom(model_, work_, *channels_, 10, kPeriod);
   for (cycle_.index = 0; cycle_.index < 30; ++cycle_.index) seldom.run(cycle_);
@@ -286,6 +298,7 @@ TEST_F(TickTest, TellsWhenZeroForceWasSent) {
 }
 
 TEST_F(TickTest, AllocatesNothingWhateverComes) {
+  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 4096>>();
   dds::ToolPose bad = poseAtDepth(1, 0.001);
   bad.position[2] = std::numeric_limits<double>::infinity();
   std::vector<dds::ToolPose> poses;

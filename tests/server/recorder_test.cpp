@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/recorder.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <memory>
+
+#include "palpate/record/record_reader.h"
+
+namespace palpate::server {
+namespace {
+
+class RecorderTest : public ::testing::Test {
+ protected:
+  ~RecorderTest() override { std::filesystem::remove(path_); }
+
+  [[nodiscard]] record::SessionFacts facts() const {
+    record::SessionFacts facts;
+    facts.model_id = "m";
+    return facts;
+  }
+
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("palpate-recorder-" + std::to_string(getpid()) + ".rec");
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3);
+};
+
+TEST_F(RecorderTest, WritesWhatLiesInTheRingBeforeItReturns) {
+  Recorder recorder(*channels_, path_, facts());
+  for (std::uint64_t i = 0; i < 100; ++i) ASSERT_TRUE(channels_->recording->push({i, {}, {}}));
+  channels_->stopping = true;
+  recorder.run();
+  EXPECT_EQ(recorder.summary(), "recorded 100 ticks to " + path_.string() + ", 0 lost");
+  record::RecordReader reader(path_);
+  record::RecordedTick tick;
+  while (reader.next(tick)) {
+  }
+  EXPECT_EQ(reader.end().ticks, 100U);
+  EXPECT_EQ(reader.end().missing, 0U);
+}
+
+TEST_F(RecorderTest, TicksLostToAFullRingAreToldInTheFile) {
+  Recorder recorder(*channels_, path_, facts());
+  ASSERT_TRUE(channels_->recording->push({0, {}, {}}));
+  ASSERT_TRUE(channels_->recording->push({8, {}, {}}));
+  channels_->unrecorded = 7;
+  channels_->stopping = true;
+  recorder.run();
+  EXPECT_EQ(recorder.summary(), "recorded 2 ticks to " + path_.string() + ", 7 lost");
+  record::RecordReader reader(path_);
+  record::RecordedTick tick;
+  while (reader.next(tick)) {
+  }
+  EXPECT_EQ(reader.end().missing, 7U);
+}
+
+TEST_F(RecorderTest, AFileThatCannotGrowEndsTheRecordingAndNotTheServer) {
+  Recorder recorder(*channels_, path_, facts());
+  ASSERT_TRUE(channels_->recording->push({5, {}, {}}));
+  channels_->stopping = true;
+  const rlimit64 before = [] {
+    rlimit64 limit{};
+    getrlimit64(RLIMIT_FSIZE, &limit);
+    return limit;
+  }();
+  rlimit64 small = before;
+  small.rlim_cur = std::filesystem::file_size(path_);
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit64(RLIMIT_FSIZE, &small);
+  recorder.run();
+  setrlimit64(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old);
+  EXPECT_TRUE(channels_->recording_failed);
+  EXPECT_EQ(recorder.summary().find("recording ends early after 1 ticks: " + path_.string() +
+                                    ": cannot be written"),
+            0U)
+      << recorder.summary();
+  record::RecordReader reader(path_);
+  record::RecordedTick tick;
+  EXPECT_THROW((void)reader.next(tick), record::TruncatedError);
+}
+
+}  // namespace
+}  // namespace palpate::server
