@@ -42,7 +42,8 @@ constexpr std::uint64_t kOverrunKind = 1ULL << 63;
 constexpr std::uint64_t kDropKind = kOverrunKind + 1;
 constexpr std::uint64_t kUnknownToolKind = kOverrunKind + 2;
 constexpr std::uint64_t kFailedWriteKind = kOverrunKind + 3;
-constexpr std::uint64_t kParametersKind = kOverrunKind + 4;
+constexpr std::uint64_t kChangedKind = kOverrunKind + 4;
+constexpr std::uint64_t kRefusedKind = kOverrunKind + 7;
 constexpr std::uint64_t kRecordingFailedKind = kOverrunKind + 5;
 constexpr std::uint64_t kUnrecordedKind = kOverrunKind + 6;
 
@@ -62,8 +63,10 @@ void Events::run() noexcept {
 }
 
 void Events::drain(std::int64_t now_ns) {
-  if (const auto line = parameters_.poll()) {
-    warn(kParametersKind, *line, now_ns);
+  const ParameterNews news = parameters_.poll();
+  if (news.refused) warn(kRefusedKind, *news.refused, now_ns);
+  if (news.changed) {
+    if (isDue(kChangedKind, now_ns)) info(*news.changed);
     noteParameters();
   }
   TickRecord record;
@@ -134,10 +137,15 @@ void Events::noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_
   }
 }
 
-void Events::warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns) {
-  const auto [entry, first] = last_warned_ns_.try_emplace(kind, now_ns);
-  if (!first && now_ns - entry->second < kWarnPeriod) return;
+bool Events::isDue(std::uint64_t kind, std::int64_t now_ns) {
+  const auto [entry, first] = last_told_ns_.try_emplace(kind, now_ns);
+  if (!first && now_ns - entry->second < kWarnPeriod) return false;
   entry->second = now_ns;
+  return true;
+}
+
+void Events::warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns) {
+  if (!isDue(kind, now_ns)) return;
   spdlog::warn(text);
   health_.message = text;
   changed_ = true;

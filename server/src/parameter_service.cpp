@@ -29,23 +29,25 @@ ParameterService::ParameterService(const dds::Participant& participant, Channels
   if (!answers_.write(book_.answer())) throw dds::DdsError("cannot publish the parameters");
 }
 
-std::optional<std::string> ParameterService::poll() {
+ParameterNews ParameterService::poll() {
   std::array<dds::ParameterRequest, dds::kMaxTake> requests;
   const std::size_t count = requests_.take(requests);
-  std::optional<std::string> line;
+  ParameterNews news;
   for (std::size_t i = 0; i < count; ++i)
-    if (requests[i].server_id == server_id_) line = serve(requests[i]);
-  return line;
+    if (requests[i].server_id == server_id_) serve(requests[i], news);
+  return news;
 }
 
-std::string ParameterService::serve(const dds::ParameterRequest& request) {
+void ParameterService::serve(const dds::ParameterRequest& request, ParameterNews& news) {
   const std::uint64_t before = book_.revision();
   const dds::ServerParameters answer = book_.decide(request);
-  if (book_.revision() != before) channels_.parameters.write(book_.inForce());
+  if (book_.revision() != before) {
+    channels_.parameters.write(book_.inForce());
+    news.changed = "parameters, revision " + std::to_string(answer.revision) + ": " + describe(answer);
+  }
+  if (!answer.accepted) news.refused = std::string("parameters refused: ") + answer.message;
   // A lost answer: the client asks again.
   if (!answers_.write(answer)) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
-  if (!answer.accepted) return std::string("parameters refused: ") + answer.message;
-  return "parameters, revision " + std::to_string(answer.revision) + ": " + describe(answer);
 }
 
 }  // namespace palpate::server

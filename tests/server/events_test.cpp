@@ -5,8 +5,12 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
+#include <chrono>
 #include <memory>
 #include <sstream>
+#include <thread>
+#include <vector>
 
 #include "../idl/test_domain.h"
 
@@ -92,6 +96,49 @@ TEST_F(EventsTest, MissedTicksLostRecordsAndUnknownToolsAreLogged) {
   EXPECT_EQ(events_.health().unknown_tools, 1U);
   EXPECT_EQ(events_.health().recent_flags, kUnknownTool);
   EXPECT_EQ(events_.health().failed_writes, 4U);
+}
+
+TEST_F(EventsTest, ARequestIsAnsweredHandedToTheTickAndLoggedWhenItChangesSomething) {
+  dds::Writer<dds::ParameterRequest> requests(participant_);
+  const dds::Reader<dds::ServerParameters> answers(participant_);
+  ASSERT_TRUE(requests.waitForReaders(1, std::chrono::seconds(5)));
+  ASSERT_TRUE(answers.waitForWriters(1, std::chrono::seconds(5)));
+  std::vector<dds::ServerParameters> got;
+  std::int64_t now_ns = kSecond;
+  const auto ask = [&](std::uint32_t fields, double friction) {
+    dds::ParameterRequest request{};
+    request.request_id = got.size() + 1;
+    request.fields = fields;
+    request.friction = friction;
+    (void)requests.write(request);
+    dds::ServerParameters answer{};
+    for (int i = 0; i < 1000; ++i) {
+      events_.drain(now_ns);
+      std::array<dds::ServerParameters, dds::kMaxTake> some;
+      const std::size_t count = answers.take(some);
+      for (std::size_t k = 0; k < count; ++k) answer = some[k];
+      if (answer.request_id == request.request_id) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    now_ns += 2 * kSecond;
+    got.push_back(answer);
+  };
+  ask(0, 0.0);
+  EXPECT_EQ(takeLog(), "") << "a question is no news";
+  ask(dds::parameter::kFriction, 3.0);
+  EXPECT_EQ(takeLog().find("parameters refused: friction is 3"), 0U);
+  LiveParameters live;
+  EXPECT_FALSE(channels_->parameters.read(live));
+  ask(dds::parameter::kFriction, 0.5);
+  EXPECT_EQ(takeLog().find("parameters, revision 1: "), 0U);
+  EXPECT_TRUE(channels_->parameters.read(live));
+  EXPECT_EQ(live.friction, 0.5);
+  EXPECT_EQ(events_.health().parameters.friction, 0.5);
+  EXPECT_EQ(events_.health().parameters_revision, 1U);
+  ASSERT_EQ(got.size(), 3U);
+  EXPECT_TRUE(got[0].accepted);
+  EXPECT_FALSE(got[1].accepted);
+  EXPECT_EQ(got[2].friction, 0.5);
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ class Events {
   void noteRecording(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
   void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
+  /// Whether a line of this kind may be written: once a second.
+  [[nodiscard]] bool isDue(std::uint64_t kind, std::int64_t now_ns);
   void warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns);
   void info(const std::string& text);
   void publishIfDue(std::int64_t now_ns);
@@ -47,8 +49,8 @@ class Events {
   ParameterService& parameters_;
   Health health_;
   std::array<std::uint32_t, kMaxTools> last_flags_{};
-  std::map<std::uint64_t, std::int64_t> last_warned_ns_;  // by kind of event; a fixed, small set
-  bool changed_{true};                                    // since the last status
+  std::map<std::uint64_t, std::int64_t> last_told_ns_;  // by kind of event; a fixed, small set
+  bool changed_{true};                                  // since the last status
   std::int64_t published_ns_{0};
   bool recording_failed_{false};
   std::uint64_t unrecorded_{0};

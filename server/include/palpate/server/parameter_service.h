@@ -11,6 +11,12 @@
 
 namespace palpate::server {
 
+/// What happened to parameters; the newest counts. Nobody hears of requests that only ask.
+struct ParameterNews {
+  std::optional<std::string> changed;  ///< what is in force now
+  std::optional<std::string> refused;  ///< why
+};
+
 /// Takes parameter requests from DDS, answers each, and hands what was accepted to the tick. Threads: one, the events
 /// thread; nobody is in a hurry here. Real-time: no.
 class ParameterService {
@@ -18,14 +24,13 @@ class ParameterService {
   /// Publishes what is in force. @throw dds::DdsError
   ParameterService(const dds::Participant& participant, Channels& channels, const Facts& facts);
 
-  /// Answers the requests that have come, at most dds::kMaxTake.
-  /// @return one line about the newest of them, for the log, if any came
-  [[nodiscard]] std::optional<std::string> poll();
+  /// Answers the requests that have come, at most dds::kMaxTake. @return what of it is worth a line in the log
+  [[nodiscard]] ParameterNews poll();
 
   [[nodiscard]] const ParameterBook& book() const noexcept { return book_; }
 
  private:
-  [[nodiscard]] std::string serve(const dds::ParameterRequest& request);
+  void serve(const dds::ParameterRequest& request, ParameterNews& news);
 
   Channels& channels_;
   std::uint32_t server_id_;
