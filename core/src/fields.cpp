@@ -17,6 +17,13 @@ std::size_t index(std::int64_t i) noexcept {
   return static_cast<std::size_t>(i);
 }
 
+/// Coefficients up to the last that is not zero: a linear field costs no more.
+std::size_t used(std::span<const double> phi) noexcept {
+  std::size_t count = phi.size();
+  while (count > 0 && phi[count - 1] == 0.0) --count;
+  return count;
+}
+
 /// Weight of each coefficient of one contact position.
 Weights scaled(std::span<const double> phi, double factor) noexcept {
   Weights weight;
@@ -35,7 +42,7 @@ void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const doubl
   for (std::size_t b = 0; b < index(mix.count); ++b) {
     const Weights weight = scaled(phi, gain * mix.weight[b]);
     const float* const Y = Y_.data() + index(mix.position[b]) * phi.size() * n;
-    addWeightedRows(Y, n, weight.data(), phi.size(), n, y.data());
+    addWeightedRows(Y, n, weight.data(), used(phi), n, y.data());
   }
 }
 
@@ -51,6 +58,11 @@ NearField::NearField(const ModelView& view)
   scratch_size_ = static_cast<int>(3 * most) + static_cast<int>(view.surfaceNodes());
 }
 
+std::span<const std::int32_t> NearField::nodes(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t m = index(position), first = index(offset_[m]);
+  return node_.subspan(first, index(offset_[m + 1]) - first);
+}
+
 NearField::Block NearField::block(std::int32_t position, std::span<const double> phi, double factor,
                                   std::span<float> scratch) const noexcept PALPATE_NONBLOCKING {
   const std::size_t m = index(position);
@@ -59,7 +71,7 @@ NearField::Block NearField::block(std::int32_t position, std::span<const double>
   std::fill(u.begin(), u.end(), 0.0F);
   const Weights weight = scaled(phi, factor);
   const float* const field = field_.data() + 3 * phi.size() * first;
-  addWeightedRows(field, 3 * nodes, weight.data(), phi.size(), 3 * nodes, u.data());
+  addWeightedRows(field, 3 * nodes, weight.data(), used(phi), 3 * nodes, u.data());
   return {node_.subspan(first, nodes), u};
 }
 

@@ -127,19 +127,13 @@ Vec3 PatchAverage::ofModes(const PositionMix& at,
   return sum;
 }
 
-Vec3 PatchAverage::ofBlock(const PositionMix& at, std::span<const std::int32_t> list,
-                           std::span<const float> block,
-                           std::span<float> table) const noexcept PALPATE_NONBLOCKING {
-  for (const std::int32_t node : list) table[index(node)] = 0.0F;  // what is not in the list is not read
+void PatchAverage::addWeights(const PositionMix& at,
+                              std::span<float> table) const noexcept PALPATE_NONBLOCKING {
   for (std::size_t a = 0; a < index(at.count); ++a) {
     const std::size_t m = index(at.position[a]);
     const auto share = static_cast<float>(at.weight[a]);
     for (std::size_t i = first_[m]; i < first_[m + 1]; ++i) table[index(node_[i])] += share * weight_[i];
   }
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < list.size(); ++i)
-    sum += table[index(list[i])] * Eigen::Map<const Eigen::Vector3f>(block.data() + 3 * i);
-  return sum.cast<double>();
 }
 
 bool PatchAverage::meets(std::int32_t from, const PositionMix& at) const noexcept PALPATE_NONBLOCKING {

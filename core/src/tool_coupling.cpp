@@ -21,17 +21,36 @@ std::size_t index(std::int64_t i) noexcept {
   return static_cast<std::size_t>(i);
 }
 
-/// What a tool that imposes d by itself adds to the field; beyond its domain in proportion to d, so that the
-/// tools' own parts exist there too. A model driven by level ends where its load does.
-FieldSource sourceOf(const MetaModel& model, const ContactPoint& s, const Vec3& d) noexcept {
-  Response response;
-  const ResponseStatus status = respond(model, s, d, response);
-  FieldSource source{s, response.parameter, 1.0};
-  const double answered = response.displacement.norm();
-  if (status == ResponseStatus::kClamped && answered > 0.0 &&
-      model.attributes().parameters != Parameters::kLevel)
-    source.gain = d.norm() / answered;
-  return source;  // without an answer its parameter is zero, and so is the field
+/// P_to of the near field. Where no near node lies in the patch no block is evaluated.
+Vec3 averagedNear(const MetaModel& model, const PositionMix& from, std::span<const double> phi, double gain,
+                  const PositionMix& to, std::span<float> scratch) noexcept {
+  const NearField& near = model.nearField();
+  const std::span<float> weight = scratch.last(index(model.surface().nodes()));
+  const auto positions = std::span(from.position).first(index(from.count));
+  const auto meets = [&](std::int32_t b) noexcept { return model.patchAverage().meets(b, to); };
+  if (std::none_of(positions.begin(), positions.end(), meets)) return Vec3::Zero();
+  for (const std::int32_t b : positions)
+    for (const std::int32_t node : near.nodes(b)) weight[index(node)] = 0.0F;  // no other is read
+  model.patchAverage().addWeights(to, weight);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const auto weighs = [&](std::int32_t node) noexcept { return weight[index(node)] > 0.0F; };
+    const std::span<const std::int32_t> nodes = near.nodes(positions[k]);
+    if (std::none_of(nodes.begin(), nodes.end(), weighs)) continue;
+    const NearField::Block block = near.block(positions[k], phi, gain * from.weight[k], scratch);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      sum += weight[index(nodes[i])] * Eigen::Map<const Eigen::Vector3f>(block.u.data() + 3 * i);
+  }
+  return sum.cast<double>();
+}
+
+/// P_to of the field sum_alpha phi_alpha U_alpha.
+Vec3 averaged(const MetaModel& model, const PositionMix& from, std::span<const double> phi, double gain,
+              const PositionMix& to, FieldScratch& scratch) noexcept {
+  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
+  model.farField().addAmplitudes(from, phi, gain, scratch.amplitudes);
+  return model.patchAverage().ofModes(to, scratch.amplitudes) +
+         averagedNear(model, from, phi, gain, to, scratch.near_block);
 }
 
 /// The tools' own parts as the root of  x_A + sum_B P_A u_B(x_B) = d_A.
@@ -47,12 +66,15 @@ class Coupling {
     return sum;
   }
 
-  /// Its derivative at rest, by differences of length h.
+  /// Its derivative at rest. @param h  length of the differences that stand for it in a load-driven model, m
   [[nodiscard]] Table slopeAtRest(double h) noexcept {
     Table slope = Table::Identity(size_, size_);
     for (Eigen::Index b = 0; b < size_; ++b) {
       Numbers column = Numbers::Zero(size_);
-      addTo(column, b - b % 3, h * Vec3::Unit(b % 3), 1.0 / h);
+      if (model_.attributes().parameters == Parameters::kDisplacement)
+        addLinearTo(column, b);
+      else
+        addTo(column, b - b % 3, h * Vec3::Unit(b % 3), 1.0 / h);
       slope.col(b) += column;
     }
     return slope;
@@ -61,9 +83,22 @@ class Coupling {
  private:
   /// What tool b (its first unknown) moves the others by.
   void addTo(Numbers& sum, Eigen::Index b, const Vec3& d, double factor) noexcept {
-    const FieldSource source = sourceOf(model_, s_[index(b / 3)], d);
+    const FieldSource source = ownPart(model_, s_[index(b / 3)], d);
     for (Eigen::Index a = 0; a < size_; a += 3)
       if (a != b) sum.segment<3>(a) += factor * patchDisplacement(model_, source, s_[index(a / 3)], scratch_);
+  }
+
+  /// What unknown b moves the others by, per m: the coefficients of degree 1 alone, which come first.
+  void addLinearTo(Numbers& sum, Eigen::Index b) noexcept {
+    const PositionMix from = model_.surface().mix(s_[index(b / 3)]);
+    if (from.count == 0) return;
+    std::array<double, MonomialBasis::kMaxCoefficients> all{};
+    const std::span<double> phi(all.data(), index(model_.functions().size()));
+    phi[index(b % 3)] = 1.0 / model_.functions().reference();
+    for (Eigen::Index a = 0; a < size_; a += 3) {
+      const PositionMix to = model_.surface().mix(s_[index(a / 3)]);
+      if (a != b - b % 3 && to.count > 0) sum.segment<3>(a) += averaged(model_, from, phi, 1.0, to, scratch_);
+    }
   }
 
   const MetaModel& model_;
@@ -93,23 +128,22 @@ Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source, const 
                        FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
   const PositionMix from = model.surface().mix(source.s), to = model.surface().mix(at);
   if (from.count == 0 || to.count == 0) return Vec3::Zero();
-  const PatchAverage& patch = model.patchAverage();
   std::array<double, MonomialBasis::kMaxCoefficients> all;
   const std::span<double> phi(all.data(), index(model.functions().size()));
   model.functions().evaluate(clampToDomain(source.parameter, model.response().limit(from)), phi);
+  return averaged(model, from, phi, source.gain, to, scratch);
+}
 
-  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
-  model.farField().addAmplitudes(from, phi, source.gain, scratch.amplitudes);
-  Vec3 sum = patch.ofModes(to, scratch.amplitudes);
-  const std::span<float> memory(scratch.near_block);
-  const std::span<float> table = memory.last(index(model.surface().nodes()));
-  for (std::size_t b = 0; b < index(from.count); ++b) {
-    if (!patch.meets(from.position[b], to)) continue;
-    const NearField::Block block =
-        model.nearField().block(from.position[b], phi, source.gain * from.weight[b], memory);
-    sum += patch.ofBlock(to, block.nodes, block.u, table);
-  }
-  return sum;
+FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
+                    const Vec3& d) noexcept PALPATE_NONBLOCKING {
+  Response response;
+  const ResponseStatus status = respond(model, s, d, response);
+  FieldSource source{s, response.parameter, 1.0};
+  const double answered = response.displacement.norm();
+  if (status == ResponseStatus::kClamped && answered > 0.0 &&
+      model.attributes().parameters != Parameters::kLevel)
+    source.gain = d.norm() / answered;
+  return source;  // without an answer its parameter is zero, and so is the field
 }
 
 double ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-query as its user sees it: exit code, standard output, standard error.
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "box_model.h"
 #include "load_models.h"
+#include "palpate/query/together.h"
 #include "parsed_deck.h"
 #include "run_program.h"
 #include "well_formed.h"
@@ -169,6 +171,75 @@ TEST(Program, RefusesALoadThatTheModelDoesNotTake) {
                      "--displacement,--force,--load-level");
   expectOneLineError(query(box, {"--node", node, "--force", "0,0"}), "--force is '0,0'");
   expectOneLineError(query(box, {"--node", node, "--force="}), "--force");
+}
+
+TEST(Program, AnswersTwoToolsAndChecksThemByNewton) {
+  const BoxModel box;
+  const auto field = box.folder / "field.vtu";
+  const std::int64_t first = BoxMesh::number(3, 1, 2), second = BoxMesh::number(5, 1, 2);
+  const ProgramResult result =
+      query(box, {"--node", std::to_string(first), "--displacement", "0,0,-0.001", "--tool2",
+                  std::to_string(second) + ":0,0,-0.0008", "--newton", "--json", "--field", field.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  const auto two = json.at("two_tools");
+  const std::array<Touch, 2> touches{Touch{anchorAtNode(box.model, first), Vec3(0.0, 0.0, -0.001)},
+                                     Touch{anchorAtNode(box.model, second), Vec3(0.0, 0.0, -0.0008)}};
+  const JointAnswer answer = askTogether(box.model, touches);
+  const FullSolution truth = solveTogether(box.organ, touches, box.model.attributes().patch_radius, 1);
+  const JointErrors errors = coupledErrors(answer, touches, truth, box.organ);
+  EXPECT_NEAR(two.at("force1_error"), errors.force[0], 1e-6);
+  EXPECT_NEAR(two.at("force2_error"), errors.force[1], 1e-6);
+  EXPECT_NEAR(two.at("field_error_max"), errors.field.max, 1e-6);
+  EXPECT_NEAR(two.at("field_error_l2"), errors.field.l2, 1e-6);
+  EXPECT_LT(two.at("force1_error"), 0.1 * two.at("superposed").at("force1_error").get<double>());
+  const Vec3 together = vectorOf(two.at("tools").at(0).at("force")), alone = vectorOf(json.at("force"));
+  EXPECT_EQ(vectorOf(two.at("tools").at(0).at("force_alone")), alone);
+  EXPECT_NEAR(two.at("coupling_force1_N"), (together - alone).norm(), 1e-12);
+  const Vec3 full = vectorOf(two.at("newton").at("forces").at(0)),
+             full_alone = vectorOf(json.at("newton").at("force"));
+  EXPECT_NEAR(two.at("newton").at("coupling_force1_N"), (full - full_alone).norm(), 1e-9);
+  EXPECT_NEAR(two.at("coupling_force1_N"), two.at("newton").at("coupling_force1_N"), 0.05 * full.norm());
+  EXPECT_NEAR(two.at("tools").at(1).at("distance_m"), 0.04, 1e-12);
+  EXPECT_EQ(two.at("tools").at(1).at("node"), second);
+  EXPECT_EQ(testing::xmlFault(contentOf(field)), "");
+}
+
+TEST(Program, AnswersThreeToolsToAPerson) {
+  const BoxModel box;
+  const std::vector<std::string> words{
+      "--node",         std::to_string(BoxMesh::number(3, 1, 2)),
+      "--displacement", "0,0,-0.001",
+      "--tool2",        std::to_string(BoxMesh::number(5, 1, 2)) + ":0,0,-0.0008",
+      "--tool2",        std::to_string(BoxMesh::number(4, 3, 1)) + ":0,-0.0005,0"};
+  const ProgramResult result = query(box, words);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part : {"together:", "tool 2", "tool 3", "own part", "by the others", "left"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  std::vector<std::string> checked = words;
+  checked.emplace_back("--newton");
+  const ProgramResult truth = query(box, checked);
+  ASSERT_EQ(truth.exit_code, 0) << truth.err;
+  for (const char* part : {"Newton: force3", "superposed", "model is off"})
+    EXPECT_NE(truth.out.find(part), std::string::npos) << part << truth.out;
+}
+
+TEST(Program, RefusesAToolTooManyOrUnclear) {
+  const BoxModel box;
+  const std::string node = std::to_string(BoxMesh::number(3, 1, 2)),
+                    other = std::to_string(BoxMesh::number(5, 1, 2));
+  const auto refused = [&](std::vector<std::string> more, const std::string& part) {
+    more.insert(more.begin(), {"--node", node, "--displacement", "0,0,-0.001"});
+    expectOneLineError(query(box, more), part);
+  };
+  refused({"--tool2", other + ":0,0"}, "--tool2 is '" + other + ":0,0', expected a node's number");
+  refused({"--tool2", node + ":0,0,0"}, "both touch node " + node);
+  refused({"--tool2", "4:0,0,0"}, "node 4 is not in the mesh");
+  refused({"--tool2"}, "--tool2");
+  refused({"--tool2", other + ":0,0,0", "--ccx", "deck.inp"}, "expected no --tool2");
+  const LoadModel load(Parameters::kForce);
+  expectOneLineError(query(load, {"--node", node, "--force", "0,0,-0.01", "--tool2", other + ":0,0,0"}),
+                     "expected --displacement");
 }
 
 TEST(Program, SaysWhenAPointIsNotAccessible) {

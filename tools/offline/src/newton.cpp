@@ -51,35 +51,50 @@ struct LoadProblem {
 struct PatchProblem {
   const FeModel& model;
   Cholesky& factor;
-  const Patch& patch;
-  const Vec3& d;
+  std::span<const ImposedPatch> tools;
 
-  void aim(double level, NewtonResult& /*state*/) { target = level * d; }
+  void aim(double to, NewtonResult& state) {
+    level = to;
+    state.forces.resize(tools.size(), Vec3::Zero());
+  }
   double error(const NewtonResult& state) {
     internal = model.internalForce(state.u);
     external = Eigen::VectorXd::Zero(internal.size());
-    patch.addForce(state.force, external);
-    const double off = (patch.average(state.u) - target).norm() / std::max(target.norm(), 1e-300);
-    return std::max(imbalance(model, internal, external), off);
+    double off = 0.0, scale = 1e-300;
+    for (std::size_t a = 0; a < tools.size(); ++a) {
+      tools[a].patch.addForce(state.forces[a], external);
+      off = std::max(off, gap(state, a).norm());
+      scale = std::max(scale, level * tools[a].d.norm());
+    }
+    return std::max(imbalance(model, internal, external), off / scale);
   }
-  /// [K -G; G^T 0] [du; df] = [G f - f_int; d - G^T u], by the 3 x 3 Schur complement of K.
+  /// [K -G; G^T 0] [du; df] = [G f - f_int; d - G^T u], by the Schur complement of K, 3 x 3 for each pair of
+  /// tools.
   void improve(NewtonResult& state) {
     factor.factorize(state.u);
-    Eigen::MatrixXd b(model.dofCount(), 4);
-    b.col(0) = toDofs(model, external - internal);
-    for (int c = 0; c < 3; ++c) {
+    const auto count = static_cast<Eigen::Index>(3 * tools.size());
+    Eigen::MatrixXd b(model.dofCount(), count + 1);
+    b.col(count) = toDofs(model, external - internal);
+    Eigen::VectorXd gaps(count);
+    for (Eigen::Index c = 0; c < count; ++c) {
+      const auto a = static_cast<std::size_t>(c / 3);
       Eigen::VectorXd unit = Eigen::VectorXd::Zero(3 * model.nodeCount());
-      patch.addForce(Vec3::Unit(c), unit);
-      b.col(c + 1) = toDofs(model, unit);
+      tools[a].patch.addForce(Vec3::Unit(c % 3), unit);
+      b.col(c) = toDofs(model, unit);
+      gaps[c] = gap(state, a)[c % 3];
     }
     const Eigen::MatrixXd x = factor.solve(b);
-    const Eigen::Matrix<double, 3, 4> averages = b.rightCols<3>().transpose() * x;
-    const Vec3 gap = target - patch.average(state.u) - averages.col(0);
-    const Vec3 df = averages.rightCols<3>().partialPivLu().solve(gap);
-    addDofs(model, x.col(0) + x.rightCols<3>() * df, state.u);
-    state.force += df;
+    const Eigen::MatrixXd averages = b.leftCols(count).transpose() * x;
+    const Eigen::VectorXd df = averages.leftCols(count).partialPivLu().solve(gaps - averages.col(count));
+    addDofs(model, x.col(count) + x.leftCols(count) * df, state.u);
+    for (std::size_t a = 0; a < tools.size(); ++a)
+      state.forces[a] += df.segment<3>(static_cast<Eigen::Index>(3 * a));
   }
-  Vec3 target{Vec3::Zero()};
+  /// What patch a still has to move, m.
+  [[nodiscard]] Vec3 gap(const NewtonResult& state, std::size_t a) const {
+    return level * tools[a].d - tools[a].patch.average(state.u);
+  }
+  double level{0.0};
   Eigen::VectorXd external, internal;
 };
 
@@ -138,12 +153,21 @@ NewtonResult NewtonSolver::solveLoad(const Eigen::VectorXd& load, const NewtonOp
 }
 
 NewtonResult NewtonSolver::solvePatch(const Patch& patch, const Vec3& d, const NewtonOptions& options) {
-  if (d.norm() == 0.0) {
-    NewtonResult rest;
-    rest.u = Eigen::VectorXd::Zero(3 * model_.nodeCount());
-    return rest;
+  const ImposedPatch tool{patch, d};
+  return solvePatches(std::span(&tool, 1), options);
+}
+
+NewtonResult NewtonSolver::solvePatches(std::span<const ImposedPatch> tools, const NewtonOptions& options) {
+  const auto rests = [](const ImposedPatch& tool) { return tool.d.norm() == 0.0; };
+  NewtonResult result;
+  if (std::all_of(tools.begin(), tools.end(), rests)) {
+    result.u = Eigen::VectorXd::Zero(3 * model_.nodeCount());
+    result.forces.assign(tools.size(), Vec3::Zero());
+    return result;
   }
-  return walk(PatchProblem{model_, factor_, patch, d, Vec3::Zero(), {}, {}}, options);
+  result = walk(PatchProblem{model_, factor_, tools, 0.0, {}, {}}, options);
+  result.force = result.forces.front();
+  return result;
 }
 
 }  // namespace palpate::offline

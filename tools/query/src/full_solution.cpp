@@ -118,19 +118,47 @@ FullSolution solveUnderLoad(const Organ& organ, const Anchor& anchor, double pat
   return solution;
 }
 
-Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ) {
+FullSolution solveTogether(const Organ& organ, std::span<const Touch> touches, double patch_radius,
+                           int steps) {
+  std::vector<offline::ImposedPatch> tools;
+  std::string asked;
+  for (const Touch& touch : touches) {
+    tools.push_back({patchAt(organ, touch.anchor, patch_radius), touch.d});
+    asked += (asked.empty() ? "" : " and ") + text(touch.d);
+  }
+  FullSolution solution;
+  solution.patch = tools.front().patch;
+  solution.d = touches.front().d;
+  try {
+    solution.state = offline::NewtonSolver(organ.body).solvePatches(tools, stepsOf(steps));
+  } catch (const std::runtime_error& error) {
+    throw QueryError("displacements " + asked + " m: " + error.what());
+  }
+  solution.min_det_f = organ.body.minDetF(solution.state.u);
+  return solution;
+}
+
+FieldErrors fieldErrors(std::span<const float> field, const FullSolution& truth, const Organ& organ,
+                        double length) {
   double largest = 0.0, error2 = 0.0, truth2 = 0.0;
   for (std::size_t i = 0; i < organ.surface.nodes.size(); ++i) {
-    const Vec3 u = Eigen::Map<const Eigen::Vector3f>(answer.field.data() + 3 * i).cast<double>();
+    const Vec3 u = Eigen::Map<const Eigen::Vector3f>(field.data() + 3 * i).cast<double>();
     const Vec3 u_full = truth.displacement(organ, static_cast<int>(i));
     largest = std::max(largest, (u - u_full).norm());
     error2 += organ.surface.areas[i] * (u - u_full).squaredNorm();
     truth2 += organ.surface.areas[i] * u_full.squaredNorm();
   }
-  const Vec3& f = truth.state.force;
-  return {ratio((answer.response.force - f).norm(), f.norm()),
-          ratio((answer.response.displacement - truth.d).norm(), truth.d.norm()),
-          ratio(largest, truth.d.norm()), std::sqrt(ratio(error2, truth2))};
+  return {ratio(largest, length), std::sqrt(ratio(error2, truth2))};
+}
+
+double relativeError(const Vec3& v, const Vec3& v_newton) {
+  return ratio((v - v_newton).norm(), v_newton.norm());
+}
+
+Errors errorsOf(const Answer& answer, const FullSolution& truth, const Organ& organ) {
+  const FieldErrors field = fieldErrors(answer.field, truth, organ, truth.d.norm());
+  return {relativeError(answer.response.force, truth.state.force),
+          relativeError(answer.response.displacement, truth.d), field.max, field.l2};
 }
 
 }  // namespace palpate::query

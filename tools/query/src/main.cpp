@@ -5,6 +5,7 @@
 //               palpate-query liver.h5 --at 0.05,0.01,0.06 --displacement -0.001,0,-0.002 --newton --json
 //               palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002 --ccx deck.inp --field touch.vtu
 //               palpate-query force.h5 --node 1204 --force 0,0,-0.5 --newton
+//               palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002 --tool2 87:0,0,-0.002 --newton
 //               palpate-query level.h5 --node 1204 --load-level 0.75 --newton
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "palpate/query/field_file.h"
 #include "palpate/query/query_error.h"
 #include "report.h"
+#include "report_together.h"
 
 namespace {
 
@@ -29,6 +31,7 @@ struct Options {
   std::optional<std::string> displacement, force;
   std::optional<std::int64_t> node;
   std::optional<double> level;
+  std::vector<std::string> more_tools;
   std::string deck, field;
   int steps{1};
   bool newton{false};
@@ -51,6 +54,9 @@ void describe(CLI::App& app, Options& options) {
   what->add_option("--load-level", options.level, "part of the model's load, 0 to 1 (models driven by level)")
       ->check(CLI::Range(0.0, 1.0));
   what->require_option(1);
+  app.add_option("--tool2", options.more_tools,
+                 "another tool at the same time: NODE:dx,dy,dz, m; goes with --displacement, may be repeated")
+      ->allow_extra_args(false);
   app.add_flag("--newton", options.newton, "solve the full problem too, and tell how far the model is off");
   app.add_option("--steps", options.steps, "load steps of the full solution to begin with")
       ->check(CLI::Range(1, 1000))
@@ -62,7 +68,7 @@ void describe(CLI::App& app, Options& options) {
 
 /// The command line without the program's name, last word first as CLI11 takes it.
 std::vector<std::string> reversedWords(int argc, char** argv) {
-  static constexpr std::array<const char*, 3> kVectors{"--at", "--displacement", "--force"};
+  static constexpr std::array<const char*, 4> kVectors{"--at", "--displacement", "--force", "--tool2"};
   const std::vector<const char*> words(argv + std::min(argc, 1), argv + argc);
   std::vector<std::string> joined = query::joinVectors(words, kVectors);
   std::reverse(joined.begin(), joined.end());
@@ -98,6 +104,21 @@ std::string about(const Options& options) {
   return "patch displacement " + *options.displacement + " m";
 }
 
+/// The tools of the question, none when it is about one.
+std::vector<query::Touch> touchesOf(const MetaModel& model, const Options& options,
+                                    const query::Anchor& anchor, const query::Question& question) {
+  if (options.more_tools.empty()) return {};
+  if (question.prescribed != Parameters::kDisplacement)
+    throw query::QueryError(
+        "--tool2 moves tools by displacements, expected --displacement for the first one too");
+  if (!options.deck.empty()) throw query::QueryError("--ccx writes a deck of one tool, expected no --tool2");
+  std::vector<query::Touch> touches{{anchor, question.value}};
+  for (const std::string& text : options.more_tools)
+    touches.push_back(query::parseTouch(model, "--tool2", text));
+  query::checkTouches(model, touches);
+  return touches;
+}
+
 void warn(const query::Findings& found) {
   if (found.answer.status == ResponseStatus::kNoAnswer)
     std::cerr << "palpate-query: the point is not accessible: the model has no answer there\n";
@@ -113,12 +134,34 @@ void writeFiles(const Options& options, const query::Findings& found) {
     query::writeText(options.deck, query::ccxDeck(*found.organ, *found.truth, about(options), options.steps));
 }
 
+/// The report about one tool, then that about all; the field is that of all.
+void reportTogether(const Options& options, const query::Findings& first,
+                    std::span<const query::Touch> touches) {
+  const query::JointAnswer answer = query::askTogether(first.model, touches);
+  std::optional<query::FullSolution> truth;
+  if (first.truth != nullptr)
+    truth = query::solveTogether(*first.organ, touches, first.model.attributes().patch_radius, options.steps);
+  const query::JointFindings found{first.model, touches,     answer,
+                                   first.organ, first.truth, truth ? &*truth : nullptr};
+  query::Answer shown = answer.tools.front().together;
+  shown.field = answer.field;
+  writeFiles(options, {first.model, first.anchor, first.question, shown, first.organ, found.truth});
+  if (!options.json) {
+    std::cout << query::toText(first) << query::toText(found);
+    return;
+  }
+  nlohmann::ordered_json json = query::toJson(first);
+  json["two_tools"] = query::toJson(found);
+  std::cout << json.dump(2) << '\n';
+}
+
 void run(const Options& options) {
   // 1. The question.
   const query::Question question = questionOf(options);
   const MetaModel model = MetaModel::load(options.model);
   query::checkQuestion(model, question);
   const query::Anchor anchor = anchorOf(model, options);
+  const std::vector<query::Touch> touches = touchesOf(model, options, anchor, question);
   // 2. The model's answer.
   const query::Answer answer = query::ask(model, anchor, question);
   // 3. The truth.
@@ -131,8 +174,9 @@ void run(const Options& options) {
   // 4. Files, then the report.
   const query::Findings found{
       model, anchor, question, answer, organ ? &*organ : nullptr, truth ? &*truth : nullptr};
-  writeFiles(options, found);
   warn(found);
+  if (!touches.empty()) return reportTogether(options, found, touches);
+  writeFiles(options, found);
   std::cout << (options.json ? query::toJson(found).dump(2) + "\n" : query::toText(found));
 }
 

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report.h"
 
-#include <array>
-#include <cstdio>
+#include "report_lines.h"
 
 namespace palpate::query {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json list(const Vec3& v) {
-  return {v[0], v[1], v[2]};
-}
 
 Json rows(const Mat3& m) {
   Json matrix = Json::array();
@@ -22,18 +17,6 @@ Json rows(const Mat3& m) {
 
 std::int64_t meshNumber(const Findings& found) {
   return found.model.view().surface_mesh_tag[static_cast<std::size_t>(found.anchor.node)];
-}
-
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
-std::string vectorLine(const char* name, const Vec3& v, double factor, const char* unit) {
-  return line("%-14s %11.6g %11.6g %11.6g %s, size %.6g\n", name, factor * v[0], factor * v[1], factor * v[2],
-              unit, factor * v.norm());
 }
 
 bool displacementPrescribed(const Findings& found) {

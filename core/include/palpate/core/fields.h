@@ -42,6 +42,8 @@ class NearField {
     std::span<const float> u;             ///< [K_m][3] m
   };
 
+  /// Surface nodes that a position's block moves. Real-time: yes.
+  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t position) const noexcept PALPATE_NONBLOCKING;
   /// Numbers of scratch: 3 * the largest K_m for a block, then Ns for whoever weighs its nodes.
   [[nodiscard]] int scratchSize() const noexcept { return scratch_size_; }
   /// sum_alpha phi_alpha U_alpha of one position times `factor`. @param phi  [C] ParameterFunctions at p

@@ -32,11 +32,8 @@ class PatchAverage {
   /// P_s of the far field sum_k X_k y_k, m. @param y  [n]. Cost O(n). Real-time: yes.
   [[nodiscard]] Vec3 ofModes(const PositionMix& at,
                              std::span<const float> y) const noexcept PALPATE_NONBLOCKING;
-  /// P_s of a field that is zero but at some nodes, m.
-  /// @param list  nodes, @param block  [list][3] m, @param table  [Ns], overwritten in part. Real-time: yes.
-  [[nodiscard]] Vec3 ofBlock(const PositionMix& at, std::span<const std::int32_t> list,
-                             std::span<const float> block,
-                             std::span<float> table) const noexcept PALPATE_NONBLOCKING;
+  /// Adds the weights w_i(s) to table[i]. @param table  [Ns]. Real-time: yes.
+  void addWeights(const PositionMix& at, std::span<float> table) const noexcept PALPATE_NONBLOCKING;
   /// False when the near field of position `from` ends before the patch of any position of `at`.
   [[nodiscard]] bool meets(std::int32_t from, const PositionMix& at) const noexcept PALPATE_NONBLOCKING;
 

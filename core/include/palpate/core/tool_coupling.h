@@ -18,6 +18,12 @@ namespace palpate {
                                      const ContactPoint& at,
                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
 
+/// What a tool that imposes d by itself adds to the field: of evaluateField() and patchDisplacement(). Beyond the
+/// domain its gain is |d| over the |d| that the model answers, so that the field goes on in proportion (not of a
+/// model driven by level, which ends where its load does). @param d  m, finite. Cost respond(). Real-time: yes.
+[[nodiscard]] FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
+                                  const Vec3& d) noexcept PALPATE_NONBLOCKING;
+
 /// Tools that press together: what each adds by itself, so that all patches move as prescribed.    DESIGN 3.1
 ///   d_own,A + sum_{B != A} P_A u(s_B, d_own,B) = d_A,   then f_A = f(s_A, d_own,A), u = sum_A u(s_A, d_own,A)
 /// Quasi-Newton from the slopes at rest (Broyden, damped): exact for a linear organ; the error of a nonlinear one

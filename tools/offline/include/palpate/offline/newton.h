@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "palpate/offline/cholesky.h"
 #include "palpate/offline/fe_model.h"
@@ -20,9 +22,16 @@ struct NewtonOptions {
 
 struct NewtonResult {
   Eigen::VectorXd u;         ///< displacement, 3 N, m
-  Vec3 force{Vec3::Zero()};  ///< force of the tool on the organ, N (patch problems)
+  Vec3 force{Vec3::Zero()};  ///< force of the (first) tool on the organ, N (patch problems)
+  std::vector<Vec3> forces;  ///< of every tool, N (patch problems)
   double residual{0.0};      ///< at the end, relative as in the tolerance
   int iterations{0};         ///< over all steps
+};
+
+/// What one tool imposes: G_s^T u = d.
+struct ImposedPatch {
+  Patch patch;            ///< G_s: weights of the contact patch at s
+  Vec3 d = Vec3::Zero();  ///< patch-averaged displacement, m
 };
 
 /// Full Newton with consistent tangent: the truth that every model is judged by.             DESIGN 2.1, 2.2
@@ -39,6 +48,11 @@ class NewtonSolver {
   /// @param patch  weights of the contact patch at s  @param d  patch-averaged displacement, m
   /// @throw std::runtime_error naming the fraction of d that could not be passed
   [[nodiscard]] NewtonResult solvePatch(const Patch& patch, const Vec3& d, const NewtonOptions& options);
+
+  /// Several tools at once: f_int(u) = sum_A G_A f_A, G_A^T u = d_A for every A, all d growing together.
+  /// @param tools  at least one; patches that cannot move differently (the same node alone) have no solution
+  /// @throw std::runtime_error naming the fraction of the d that could not be passed
+  [[nodiscard]] NewtonResult solvePatches(std::span<const ImposedPatch> tools, const NewtonOptions& options);
 
  private:
   template <typename Problem>

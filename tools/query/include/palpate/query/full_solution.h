@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "palpate/core/meta_model.h"
@@ -40,6 +41,18 @@ struct FullSolution {
 [[nodiscard]] FullSolution solveFully(const Organ& organ, const Anchor& anchor, double patch_radius,
                                       const Vec3& d, int steps);
 
+/// What one tool imposes on the organ.
+struct Touch {
+  Anchor anchor;
+  Vec3 d = Vec3::Zero();  ///< m
+};
+
+/// Several tools at once: f_int(u) = sum_A G_A f_A, G_A^T u = d_A. `patch`, `d` and state.force are the first
+/// tool's, state.forces those of all. @param steps  load steps, >= 1
+/// @throw QueryError like solveFully(). Seconds.
+[[nodiscard]] FullSolution solveTogether(const Organ& organ, std::span<const Touch> touches,
+                                         double patch_radius, int steps);
+
 /// The organ under a given force: f_int(u) = G_s f, a dead load on the patch centred at s itself.   DESIGN 2.1
 /// A patch narrower than the mesh is the point load's own: the node at s, or the triangle's corners by their
 /// barycentric weights. @param f  N, not clamped  @param steps  load steps, >= 1
@@ -54,6 +67,19 @@ struct Errors {
   double field_max{0.0};     ///< largest |u - u_Newton| over the surface nodes / |d_Newton|
   double field_l2{0.0};      ///< area-weighted L2 of u - u_Newton over the surface / that of u_Newton
 };
+
+/// How far a field is off.
+struct FieldErrors {
+  double max{0.0};  ///< largest |u - u_Newton| over the surface nodes / length
+  double l2{0.0};   ///< area-weighted L2 of u - u_Newton over the surface / that of u_Newton
+};
+
+/// @param field  [Ns][3] m  @param length  m. 0 where both are at rest.
+[[nodiscard]] FieldErrors fieldErrors(std::span<const float> field, const FullSolution& truth,
+                                      const Organ& organ, double length);
+
+/// |v - v_Newton| / |v_Newton|, 0 where both are zero.
+[[nodiscard]] double relativeError(const Vec3& v, const Vec3& v_newton);
 
 /// d_Newton is what was asked for where a displacement was. All errors are 0 where model and truth are both at
 /// rest.
