@@ -53,70 +53,58 @@ Vec3 averaged(const MetaModel& model, const PositionMix& from, std::span<const d
          averagedNear(model, from, phi, gain, to, scratch.near_block);
 }
 
-/// The tools' own parts as the root of  x_A + sum_B P_A u_B(x_B) = d_A.
-class Coupling {
+/// What one tool moves the others' patches by, and its derivative.
+class Influence {
  public:
-  Coupling(const MetaModel& model, std::span<const ContactPoint> s, FieldScratch& scratch) noexcept
-      : model_(model), s_(s), scratch_(scratch), size_(static_cast<Eigen::Index>(3 * s.size())) {}
-
-  /// x + what the others add.
-  [[nodiscard]] Numbers moved(const Numbers& x) noexcept {
-    Numbers sum = x;
-    for (Eigen::Index b = 0; b < size_; b += 3) addTo(sum, b, x.segment<3>(b), 1.0);
-    return sum;
+  Influence(const MetaModel& model, const ContactPoint& s, const Vec3& d, double h) noexcept
+      : model_(model), s_(s), d_(d), h_(h) {
+    if (model.attributes().parameters == Parameters::kDisplacement) differentiate();
   }
 
-  /// Its derivative at rest. @param h  length of the differences that stand for it in a load-driven model, m
-  [[nodiscard]] Table slopeAtRest(double h) noexcept {
-    Table slope = Table::Identity(size_, size_);
-    for (Eigen::Index b = 0; b < size_; ++b) {
-      Numbers column = Numbers::Zero(size_);
-      if (model_.attributes().parameters == Parameters::kDisplacement)
-        addLinearTo(column, b);
-      else
-        addTo(column, b - b % 3, h * Vec3::Unit(b % 3), 1.0 / h);
-      slope.col(b) += column;
+  /// P_at u(s, d), m.
+  [[nodiscard]] Vec3 on(const ContactPoint& at, FieldScratch& scratch) const noexcept {
+    return patchDisplacement(model_, ownPart(model_, s_, d_), at, scratch);
+  }
+
+  /// P_at du/dd, 3 x 3; of a load-driven model by differences of length h. @param moved  on(at)
+  [[nodiscard]] Mat3 slopeOn(const ContactPoint& at, const Vec3& moved,
+                             FieldScratch& scratch) const noexcept {
+    const PositionMix from = model_.surface().mix(s_), to = model_.surface().mix(at);
+    Mat3 slope = Mat3::Zero();
+    if (from.count == 0 || to.count == 0) return slope;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      if (model_.attributes().parameters == Parameters::kDisplacement) {
+        const std::span<const double> phi(slope_[index(i)].data(), index(model_.functions().size()));
+        slope.col(i) = averaged(model_, from, phi, 1.0, to, scratch);
+      } else {
+        const FieldSource beside = ownPart(model_, s_, d_ + h_ * Vec3::Unit(i));
+        slope.col(i) = (patchDisplacement(model_, beside, at, scratch) - moved) / h_;
+      }
     }
     return slope;
   }
 
  private:
-  /// What tool b (its first unknown) moves the others by.
-  void addTo(Numbers& sum, Eigen::Index b, const Vec3& d, double factor) noexcept {
-    const FieldSource source = ownPart(model_, s_[index(b / 3)], d);
-    for (Eigen::Index a = 0; a < size_; a += 3)
-      if (a != b) sum.segment<3>(a) += factor * patchDisplacement(model_, source, s_[index(a / 3)], scratch_);
-  }
-
-  /// What unknown b moves the others by, per m: the coefficients of degree 1 alone, which come first.
-  void addLinearTo(Numbers& sum, Eigen::Index b) noexcept {
-    const PositionMix from = model_.surface().mix(s_[index(b / 3)]);
-    if (from.count == 0) return;
-    std::array<double, MonomialBasis::kMaxCoefficients> all{};
-    const std::span<double> phi(all.data(), index(model_.functions().size()));
-    phi[index(b % 3)] = 1.0 / model_.functions().reference();
-    for (Eigen::Index a = 0; a < size_; a += 3) {
-      const PositionMix to = model_.surface().mix(s_[index(a / 3)]);
-      if (a != b - b % 3 && to.count > 0) sum.segment<3>(a) += averaged(model_, from, phi, 1.0, to, scratch_);
-    }
+  void differentiate() noexcept {
+    const PositionMix from = model_.surface().mix(s_);
+    std::array<Vec3, MonomialBasis::kMaxCoefficients> all;
+    const std::span<Vec3> gradient(all.data(), index(model_.functions().size()));
+    model_.functions().gradient(clampToDomain(d_, model_.response().limit(from)), gradient);
+    for (std::size_t k = 0; k < gradient.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        slope_[i][k] = gradient[k][static_cast<Eigen::Index>(i)] / model_.functions().reference();
   }
 
   const MetaModel& model_;
-  std::span<const ContactPoint> s_;
-  FieldScratch& scratch_;
-  Eigen::Index size_;
+  const ContactPoint& s_;
+  const Vec3& d_;
+  double h_;
+  std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3> slope_;  // dphi/dd_i
 };
 
-/// Makes the slope right along dx, where it is known to give dy (Broyden).
-void learn(Table& slope, const Numbers& dx, const Numbers& dy) noexcept {
-  const double square = dx.squaredNorm();
-  if (square > 0.0) slope += (dy - slope * dx) * (dx.transpose() / square);
-}
-
-/// The step that leaves least of r, at a price for its length: tools that touch the same place cannot be moved
-/// apart.
+/// The y of slope y = r that leaves least, at a price for its length.
 Numbers damped(const Table& slope, const Numbers& r) noexcept {
-  constexpr double kDamping = 0.01;
+  constexpr double kDamping = 0.005;
   Table normal = slope.transpose() * slope;
   normal.diagonal().array() += kDamping * kDamping;
   return normal.ldlt().solve(Numbers(slope.transpose() * r));
@@ -146,36 +134,42 @@ FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
   return source;  // without an answer its parameter is zero, and so is the field
 }
 
-double ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                        int iterations, FieldScratch& scratch,
-                        std::span<Vec3> own) noexcept PALPATE_NONBLOCKING {
+void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
+                      FieldScratch& scratch, std::span<Vec3> own) noexcept PALPATE_NONBLOCKING {
   const std::size_t tools = std::min<std::size_t>(s.size(), kMaxTools);
-  if (tools < 2) std::copy(d.begin(), d.end(), own.begin());
-  Numbers x(static_cast<Eigen::Index>(3 * tools)), wanted(x.size());
+  std::copy(d.begin(), d.end(), own.begin());
   double length = 0.0;
-  for (std::size_t a = 0; a < tools; ++a) {
-    x.segment<3>(static_cast<Eigen::Index>(3 * a)) = own[a];
-    wanted.segment<3>(static_cast<Eigen::Index>(3 * a)) = d[a];
-    length = std::max({length, d[a].norm(), own[a].norm()});
+  for (const Vec3& prescribed : d) length = std::max(length, prescribed.norm());
+  if (tools < 2 || length == 0.0) return;
+  const auto size = static_cast<Eigen::Index>(3 * tools);
+  Table slope = Table::Identity(size, size);
+  Numbers moved = Numbers::Zero(size);
+  for (std::size_t b = 0; b < tools; ++b) {
+    const Influence influence(model, s[b], d[b], 0.01 * length);
+    for (std::size_t a = 0; a < tools; ++a) {
+      if (a == b) continue;
+      const auto row = static_cast<Eigen::Index>(3 * a), column = static_cast<Eigen::Index>(3 * b);
+      const Vec3 u = influence.on(s[a], scratch);
+      moved.segment<3>(row) += u;
+      slope.block<3, 3>(row, column) = influence.slopeOn(s[a], u, scratch);
+    }
   }
-  if (tools < 2 || length == 0.0) return 0.0;
-  Coupling coupling(model, s.first(tools), scratch);
-  Table slope = coupling.slopeAtRest(0.01 * length);
-  Numbers left = wanted - coupling.moved(x);
-  learn(slope, x, wanted - left);
-  for (int i = 0; i < iterations; ++i) {
-    const Numbers step = damped(slope, left);
-    x += step;
-    const Numbers now = wanted - coupling.moved(x);
-    learn(slope, step, left - now);
-    left = now;
-  }
-  double most = 0.0;
-  for (std::size_t a = 0; a < tools; ++a) {
-    own[a] = x.segment<3>(static_cast<Eigen::Index>(3 * a));
-    most = std::max(most, left.segment<3>(static_cast<Eigen::Index>(3 * a)).norm());
-  }
-  return most;
+  const Numbers y = damped(slope, -moved);
+  for (std::size_t a = 0; a < tools; ++a) own[a] += y.segment<3>(static_cast<Eigen::Index>(3 * a));
+}
+
+std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s, const Vec3& d,
+                                    const Vec3& own) noexcept PALPATE_NONBLOCKING {
+  constexpr double kStep = 0.02;  // of the domain: short against it, long against rounding
+  const Vec3 y = own - d;
+  Response there;
+  (void)respond(model, s, d, there);
+  const double share = std::min(1.0, kStep * there.domain_radius / std::max(y.norm(), 1e-30));
+  if (!(share > 0.0)) return {ownPart(model, s, d), FieldSource{s, Vec3::Zero(), 0.0}};
+  std::array<FieldSource, 2> part{ownPart(model, s, d), ownPart(model, s, d + share * y)};
+  part[0].gain *= 1.0 - 1.0 / share;
+  part[1].gain /= share;
+  return part;
 }
 
 }  // namespace palpate

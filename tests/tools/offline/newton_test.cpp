@@ -38,7 +38,9 @@ TEST_F(TwoPatches, MoveAsImposedAndNothingElsePushes) {
     tools[a].patch.addForce(-result.forces[a], out_of_balance);
   }
   for (int node = 0; node < model_.nodeCount(); ++node)
-    if (model_.isFree(node)) EXPECT_LT(out_of_balance.segment<3>(3 * node).norm(), 1e-9 * largest);
+    if (model_.isFree(node)) {
+      EXPECT_LT(out_of_balance.segment<3>(3 * node).norm(), 1e-9 * largest);
+    }
 }
 
 TEST_F(TwoPatches, AToolThatGoesWithTheOrganHasNoForce) {

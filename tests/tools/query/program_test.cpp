@@ -214,7 +214,7 @@ TEST(Program, AnswersThreeToolsToAPerson) {
       "--tool2",        std::to_string(BoxMesh::number(4, 3, 1)) + ":0,-0.0005,0"};
   const ProgramResult result = query(box, words);
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  for (const char* part : {"together:", "tool 2", "tool 3", "own part", "by the others", "left"})
+  for (const char* part : {"together:", "tool 2", "tool 3", "own part", "by the others"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   std::vector<std::string> checked = words;
   checked.emplace_back("--newton");

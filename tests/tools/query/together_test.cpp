@@ -95,14 +95,6 @@ TEST(Together, AToolThatHoldsStillFeelsTheOther) {
   EXPECT_LT((f - truth.state.forces[1]).norm(), 0.02 * f.norm());
 }
 
-TEST(Together, FourIterationsLeaveAMillionthOfTheTravel) {
-  const BoxModel box;
-  const auto touches = twoTouches(box, 1.0);
-  const JointAnswer answer = askTogether(box.model, touches);
-  EXPECT_GT(answer.left[0], 1e-4);
-  EXPECT_LT(answer.left[4], 1e-9);
-}
-
 TEST(Together, TouchesAreRefusedByNameAndNumber) {
   const BoxModel box;
   const auto two = twoTouches(box, 1.0);

@@ -109,6 +109,7 @@ bool converge(Problem& problem, NewtonResult& state, const NewtonOptions& option
       return false;  // singular tangent: the caller takes a smaller step
     }
     ++state.iterations;
+    if (!state.u.allFinite()) return false;  // patches that cannot move apart; a maximum would pass it over
     state.residual = problem.error(state);
     if (!std::isfinite(state.residual) || state.residual > 1e6) return false;
     // Rounding may keep the residual just above the tolerance; then it no longer falls.

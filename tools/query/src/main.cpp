@@ -119,12 +119,16 @@ std::vector<query::Touch> touchesOf(const MetaModel& model, const Options& optio
   return touches;
 }
 
+void warnInsideOut(const query::FullSolution* truth) {
+  if (truth != nullptr && !(truth->min_det_f > 0.0))
+    std::cerr << "palpate-query: Newton's solution turns elements inside out (min det F " << truth->min_det_f
+              << "): not a state of the organ\n";
+}
+
 void warn(const query::Findings& found) {
   if (found.answer.status == ResponseStatus::kNoAnswer)
     std::cerr << "palpate-query: the point is not accessible: the model has no answer there\n";
-  if (found.truth != nullptr && !(found.truth->min_det_f > 0.0))
-    std::cerr << "palpate-query: Newton's solution turns elements inside out (min det F "
-              << found.truth->min_det_f << "): not a state of the organ\n";
+  warnInsideOut(found.truth);
 }
 
 void writeFiles(const Options& options, const query::Findings& found) {
@@ -143,6 +147,7 @@ void reportTogether(const Options& options, const query::Findings& first,
     truth = query::solveTogether(*first.organ, touches, first.model.attributes().patch_radius, options.steps);
   const query::JointFindings found{first.model, touches,     answer,
                                    first.organ, first.truth, truth ? &*truth : nullptr};
+  warnInsideOut(found.truth);
   query::Answer shown = answer.tools.front().together;
   shown.field = answer.field;
   writeFiles(options, {first.model, first.anchor, first.question, shown, first.organ, found.truth});

@@ -95,7 +95,6 @@ Json toJson(const JointFindings& found) {
   for (std::size_t a = 0; a < found.touches.size(); ++a)
     out[key("coupling_force", a, "_N")] = couplingForce(found.answer.tools[a]).norm();
   for (std::size_t a = 0; a < found.touches.size(); ++a) out["tools"].push_back(toolJson(found, a));
-  out["left_m"] = found.answer.left;
   if (found.truth == nullptr) return out;
   addErrors(superposedErrors(found.answer, found.touches, *found.truth, *found.organ), out["superposed"]);
   out["newton"] = newtonJson(found);
@@ -105,8 +104,6 @@ Json toJson(const JointFindings& found) {
 std::string toText(const JointFindings& found) {
   std::string text = "together:\n";
   for (std::size_t a = 0; a < found.touches.size(); ++a) text += toolText(found, a);
-  text += line("%-14s %.2g nm after %zu iterations\n", "left", 1e9 * found.answer.left.back(),
-               found.answer.left.size() - 1);
   return found.truth == nullptr ? text : text + newtonText(found);
 }
 

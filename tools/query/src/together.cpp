@@ -21,26 +21,24 @@ void addTo(std::vector<float>& sum, const std::vector<float>& field) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += field[i];
 }
 
-/// The own parts after so many iterations.
-/// @return what is left, m
-double solve(const MetaModel& model, std::span<const Touch> touches, int iterations, std::vector<Vec3>& own) {
+std::vector<Vec3> ownOf(const MetaModel& model, std::span<const Touch> touches) {
   std::vector<ContactPoint> s;
-  std::vector<Vec3> d;
+  std::vector<Vec3> d, own(touches.size());
   for (const Touch& touch : touches) {
     s.push_back(touch.anchor.s);
     d.push_back(touch.d);
   }
-  own = d;
   FieldScratch scratch(model);
-  return ownDisplacements(model, s, d, iterations, scratch, own);
+  ownDisplacements(model, s, d, scratch, own);
+  return own;
 }
 
-/// A tool's own part: like ask(), but beyond the domain the field goes on as the coupling has it.
-Answer askOwn(const MetaModel& model, const Anchor& anchor, const Vec3& own) {
-  Answer answer = ask(model, anchor, own);
-  const FieldSource source = ownPart(model, anchor.s, own);
+/// The answer of a tool alone, moved on to its own part.
+Answer withOthers(const MetaModel& model, const Touch& touch, const Answer& alone, const Vec3& own) {
+  Answer answer = alone;
+  answer.response.force += alone.response.stiffness * (own - touch.d);
   FieldScratch scratch(model);
-  evaluateField(model, std::span(&source, 1), scratch, answer.field);
+  evaluateField(model, ownField(model, touch.anchor.s, touch.d, own), scratch, answer.field);
   return answer;
 }
 
@@ -80,16 +78,15 @@ void checkTouches(const MetaModel& model, std::span<const Touch> touches) {
 }
 
 JointAnswer askTogether(const MetaModel& model, std::span<const Touch> touches) {
+  const std::vector<Vec3> own = ownOf(model, touches);
   JointAnswer answer;
-  std::vector<Vec3> own;
-  for (int i = 0; i <= kJointIterations; ++i) answer.left.push_back(solve(model, touches, i, own));
   answer.field.assign(3 * static_cast<std::size_t>(model.surface().nodes()), 0.0F);
   answer.superposed = answer.field;
   for (std::size_t a = 0; a < touches.size(); ++a) {
-    const Anchor& anchor = touches[a].anchor;
-    answer.tools.push_back({own[a], askOwn(model, anchor, own[a]), ask(model, anchor, touches[a].d)});
+    const Answer alone = ask(model, touches[a].anchor, touches[a].d);
+    answer.tools.push_back({own[a], withOthers(model, touches[a], alone, own[a]), alone});
     addTo(answer.field, answer.tools.back().together.field);
-    addTo(answer.superposed, answer.tools.back().alone.field);
+    addTo(answer.superposed, alone.field);
   }
   return answer;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "palpate/core/contact_point.h"
@@ -24,18 +25,23 @@ namespace palpate {
 [[nodiscard]] FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
                                   const Vec3& d) noexcept PALPATE_NONBLOCKING;
 
-/// Tools that press together: what each adds by itself, so that all patches move as prescribed.    DESIGN 3.1
-///   d_own,A + sum_{B != A} P_A u(s_B, d_own,B) = d_A,   then f_A = f(s_A, d_own,A), u = sum_A u(s_A, d_own,A)
-/// Quasi-Newton from the slopes at rest (Broyden, damped): exact for a linear organ; the error of a nonlinear one
-/// is what palpate-query --tool2 measures. Beyond its domain a tool's field goes on in proportion to d_own. Tools
-/// nearer to each other than a patch is wide, that ask for different d, get the least-squares answer.
+/// Tools that press together: what each imposes by itself, so that all patches move as prescribed.  DESIGN 3.1
+///   d_own,A + sum_{B != A} P_A [u(s_B, d_B) + u'(s_B, d_B) (d_own,B - d_B)] = d_A
+/// Linear in d_own: the tangent at what each patch really does, so that the tools' own parts, which may be several
+/// times d and cancel each other, need no nonlinear answer far from it. With y_A = d_own,A - d_A
+///   f_A = f(s_A, d_A) + df/dd(s_A, d_A) y_A,   u = sum_A ownField()
+/// Exact for a linear organ; the error of a nonlinear one is what palpate-query --tool2 measures. The least-squares
+/// answer at a small price for its length: tools at one place that ask for different d would need any force.
 /// @param s  contact points, at most kMaxTools, all in contact  @param d  prescribed, m, finite, one for each
-/// @param iterations  >= 0; 4 from d itself, 2 from the last tick: core/README.md
-/// @param[in,out] own  in: where to start, d or what the last tick found; out: d_own, m, not clamped
-/// @return what is left: the largest |d_A - d_own,A - sum_B P_A u_B|, m; 0 for one tool
-/// Cost tools * (tools - 1) * (4 + iterations) patchDisplacement(). Real-time: yes.
-double ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                        int iterations, FieldScratch& scratch,
-                        std::span<Vec3> own) noexcept PALPATE_NONBLOCKING;
+/// @param[out] own  d_own, m; d itself for one tool
+/// Cost tools * (tools - 1) * 4 patchDisplacement(), no iteration: core/README.md. Real-time: yes.
+void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
+                      FieldScratch& scratch, std::span<Vec3> own) noexcept PALPATE_NONBLOCKING;
+
+/// One tool's part in the field of several, u(s, d) + u'(s, d) (own - d), as two sources of evaluateField() whose
+/// sum it is: a difference over a step much shorter than the domain. Real-time: yes.
+[[nodiscard]] std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s,
+                                                  const Vec3& d,
+                                                  const Vec3& own) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

@@ -11,8 +11,8 @@ namespace palpate::query {
 
 /// What the model answers to one of several tools.
 struct ToolAnswer {
-  Vec3 own = Vec3::Zero();  ///< what it adds by itself, d_own, m, not clamped
-  Answer together;          ///< to d_own; the field is its own part
+  Vec3 own = Vec3::Zero();  ///< what it imposes by itself, d_own, m
+  Answer together;          ///< with the others; the field is its own part
   Answer alone;             ///< to d, as if there were no other tool
 };
 
@@ -21,11 +21,7 @@ struct JointAnswer {
   std::vector<ToolAnswer> tools;
   std::vector<float> field;       ///< u of all tools, [Ns][3], m
   std::vector<float> superposed;  ///< u of the tools alone added up, [Ns][3], m
-  std::vector<double> left;       ///< after 0, 1, .. iterations: by how much the patches miss their d, m
 };
-
-/// Iterations that the answers are from.
-inline constexpr int kJointIterations = 12;
 
 /// The tool that --tool2 asks for. @param text  "NODE:dx,dy,dz", the node's number in the mesh file, d in m
 /// @throw QueryError naming option and text, or the node as in anchorAtNode()
