@@ -102,12 +102,18 @@ class Influence {
   std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3> slope_;  // dphi/dd_i
 };
 
-/// The y of slope y = r that leaves least, at a price for its length.
+/// The y of slope y = r that leaves least, at a price for its length. Repeated with what is left, so that only
+/// what is nearly impossible pays it: of a direction that slope shrinks to a tenth 2e-8, to a hundredth 1 %.
 Numbers damped(const Table& slope, const Numbers& r) noexcept {
   constexpr double kDamping = 0.005;
+  constexpr int kRounds = 3;
   Table normal = slope.transpose() * slope;
   normal.diagonal().array() += kDamping * kDamping;
-  return normal.ldlt().solve(Numbers(slope.transpose() * r));
+  const Eigen::LDLT<Table> factor(normal);
+  Numbers y = Numbers::Zero(r.size());
+  for (int round = 0; round < kRounds; ++round)
+    y += factor.solve(Numbers(slope.transpose() * (r - slope * y)));
+  return y;
 }
 
 }  // namespace
@@ -160,7 +166,7 @@ void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, s
 
 std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                     const Vec3& own) noexcept PALPATE_NONBLOCKING {
-  constexpr double kStep = 0.02;  // of the domain: short against it, long against rounding
+  constexpr double kStep = 0.002;  // of the domain: short against it, long against rounding
   const Vec3 y = own - d;
   Response there;
   (void)respond(model, s, d, there);
