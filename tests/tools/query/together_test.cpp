@@ -41,7 +41,7 @@ TEST(Together, ThePatchesOfTheModelAreThoseOfTheSolver) {
 
 TEST(Together, TinyTouchesAreAsNewtonSays) {
   const BoxModel box;
-  const auto touches = twoTouches(box, 1e-3);
+  const auto touches = twoTouches(box, 1e-4);
   const JointAnswer answer = askTogether(box.model, touches);
   const FullSolution truth = solveTogether(box, touches);
   const JointErrors coupled = coupledErrors(answer, touches, truth, box.organ);
