@@ -88,6 +88,34 @@ client::Spot spotOf(const Arguments& arguments, const client::Surface& surface) 
   return client::chooseSpot(surface, at);
 }
 
+Session play(const dds::Participant& participant, const Arguments& arguments, const Mechanics& mechanics,
+             const Hand& hand, const client::ServerInfo& server) {
+  if (arguments.preset != server.status.device)
+    std::cerr << "note: the server is set for device '" << server.status.device << "', this is '"
+              << arguments.preset << "'\n";
+  const client::Spot spot = spotOf(arguments, server.surface);
+  const Motion motion = makeMotion(arguments.motion, spot.position, spot.normal, arguments.path);
+  HeldDevice device(mechanics, hand, motion.path);
+  const Trace without = withoutOrgan(device, motion);
+  const Recording recording = run(participant, arguments.tool_id, device);
+  return {arguments.preset,
+          mechanics,
+          hand,
+          arguments.motion,
+          motion,
+          spot,
+          server,
+          recording,
+          without,
+          judge(recording.trace, without, motion)};
+}
+
+void tell(const Session& session, const Arguments& arguments) {
+  (arguments.json ? std::cerr : std::cout) << textOf(session) << std::flush;
+  if (arguments.json) report::printJson(jsonOf(session));
+  if (!arguments.plot.empty()) report::writeFile(arguments.plot, plotOf(session));
+}
+
 int body(int argc, char** argv) {
   // 1. What to do; refuse what cannot be before anybody waits.
   CLI::App app(
@@ -108,32 +136,12 @@ int body(int argc, char** argv) {
   const auto patience = std::chrono::milliseconds(static_cast<long>(arguments.wait_s * 1e3));
   const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
 
-  if (arguments.preset != server.status.device)
-    std::cerr << "note: the server is set for device '" << server.status.device << "', this is '"
-              << arguments.preset << "'\n";
-
   // 3. The motion there, once without the organ and once against the server.
-  const client::Spot spot = spotOf(arguments, server.surface);
   arguments.path.tip_radius = server.status.tip_radius;
-  const Motion motion = makeMotion(arguments.motion, spot.position, spot.normal, arguments.path);
-  HeldDevice device(mechanics, hand, motion.path);
-  const Trace without = withoutOrgan(device, motion);
-  const Recording recording = run(participant, arguments.tool_id, device);
+  const Session session = play(participant, arguments, mechanics, hand, server);
 
-  // 4. Judge and tell.
-  const Session session{arguments.preset,
-                        mechanics,
-                        hand,
-                        arguments.motion,
-                        motion,
-                        spot,
-                        server,
-                        recording,
-                        without,
-                        judge(recording.trace, without, motion)};
-  (arguments.json ? std::cerr : std::cout) << textOf(session) << std::flush;
-  if (arguments.json) report::printJson(jsonOf(session));
-  if (!arguments.plot.empty()) report::writeFile(arguments.plot, plotOf(session));
+  // 4. Tell.
+  tell(session, arguments);
   return 0;
 }
 
