@@ -3,91 +3,99 @@
 
 #include <cmath>
 
+#include "equilibrium.h"
+
 namespace palpate {
 
 namespace {
 
-/// Unit vector from the nearest point to the tip's centre, turned outward when the centre is inside.
-Vec3 outwardDirection(const NearestPoint& nearest, const Vec3& c, const Vec3& normal) noexcept {
-  constexpr double kTinyDistance = 1e-9;  // m; nearer than this the direction is rounding noise
-  const double distance = nearest.signed_distance;
-  return std::abs(distance) > kTinyDistance ? Vec3((c - nearest.position) / distance) : normal;
+/// Whether the organ would have to pull the tool, or gives no force to one that is withdrawn: a load that only
+/// pushes (Parameters::kLevel) cannot pull. What is no number does not pull: it is left for the tick to find.
+bool pulls(const Contact& contact) noexcept {
+  const Vec3& f = contact.coupled.response.force;
+  if (f == Vec3::Zero() && contact.imposed.dot(contact.normal) > 0.0) return true;
+  return f.dot(contact.normal) > 0.0;
 }
 
-/// Looks up the organ's answer to the contact's d. @return false when the organ would have to pull the tool, or
-/// gives no force to one that is withdrawn: a load that only pushes (Parameters::kLevel) cannot pull. What is no
-/// number does not pull: it is left for the tick to find.
-bool answer(const MetaModel& model, Contact& contact) noexcept {
-  const ResponseStatus status = respond(model, contact.s, contact.displacement, contact.response);
-  contact.flags = kInContact;
-  if (status == ResponseStatus::kClamped) contact.flags |= kBeyondDomain;
-  if (status == ResponseStatus::kNoAnswer) return false;
-  const Vec3& f = contact.response.force;
-  if (f == Vec3::Zero() && contact.displacement.dot(contact.normal) > 0.0) return false;
-  return !(f.dot(contact.normal) > 0.0);
+/// Lets go. What is left of the force, along the surface, is a jump.
+void letGo(Contact& contact) noexcept {
+  constexpr double kSmallForce = 1e-3;  // N, less than a device shows
+  const bool felt = !(contact.coupled.response.force.norm() < kSmallForce);
+  ContactSolver::release(contact);
+  contact.jumped = felt;
 }
 
 }  // namespace
 
-void ContactSolver::update(const MetaModel& model, const Vec3& c,
+void ContactSolver::update(const MetaModel& model, const ContactLaw& law, const Vec3& c,
                            Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  contact.jumped = false;
   if (contact.state == ContactState::kFree)
-    tryCapture(model, c, contact);
-  else if (hasLeft(model, c))
-    leave(contact);
+    tryCapture(model, law, c, contact);
+  else if (hasLeft(model, c, contact))
+    letGo(contact);
   else
-    stick(model, c, contact);
+    hold(model, law, c, contact);
 }
 
-bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& c) const noexcept PALPATE_NONBLOCKING {
+bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& c,
+                            const Contact& contact) const noexcept PALPATE_NONBLOCKING {
   constexpr double kHysteresis = 5e-4;  // m beyond the capture distance, so that noise does not toggle
-  return model.surface().closestPoint(c).signed_distance >= tip_radius_ + kHysteresis;
-}
-
-void ContactSolver::leave(Contact& contact) noexcept PALPATE_NONBLOCKING {
-  release(contact);
-  contact.overlapping = false;
-  contact.jumped = true;  // the tangential part did not fade on the way
+  const double reach = tip_radius_ + kHysteresis;
+  const SurfaceMesh& surface = model.contactSurface().mesh();
+  if ((c - surface.position(contact.fine)).norm() < reach) return false;
+  return surface.closestPoint(c).signed_distance >= reach;
 }
 
 void ContactSolver::release(Contact& contact) noexcept PALPATE_NONBLOCKING {
   contact.state = ContactState::kFree;
-  contact.displacement.setZero();
-  contact.response = Response{};
+  contact.imposed.setZero();
+  contact.coupled = CoupledResponse{};
+  contact.stiffness.setZero();
   contact.flags = 0;
+  contact.overlapping = false;
+  contact.at_border = false;
 }
 
-void ContactSolver::tryCapture(const MetaModel& model, const Vec3& c,
+/// Where the tip would touch. @return how high above that point, along its normal, m
+double ContactSolver::lookFor(const MetaModel& model, const Vec3& c,
+                              Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  const SurfaceMesh& surface = model.contactSurface().mesh();
+  const NearestPoint nearest = surface.closestPoint(c);
+  contact.fine = nearest.s;
+  double height = nearest.signed_distance;
+  if (height < tip_radius_) (void)surface.project(c, contact.fine, height);
+  contact.s = model.contactSurface().rest(contact.fine);
+  contact.anchor = model.surface().position(contact.s);
+  contact.normal = surface.normal(contact.fine);
+  return height;
+}
+
+void ContactSolver::tryCapture(const MetaModel& model, const ContactLaw& law, const Vec3& c,
                                Contact& contact) const noexcept PALPATE_NONBLOCKING {
-  constexpr double kDeepCapture =
-      1e-3;  // m; a tool that comes from outside has to be faster than 1 m/s for that
+  constexpr double kDeepCapture = 1e-3;  // m; from outside a tool has to be faster than 1 m/s for that
   const bool was_overlapping = contact.overlapping;
-  const NearestPoint nearest = model.surface().closestPoint(c);
   release(contact);
-  contact.s = nearest.s;
-  contact.anchor = nearest.position;
-  contact.normal = model.surface().normal(nearest.s);
-  contact.jumped = false;
-  contact.overlapping = nearest.signed_distance < tip_radius_;
+  const double height = lookFor(model, c, contact);
+  contact.overlapping = height < tip_radius_ + contact.carried.dot(contact.normal);
   if (!contact.overlapping) return;
-  if (!model.surface().accessible(nearest.s.triangle) || model.surface().mix(nearest.s).count == 0) {
+  if (!model.surface().reachable(contact.s.triangle)) {
     contact.flags = kNotAccessible;
     return;
   }
-  contact.direction = outwardDirection(nearest, c, contact.normal);
-  stick(model, c, contact);
-  contact.jumped = was_overlapping || tip_radius_ - nearest.signed_distance > kDeepCapture;
+  contact.coupled.displacement.setZero();
+  hold(model, law, c, contact);
+  if (contact.state == ContactState::kFree) return;
+  contact.overlapping = false;
+  contact.jumped = was_overlapping || contact.imposed.norm() > kDeepCapture;
 }
 
-void ContactSolver::stick(const MetaModel& model, const Vec3& c,
-                          Contact& contact) const noexcept PALPATE_NONBLOCKING {
-  contact.state = ContactState::kStick;
-  contact.displacement = c - contact.anchor - tip_radius_ * contact.direction;
-  contact.jumped = false;
-  if (answer(model, contact)) return;
-  release(contact);
-  contact.overlapping = true;  // until the next tick has looked
-  contact.jumped = true;       // a tangential part may have been left
+void ContactSolver::hold(const MetaModel& model, const ContactLaw& law, const Vec3& c,
+                         Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  Equilibrium equilibrium(model, law, tip_radius_, c, contact);
+  if (!equilibrium.slide() || pulls(contact)) return letGo(contact);
+  contact.stiffness = equilibrium.stiffness();
+  if (contact.at_border) contact.flags |= kNotAccessible;
 }
 
 }  // namespace palpate

@@ -18,6 +18,15 @@ bool cut(double limit, Vec3& f, Mat3& K) noexcept {
   return true;
 }
 
+/// `to`, or as far towards it as `most` N lead; K of what is cut is zero. @return true when cut
+bool follow(const Vec3& from, double most, Vec3& to, Mat3& K) noexcept {
+  const double way = (to - from).norm();
+  if (!(way > most)) return false;
+  to = from + (most / way) * (to - from);
+  K.setZero();
+  return true;
+}
+
 }  // namespace
 
 double ForceLimiter::freshness(double age_at_end) const noexcept PALPATE_NONBLOCKING {
@@ -30,9 +39,11 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
   LimitedForce out;
   Mat3 K = Mat3::Zero();
   if (!in.held) {
-    memory.target = in.force;
+    Vec3 target = in.force;
     K = in.stiffness;
-    if (cut(config_.force_limit, memory.target, K)) out.flags |= kForceLimited;
+    if (cut(in.force_limit, target, K)) out.flags |= kForceLimited;
+    if (follow(memory.target, in.force_rate_limit * in.dt, target, K)) out.flags |= kForceRateLimited;
+    memory.target = target;
   }
   if (in.jumped) {
     memory.from = memory.rendered;

@@ -25,6 +25,7 @@ PALPATE_MULTIVERSION void addWeightedRows(const float* A, std::size_t stride, co
   }
 }
 
+<<<<<<< HEAD
 PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows,
                                   std::size_t length, float* out) noexcept PALPATE_NONBLOCKING {
   constexpr std::size_t kLanes = 16;
@@ -38,6 +39,26 @@ PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const floa
     out[r] = 0.0F;
     for (const float part : lane) out[r] += part;
   }
+=======
+PALPATE_MULTIVERSION void addWeighted(double weight, const double* a, std::size_t length,
+                                      double* y) noexcept PALPATE_NONBLOCKING {
+  const double* __restrict__ const in = a;
+  double* __restrict__ const out = y;
+  for (std::size_t i = 0; i < length; ++i) out[i] += weight * in[i];
+}
+
+PALPATE_MULTIVERSION double dot(const double* a, const double* b,
+                                std::size_t length) noexcept PALPATE_NONBLOCKING {
+  constexpr std::size_t kLanes = 8;  // partial sums, so that the additions need not wait for each other
+  double sum[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= length; i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) sum[lane] += a[i + lane] * b[i + lane];
+  double total = 0.0;
+  for (; i < length; ++i) total += a[i] * b[i];
+  for (const double part : sum) total += part;
+  return total;
+>>>>>>> 30cceac (core: anchors that slide, a virtual coupling, one energy; feel: closed loops and slides tried on a model)
 }
 
 }  // namespace palpate

@@ -26,7 +26,9 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
       view_(view),
       functions_(view_, attributes_, attributes_.order),
       surface_(view_),
+      contact_surface_(view_, surface_),
       response_(view_, attributes_),
+      mixing_(view_, surface_),
       far_field_(view_),
       near_field_(view_),
       patch_average_(view_, attributes_) {}

@@ -51,6 +51,14 @@ void ParameterFunctions::evaluate(const Vec3& p,
   }
 }
 
+void ParameterFunctions::energyShares(const Vec3& p,
+                                      std::span<double> shares) const noexcept PALPATE_NONBLOCKING {
+  basis_.evaluate(p / reference_, shares);
+  for (int degree = 1; degree <= basis_.order(); ++degree)
+    for (int k = basis_.begin(degree); k < basis_.begin(degree + 1); ++k)
+      shares[static_cast<std::size_t>(k)] /= degree + 1.0;
+}
+
 void ParameterFunctions::gradient(const Vec3& p,
                                   std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING {
   if (level_steps_ == 0) return basis_.gradient(p / reference_, gradient);

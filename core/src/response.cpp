@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/response.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
@@ -21,15 +22,38 @@ Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKI
 
 namespace {
 
+/// The part of the symmetrized K that pushes back: its negative eigenvalues set to zero.
+Mat3 positivePart(const Mat3& K) noexcept {
+  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
+  eigen.computeDirect(0.5 * (K + K.transpose()));
+  const Mat3& V = eigen.eigenvectors();
+  return V * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * V.transpose();
+}
+
+/// The force beyond the domain, |d| > d_max.
+Vec3 continued(const ContactSeries& series, const Vec3& d) noexcept {
+  const Vec3 edge = clampToDomain(d, series.limit());
+  return series.value(edge) + positivePart(series.gradient(edge)) * (d - edge);
+}
+
 /// f(s, d) of a "displacement" model.
 ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, Response& out) noexcept {
+  constexpr double kFar = 1e3;    // m; beyond every domain, and what follows is finite
+  constexpr double kStep = 1e-4;  // of |d|
   out.domain_radius = series.limit();
   out.displacement = clampToDomain(d, out.domain_radius);
   out.parameter = out.displacement;
-  out.force = series.value(out.displacement);
-  out.stiffness = series.gradient(out.displacement);
-  if (!(d.norm() > out.domain_radius)) return ResponseStatus::kOk;
-  out.stiffness = (out.stiffness * projectionGradient(d, out.domain_radius)).eval();
+  if (!(d.stableNorm() > out.domain_radius)) {
+    out.force = series.value(d);
+    out.stiffness = series.gradient(d);
+    return ResponseStatus::kOk;
+  }
+  const Vec3 far = clampToDomain(d, kFar);
+  const double h = std::min(kStep * far.norm(), 0.5 * (far.norm() - out.domain_radius) + 1e-12);
+  out.force = continued(series, far);
+  for (Eigen::Index j = 0; j < 3; ++j)
+    out.stiffness.col(j) =
+        (continued(series, far + h * Vec3::Unit(j)) - continued(series, far - h * Vec3::Unit(j))) / (2.0 * h);
   return ResponseStatus::kClamped;
 }
 
@@ -47,21 +71,46 @@ std::string_view toString(ResponseStatus status) noexcept {
   return "unknown";
 }
 
-ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
-                       Response& out) noexcept PALPATE_NONBLOCKING {
-  out = Response{};
+namespace {
+
+/// Loads are mixed linearly: what is mixed there is not the derivative of an energy.
+ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s, const Stencil& stencil) noexcept {
   const PositionMix mix = model.surface().mix(s);
-  if (mix.count == 0) return ResponseStatus::kNoAnswer;
-  const ContactSeries series = model.response().at(mix);
-  switch (model.attributes().parameters) {
+  if (model.attributes().parameters != Parameters::kDisplacement) return model.response().at(mix);
+  return model.response().at(stencil, model.response().limit(mix));
+}
+
+}  // namespace
+
+PatchResponse::PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept
+    : model_(model), stencil_(model.mixing().at(model.surface(), s)), series_(seriesAt(model, s, stencil_)) {}
+
+Vec3 PatchResponse::energySlope(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
+  if (model_.attributes().parameters != Parameters::kDisplacement) return Vec3::Zero();
+  return model_.response().energySlope(stencil_, d, series_.limit());
+}
+
+double PatchResponse::energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
+  return model_.attributes().parameters == Parameters::kDisplacement ? series_.energy(d) : 0.0;
+}
+
+ResponseStatus PatchResponse::at(const Vec3& d, Response& out) const noexcept PALPATE_NONBLOCKING {
+  out = Response{};
+  if (stencil_.count == 0) return ResponseStatus::kNoAnswer;
+  switch (model_.attributes().parameters) {
     case Parameters::kDisplacement:
-      return answerToDisplacement(series, d, out);
+      return answerToDisplacement(series_, d, out);
     case Parameters::kForce:
-      return findForce(series, d, out);
+      return findForce(series_, d, out);
     case Parameters::kLevel:
-      return findLevel(series, model.attributes(), d, out);
+      return findLevel(series_, model_.attributes(), d, out);
   }
   return ResponseStatus::kNoAnswer;
+}
+
+ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
+                       Response& out) noexcept PALPATE_NONBLOCKING {
+  return PatchResponse(model, s).at(d, out);
 }
 
 ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, const Vec3& load,

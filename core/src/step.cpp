@@ -18,6 +18,8 @@ class Tick {
 
  private:
   [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept;
+  [[nodiscard]] bool leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept;
+  [[nodiscard]] ContactLaw law() const noexcept;
   void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
@@ -64,11 +66,34 @@ std::uint32_t Tick::judge(const ToolInput& tool) const noexcept {
   return std::abs(std::sqrt(square) - 1.0) <= work_.config_.quaternion_tolerance ? 0 : kNonUnitQuaternion;
 }
 
+/// Whether a good pose is farther from the last one than a tool may get in the time between: by the poses' own arrival,
+/// and a little more, because they arrive unevenly.
+bool Tick::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept {
+  constexpr double kUneven = 2e-3;  // s
+  if (!memory.known) return false;
+  const double between = std::max(0.0, memory.age + dt_ - 1e-9 * double(tool.age_ns));
+  const Vec3 here(tool.position[0], tool.position[1], tool.position[2]);
+  return (here - memory.position).norm() > work_.config_.speed_limit * (between + kUneven);
+}
+
+ContactLaw Tick::law() const noexcept {
+  const LiveParameters& live = work_.live_.now();
+  return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
+}
+
 /// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
 bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
   const Contact before = memory.contact;
-  work_.solver_.update(model_, Vec3(tool.position[0], tool.position[1], tool.position[2]), memory.contact);
-  if (memory.contact.response.force.allFinite() && memory.contact.response.stiffness.allFinite()) return true;
+  const Vec3 c(tool.position[0], tool.position[1], tool.position[2]);
+  if (leapt(tool, memory)) {
+    out.flags |= kPoseJump;
+    ContactSolver::release(memory.contact);
+    memory.contact.overlapping = true;  // whatever it meets, it does not come to it from outside
+    memory.leapt = true;
+  }
+  work_.solver_.update(model_, law(), c, memory.contact);
+  memory.position = c;
+  if (memory.contact.coupled.response.force.allFinite() && memory.contact.stiffness.allFinite()) return true;
   memory.contact = before;
   out.flags |= kNonFiniteForce;
   return false;
@@ -87,8 +112,9 @@ void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) n
   const bool fresh = tool.present != 0 && 1e-9 * double(tool.age_ns) <= work_.config_.stale_timeout;
   const bool usable = fresh && out.flags == 0;
   const bool good = usable && input_.shutting_down == 0 && follow(tool, memory, out);
-  const bool jumped = good && (memory.contact.jumped || memory.was_stale || !memory.known);
-  if (usable && out.flags == 0) {
+  const bool jumped = good && (memory.contact.jumped || memory.was_stale || memory.leapt || !memory.known);
+  if (good) memory.leapt = false;
+  if (usable && (out.flags & ~kPoseJump) == 0) {
     memory.age = std::max(0.0, 1e-9 * double(tool.age_ns));
     memory.known = true;
   } else {
@@ -102,8 +128,12 @@ void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) n
 /// Limits and fades the force. A contact whose force has faded to nothing is given up.
 void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept {
   LimiterInput in;
-  in.force = -memory.contact.response.force;
-  in.stiffness = -memory.contact.response.stiffness;
+  const LiveParameters& live = work_.live_.now();
+  if (!held)
+    in.force = -memory.damper.force(memory.contact, live.coupling_damping / live.coupling_stiffness, dt_);
+  in.stiffness = -memory.contact.stiffness;
+  in.force_limit = live.force_limit;
+  in.force_rate_limit = live.force_rate_limit;
   in.age = memory.age;
   in.dt = dt_;
   in.period = 1e-9 * double(input_.period_ns);
@@ -146,7 +176,7 @@ void Tick::evaluate(StepResult& result) noexcept {
   std::size_t count = 0;
   for (const ToolMemory& memory : work_.tools_)
     if (memory.contact.state != ContactState::kFree)
-      sources[count++] = {memory.contact.s, memory.contact.response.parameter, memory.rendering.gain};
+      sources[count++] = {memory.contact.s, memory.contact.coupled.response.parameter, memory.rendering.gain};
   const std::span<float> u(work_.displacement_);
   std::fill(u.begin(), u.end(), 0.0F);
   if (count == 0) return;
@@ -163,13 +193,14 @@ void Tick::report(const ToolMemory& memory, ToolResult& out) const noexcept {
   out.state = static_cast<std::uint32_t>(contact.state);
   store(contact.anchor, out.anchor);
   store(Vec3(contact.anchor + model_.surface().interpolate(work_.displacement_, contact.s)), out.proxy);
-  store(contact.response.displacement, out.displacement);
-  out.domain_radius = contact.response.domain_radius;
-  out.penetration = std::max(0.0, -contact.displacement.dot(contact.normal));
+  store(contact.coupled.response.displacement, out.displacement);
+  out.domain_radius = contact.coupled.response.domain_radius;
+  out.penetration = std::max(0.0, -contact.imposed.dot(contact.normal));
 }
 
 StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   result = StepResult{};
+  work_.live_.advance(input_.has_live != 0 ? input_.live : work_.live_.target(), dt_);
   for (std::size_t i = 0; i < kMaxTools; ++i) advance(input_.tools[i], work_.tools_[i], result.tools[i]);
   deform(result);
   std::uint32_t flags = 0;

@@ -52,7 +52,21 @@ SurfaceMesh::SurfaceMesh(const ModelView& view)
       position_accessible_(view.contact_accessible),
       triangle_at_node_(view.surface_positions.size() / 3, -1),
       tree_(view.surface_positions, view.surface_triangles) {
-  buildNormals();
+  buildFaceNormals();
+  buildNodeNormals();
+  buildEdgeNormals();
+  findReachable();
+}
+
+SurfaceMesh::SurfaceMesh(std::span<const double> positions, std::span<const std::int32_t> triangles,
+                         std::vector<Vec3> node_normals, std::vector<std::uint8_t> reachable)
+    : positions_(positions),
+      triangles_(triangles),
+      node_normals_(std::move(node_normals)),
+      reachable_(std::move(reachable)),
+      triangle_at_node_(positions.size() / 3, -1),
+      tree_(positions, triangles) {
+  buildFaceNormals();
   buildEdgeNormals();
 }
 
@@ -60,19 +74,24 @@ Vec3 SurfaceMesh::nodePosition(std::int32_t node) const noexcept {
   return Eigen::Map<const Vec3>(positions_.data() + 3 * index(node));
 }
 
-void SurfaceMesh::buildNormals() {
-  node_normals_.assign(positions_.size() / 3, Vec3::Zero());
+void SurfaceMesh::buildFaceNormals() {
   for (std::int32_t t = 0; t < triangles(); ++t) {
-    const std::int32_t* const node = triangles_.data() + 3 * index(t);
-    std::array<Vec3, 3> corner{nodePosition(node[0]), nodePosition(node[1]), nodePosition(node[2])};
+    const std::array<Vec3, 3> corner = corners(t);
     const Vec3 area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
     if (!(area.norm() > 0.0) || !std::isfinite(area.norm())) refuse(t, "has no area");
     face_normals_.push_back(area.normalized());
+    for (std::size_t k = 0; k < 3; ++k) triangle_at_node_[index(triangles_[3 * index(t) + k])] = t;
+  }
+}
+
+void SurfaceMesh::buildNodeNormals() {
+  node_normals_.assign(positions_.size() / 3, Vec3::Zero());
+  for (std::int32_t t = 0; t < triangles(); ++t) {
+    const std::array<Vec3, 3> corner = corners(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 one = corner[(k + 1) % 3] - corner[k], other = corner[(k + 2) % 3] - corner[k];
       const double angle = std::atan2(one.cross(other).norm(), one.dot(other));
-      node_normals_[index(node[k])] += angle * face_normals_.back();
-      triangle_at_node_[index(node[k])] = t;
+      node_normals_[index(triangles_[3 * index(t) + k])] += angle * face_normals_[index(t)];
     }
   }
   for (std::size_t i = 0; i < node_normals_.size(); ++i) {
@@ -84,6 +103,15 @@ void SurfaceMesh::buildNormals() {
   }
 }
 
+bool SurfaceMesh::complete(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING {
+  const std::int32_t* const node = triangles_.data() + 3 * index(triangle);
+  return std::all_of(node, node + 3, [this](std::int32_t i) { return position_of_node_[index(i)] >= 0; });
+}
+
+void SurfaceMesh::findReachable() {
+  for (std::int32_t t = 0; t < triangles(); ++t) reachable_.push_back(complete(t) && accessible(t) ? 1 : 0);
+}
+
 /// Also the proof that the surface is closed: each directed edge once, and its reverse once.
 void SurfaceMesh::buildEdgeNormals() {
   const std::vector<Edge> edges = sortedEdges(triangles_);
@@ -92,6 +120,7 @@ void SurfaceMesh::buildEdgeNormals() {
       refuse(edges[i].triangle,
              "repeats the edge from node " + name(edges[i]) + ", expected a consistently oriented surface");
   edge_normals_.resize(face_normals_.size());
+  neighbours_.resize(face_normals_.size());
   for (const Edge& edge : edges) {
     const auto twin = std::lower_bound(edges.begin(), edges.end(), Edge{edge.to, edge.from, 0, 0});
     if (twin == edges.end() || twin->from != edge.to || twin->to != edge.from)
@@ -99,6 +128,7 @@ void SurfaceMesh::buildEdgeNormals() {
              "has no neighbour across the edge from node " + name(edge) + ", expected a closed surface");
     const Vec3 sum = face_normals_[index(edge.triangle)] + face_normals_[index(twin->triangle)];
     edge_normals_[index(edge.triangle)][static_cast<std::size_t>(edge.opposite)] = sum;
+    neighbours_[index(edge.triangle)][static_cast<std::size_t>(edge.opposite)] = twin->triangle;
   }
 }
 

@@ -14,6 +14,7 @@ const StepConfig& checked(const StepConfig& config) {
 
 Workspace::Workspace(const MetaModel& model, const StepConfig& config)
     : config_(checked(config)),
+      live_(liveParameters(config), model.attributes().E),
       solver_(config.tip_radius),
       limiter_(config),
       scratch_(model),

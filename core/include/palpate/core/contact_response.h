@@ -8,6 +8,7 @@
 #include "palpate/core/model_view.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/parameter_functions.h"
+#include "palpate/core/smooth_mixing.h"
 #include "palpate/core/types.h"
 
 namespace palpate {
@@ -21,6 +22,9 @@ class ContactSeries {
   [[nodiscard]] Vec3 value(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
   /// dc/dp, 3 x 3; of a level the first column only. Cost O(C). Real-time: yes.
   [[nodiscard]] Mat3 gradient(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
+  /// W(d) = int_0^1 f(tau d) . d dtau of a "displacement" model, J: the energy that the patch has stored, whose
+  /// gradient f is (DESIGN 2.2). Cost O(C). Real-time: yes.
+  [[nodiscard]] double energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING;
   /// |p| up to which the answer is trusted: d_max in m, f_max in N, or t_max.
   [[nodiscard]] double limit() const noexcept { return limit_; }
   /// L of a "level" model, else 0.
@@ -42,8 +46,15 @@ class ContactResponse {
  public:
   ContactResponse(const ModelView& view, const ModelAttributes& attributes);
 
-  /// The series at s. Borrows this object. Cost O(C). Real-time: yes.
+  /// The series at s, mixed linearly. Borrows this object. Cost O(C). Real-time: yes.
   [[nodiscard]] ContactSeries at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
+  /// The series at s, mixed as the stencil says. @param limit  of |p|. Real-time: yes.
+  [[nodiscard]] ContactSeries at(const Stencil& stencil, double limit) const noexcept PALPATE_NONBLOCKING;
+  /// dW/dlambda at fixed d of a "displacement" model, J: sum_b d omega_b/dlambda W_b(d); only its part along changes
+  /// that keep the sum of the weights means something. Beyond `limit` W goes on with degree 2. Cost 3 C for each
+  /// position of the stencil. Real-time: yes.
+  [[nodiscard]] Vec3 energySlope(const Stencil& stencil, const Vec3& d,
+                                 double limit) const noexcept PALPATE_NONBLOCKING;
   /// ContactSeries::limit() alone: the lambda-weighted mean of d_max; of f_max and t_max the harmonic one,
   /// 1 / sum_b lambda_b / limit_b, which a small one governs. Real-time: yes.
   [[nodiscard]] double limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "palpate/core/status_flags.h"
 #include "palpate/core/step_config.h"
@@ -26,20 +27,23 @@ struct LimiterInput {
   double age{0.0};                ///< s since the last good pose
   double dt{0.0};                 ///< s since the last tick
   double period{0.0};             ///< s until the next force replaces this one
-  bool held{false};               ///< no good pose in this tick: the last good force stands in
-  bool jumped{false};             ///< the model's force is not continuous in this tick: blend over
-  bool shutting_down{false};      ///< fade to zero, for good
+  double force_limit{3.3};        ///< F, N
+  double force_rate_limit{std::numeric_limits<double>::infinity()};  ///< N/s
+  bool held{false};           ///< no good pose in this tick: the last good force stands in
+  bool jumped{false};         ///< the model's force is not continuous in this tick: blend over
+  bool shutting_down{false};  ///< fade to zero, for good
 };
 
 struct LimitedForce {
   Vec3 force = Vec3::Zero();  ///< on the tool, W, N, never longer than the limit
   Mat3 stiffness =
       Mat3::Zero();        ///< d force / d pose as rendered, chain rule through all below; zero while held
-  std::uint32_t flags{0};  ///< kForceLimited, kStalePose, kRamping, kShuttingDown
+  std::uint32_t flags{0};  ///< kForceLimited, kForceRateLimited, kStalePose, kRamping, kShuttingDown
 };
 
 /// Keeps what a device gets safe and continuous (DESIGN 3.2).
-///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
+///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|), moved towards at the rate
+///   limit at most
 ///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
 ///   that the force will have when the next one replaces it, so that none but zero stands after zero_after,
 ///   whatever the rate of the loop. A jump keeps the force of the tick before as `from`

@@ -5,12 +5,14 @@
 #include <filesystem>
 
 #include "palpate/core/contact_response.h"
+#include "palpate/core/contact_surface.h"
 #include "palpate/core/fields.h"
 #include "palpate/core/load_error.h"
 #include "palpate/core/model_view.h"
 #include "palpate/core/parameter_functions.h"
 #include "palpate/core/patch_average.h"
 #include "palpate/core/sealed_image.h"
+#include "palpate/core/smooth_mixing.h"
 #include "palpate/core/surface_mesh.h"
 
 namespace palpate {
@@ -28,7 +30,11 @@ class MetaModel {
   /// The functions of the parameter that the fields are sums of.
   [[nodiscard]] const ParameterFunctions& functions() const noexcept { return functions_; }
   [[nodiscard]] const SurfaceMesh& surface() const noexcept { return surface_; }
+  /// What tools slide on.
+  [[nodiscard]] const ContactSurface& contactSurface() const noexcept { return contact_surface_; }
   [[nodiscard]] const ContactResponse& response() const noexcept { return response_; }
+  /// How the contact's answers are mixed between contact positions.
+  [[nodiscard]] const SmoothMixing& mixing() const noexcept { return mixing_; }
   [[nodiscard]] const SeparatedField& farField() const noexcept { return far_field_; }
   [[nodiscard]] const NearField& nearField() const noexcept { return near_field_; }
   /// What a contact patch feels of a field, for tools that press together.
@@ -46,7 +52,9 @@ class MetaModel {
   ModelView view_;
   ParameterFunctions functions_;
   SurfaceMesh surface_;
+  ContactSurface contact_surface_;
   ContactResponse response_;
+  SmoothMixing mixing_;
   SeparatedField far_field_;
   NearField near_field_;
   PatchAverage patch_average_;

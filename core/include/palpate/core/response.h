@@ -19,14 +19,35 @@ enum class ResponseStatus { kOk, kClamped, kNoAnswer };
 /// What the organ answers to a patch displacement, before release, friction and limits.
 struct Response {
   Vec3 force = Vec3::Zero();         ///< f, of the tool on the organ, W, N
-  Mat3 stiffness = Mat3::Zero();     ///< df/dd, N/m; beyond the domain that of the clamped map
-  Vec3 displacement = Vec3::Zero();  ///< the d that was used, m
+  Mat3 stiffness = Mat3::Zero();     ///< df/dd, N/m; beyond the domain that of the continued force
+  Vec3 displacement = Vec3::Zero();  ///< the d that the fields show: clamped to the domain, m
   double domain_radius{0.0};         ///< d_max(s), m; of a load-driven model that along the load's direction
   Vec3 parameter = Vec3::Zero();     ///< what evaluateField() takes: the clamped d, m; f, N; or (t, 0, 0)
 };
 
+/// The organ's answers at one s, its coefficients mixed once: for loops over d.
+class PatchResponse {
+ public:
+  /// Borrows the model. Cost O(C). Real-time: yes.
+  PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept;
+  /// respond() at this s. Real-time: yes.
+  [[nodiscard]] ResponseStatus at(const Vec3& d, Response& out) const noexcept PALPATE_NONBLOCKING;
+  /// dW/dlambda at fixed d, lambda the barycentric weights of s, J: what pushes the anchor, beside the force, where the
+  /// organ is not equally stiff everywhere. Zero of a load-driven model, whose energy is not at hand. Real-time: yes.
+  [[nodiscard]] Vec3 energySlope(const Vec3& d) const noexcept PALPATE_NONBLOCKING;
+  /// W(s, d), J; zero of a load-driven model. Real-time: yes.
+  [[nodiscard]] double energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  const MetaModel& model_;
+  Stencil stencil_;
+  ContactSeries series_;
+};
+
 /// Reaction of the organ to a tool that displaced its contact patch at s by d            DESIGN 2.2, 3.1
-/// |d| beyond the domain is scaled to it; stiffness then is df/dd through that projection.
+/// |d| beyond the domain is scaled to it, d_c = d_max d / |d|, and the force goes on along the symmetrized,
+/// positive part of the stiffness there: f = f(s, d_c) + (df/dd)+ (d - d_c). It is continuous, and never less stiff
+/// than nothing; stiffness is its derivative (central differences of it beyond the domain).
 /// A "force" model is searched for the f with d(s, f) = d (bounded Newton), a "level" model for the t with
 /// e . d(s, t) = e . d, e the load's direction. Where no f gives d, kClamped: beyond f_max the f_max in its
 /// direction; where the model turns back before that, the f at which |d(s, f) - d| is smallest, as found downhill

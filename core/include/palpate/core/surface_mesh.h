@@ -20,6 +20,19 @@ struct NearestPoint {
   double signed_distance{0.0};   ///< m, negative inside the organ
 };
 
+/// The surface at s as a contact feels it. xi are lengths along the tangents, m.
+struct SurfaceFrame {
+  Vec3 position = Vec3::Zero();  ///< X(s), m
+  Vec3 normal = Vec3::Zero();    ///< n(s), interpolated
+  Mat32 tangent;                 ///< orthonormal, normal to n(s)
+  Mat32 along;                   ///< dX/dxi: in the triangle's plane, seen along n(s) equal to `tangent`
+  Mat32 turning;                 ///< dn/dxi, 1/m, normal to n(s)
+  Mat32 rates;                   ///< d lambda/dxi of the barycentric weights, 1/m
+};
+
+/// Whether a way over the surface may leave the accessible part.
+enum class Reach { kAccessible, kEverywhere };
+
 /// The rest surface: positions, normals, nearest points, and where the organ can be touched (DESIGN 3.1).
 /// Borrows the arrays of the view; built before the loop, then const.
 class SurfaceMesh {
@@ -29,6 +42,10 @@ class SurfaceMesh {
   /// is not
   ///        closed and consistently oriented (then inside and outside would mean nothing)
   explicit SurfaceMesh(const ModelView& view);
+  /// A surface without contact positions. @param node_normals  [Ns] unit, @param reachable  [T] 1: an anchor may be
+  /// there; the spans are borrowed. @throw std::invalid_argument as above
+  SurfaceMesh(std::span<const double> positions, std::span<const std::int32_t> triangles,
+              std::vector<Vec3> node_normals, std::vector<std::uint8_t> reachable);
 
   [[nodiscard]] int nodes() const noexcept { return static_cast<int>(positions_.size() / 3); }
   [[nodiscard]] int triangles() const noexcept { return static_cast<int>(triangles_.size() / 3); }
@@ -52,26 +69,51 @@ class SurfaceMesh {
 
   /// True when at least one of the triangle's nodes belongs to the accessible group. Real-time: yes.
   [[nodiscard]] bool accessible(int triangle) const noexcept PALPATE_NONBLOCKING;
+  /// accessible(), and each of the triangle's nodes has a contact position: an anchor may be there. Real-time: yes.
+  [[nodiscard]] bool reachable(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// The contact positions that answer for s, and their weights. Real-time: yes.
   [[nodiscard]] PositionMix mix(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
 
+  /// Position, normal and how they change at s. Real-time: yes.
+  [[nodiscard]] SurfaceFrame frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
+  /// Goes from s over the surface, straight within triangles and turned over at their edges.
+  /// @param v  m, normal to n(s): what the way looks like from there. At most kMaxCrossings edges are crossed.
+  /// @return false when the way ended earlier, at the border of what may be reached; s is there. Real-time: yes.
+  [[nodiscard]] bool move(ContactPoint& s, const Vec3& v, Reach reach) const noexcept PALPATE_NONBLOCKING;
+  static constexpr int kMaxCrossings = 32;
+  /// The s near `nearest` that c lies straight above, c = X(s) + h n(s) with the interpolated normal n.
+  /// @param[out] h  height, m, negative inside
+  /// @return false, s and h as they were, where Newton's method does not end close by: beside a sharp concave
+  /// edge or deep inside. Real-time: yes.
+  [[nodiscard]] bool project(const Vec3& c, ContactPoint& s, double& h) const noexcept PALPATE_NONBLOCKING;
+
+  /// Rest positions of a triangle's nodes, m. Real-time: yes.
+  [[nodiscard]] std::array<Vec3, 3> corners(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
+  /// Each of the triangle's nodes has a contact position. Real-time: yes.
+  [[nodiscard]] bool complete(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// A field given at the nodes, at s. @param field  [Ns][3]. Real-time: yes.
   [[nodiscard]] Vec3 interpolate(std::span<const float> field,
                                  const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
 
  private:
   [[nodiscard]] Vec3 nodePosition(std::int32_t node) const noexcept;
-  void buildNormals();
+  [[nodiscard]] Vec3 rates(std::int32_t triangle, const Vec3& w) const noexcept;
+  void crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to, Vec3& w) const noexcept;
+  void buildFaceNormals();
+  void buildNodeNormals();
+  void findReachable();
   void buildEdgeNormals();
 
   std::span<const double> positions_;
   std::span<const std::int32_t> triangles_;
   std::span<const std::int32_t> position_of_node_;
   std::span<const std::uint8_t> position_accessible_;
-  std::vector<Vec3> face_normals_;                 ///< [T] unit
-  std::vector<std::array<Vec3, 3>> edge_normals_;  ///< [T][3] edge k lies opposite to node k
-  std::vector<Vec3> node_normals_;                 ///< [Ns] unit, angle-weighted
-  std::vector<std::int32_t> triangle_at_node_;     ///< [Ns] any triangle that has the node
+  std::vector<Vec3> face_normals_;                       ///< [T] unit
+  std::vector<std::array<Vec3, 3>> edge_normals_;        ///< [T][3] edge k lies opposite to node k
+  std::vector<std::array<std::int32_t, 3>> neighbours_;  ///< [T][3] across the same edges
+  std::vector<Vec3> node_normals_;                       ///< [Ns] unit, angle-weighted
+  std::vector<std::uint8_t> reachable_;                  ///< [T]
+  std::vector<std::int32_t> triangle_at_node_;           ///< [Ns] any triangle that has the node
   BoundingVolumes tree_;
 };
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "palpate/core/contact_solver.h"
+#include "palpate/core/coupling_damper.h"
 #include "palpate/core/force_limiter.h"
+#include "palpate/core/live_blend.h"
 #include "palpate/core/meta_model.h"
 #include "palpate/core/response.h"
 #include "palpate/core/step_config.h"
@@ -19,9 +21,12 @@ inline constexpr int kMaxTools = 4;
 struct ToolMemory {
   Contact contact;
   Rendering rendering;
-  bool known{false};      ///< a good pose was seen
-  bool was_stale{false};  ///< the force was fading in the last tick: blend over when a pose comes back
-  double age{0.0};        ///< s since the last good pose
+  bool known{false};             ///< a good pose was seen
+  bool was_stale{false};         ///< the force was fading in the last tick: blend over when a pose comes back
+  bool leapt{false};             ///< the pose jumped, and no force was given since
+  double age{0.0};               ///< s since the last good pose
+  Vec3 position = Vec3::Zero();  ///< of the last good pose, m
+  CouplingDamper damper;
 };
 
 /// All that lives from tick to tick, and all scratch: the loop's only allocation, made before it. One
@@ -34,11 +39,14 @@ class Workspace {
   /// Displacement of the surface nodes after the last step, [Ns][3], m.
   [[nodiscard]] std::span<const float> displacement() const noexcept { return displacement_; }
   [[nodiscard]] const StepConfig& config() const noexcept { return config_; }
+  /// The live parameters in force after the last step.
+  [[nodiscard]] const LiveParameters& live() const noexcept { return live_.now(); }
 
  private:
   friend class Tick;  // step()'s own
 
   StepConfig config_;
+  LiveBlend live_;
   ContactSolver solver_;
   ForceLimiter limiter_;
   std::array<ToolMemory, kMaxTools> tools_{};

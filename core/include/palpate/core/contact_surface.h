@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "palpate/core/contact_point.h"
+#include "palpate/core/model_view.h"
+#include "palpate/core/surface_mesh.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// The surface that tools slide on: the rest surface, rounded.                                    DESIGN 3.1
+/// A tip on flat triangles is pushed along the interpolated normal while it moves along the triangle: the two are not
+/// normal to each other, and energy comes from nowhere. So each triangle is divided into 4, a few times over; the new
+/// node on an edge a-b is the middle of the cubic that has the edge's ends and, there, its direction laid into the
+/// planes normal to n_a and n_b:  (a + b) / 2 + (P_a - P_b) (b - a) / 8  (on a curve the 4-point scheme of
+/// N. Dyn, D. Levin, J. Gregory, Comput. Aided Geom. Des. 4 (1987) 257-268). The mesh's own nodes stay.
+/// Points of the two surfaces correspond: triangle t is divided into 4^levels, from 4^levels t on.
+/// Built before the loop, then const.
+class ContactSurface {
+ public:
+  /// As many levels, at most 4, as give no more than 300,000 triangles.
+  ContactSurface(const ModelView& view, const SurfaceMesh& rest);
+
+  /// The rounded surface; its contact points are "fine" ones.
+  [[nodiscard]] const SurfaceMesh& mesh() const noexcept { return *mesh_; }
+  [[nodiscard]] int levels() const noexcept { return levels_; }
+  /// The point of the rest surface that a fine one stands for. Real-time: yes.
+  [[nodiscard]] ContactPoint rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
+  /// How much faster the barycentric weights of rest() change than those of a fine point: 2^-levels, or its
+  /// negative in a triangle that lies the other way round. Real-time: yes.
+  [[nodiscard]] double restRate(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
+  /// The fine point that stands for one of the rest surface. Real-time: yes.
+  [[nodiscard]] ContactPoint fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  std::vector<double> positions_;        // [N][3], m
+  std::vector<std::int32_t> triangles_;  // [T 4^levels][3]
+  int levels_{0};
+  std::unique_ptr<SurfaceMesh> mesh_;  // borrows the first two
+};
+
+}  // namespace palpate

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palpate/core/response.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// What a tool does to the patch that it holds, and how the two are joined. As one tick has them.
+struct ContactLaw {
+  double friction{0.0};         ///< mu; infinity: the anchor never slides
+  double compliance{0.0};       ///< 1 / K_vc of the virtual coupling, m/N; 0: the tool holds the patch itself
+  double stiffness_scale{1.0};  ///< E over the model's own: forces are so many times the model's
+};
+
+/// A patch and a tool in balance.
+struct CoupledResponse {
+  Vec3 displacement = Vec3::Zero();  ///< d that the tool imposes through the coupling, m
+  Response response;                 ///< the organ's answer, with E: force f in N, stiffness df/dd
+  Mat3 stiffness = Mat3::Zero();     ///< df/dg, N/m: organ and coupling in series
+};
+
+/// The virtual coupling: tool - spring - patch, the organ as it answers                            DESIGN 3.1
+///   f(s, d) = K_vc (g - d),   g where the tool would have the patch if the spring were rigid
+/// Newton on d, from `out.displacement`, halved where it does not help; at most 8 steps of up to 5 evaluations, 1 or 2
+/// when g moves little. Numbers that overflow come out as respond() gives them.
+/// @param[in] g  W, m, finite, @param[in,out] out  displacement: where to begin. Real-time: yes.
+ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const ContactLaw& law,
+                      CoupledResponse& out) noexcept PALPATE_NONBLOCKING;
+
+}  // namespace palpate

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palpate/core/contact_solver.h"
+#include "palpate/core/types.h"
+
+namespace palpate {
+
+/// The damper beside the coupling's spring:  f + b de/dt,  e = f / K_vc the spring's stretch.       DESIGN 3.1
+/// So it is f + (b / K_vc) df/dt, which needs no velocity of the tool; df/dt is smoothed over 2 ms. It never makes the
+/// force pull, nor longer than twice what it was: it comes and goes with the force, without a step at the contact.
+/// Differs from a damper inside the balance of forces: the organ does not feel it, and the stiffness that is
+/// rendered stays the spring's and the organ's.
+class CouplingDamper {
+ public:
+  /// Force of the tool on the organ, spring and damper, N. @param time_constant  b / K_vc, s, @param dt  s since the
+  /// last call. Real-time: yes.
+  [[nodiscard]] Vec3 force(const Contact& contact, double time_constant,
+                           double dt) noexcept PALPATE_NONBLOCKING;
+
+ private:
+  Vec3 spring_ = Vec3::Zero();  // f of the last tick, N
+  Vec3 rate_ = Vec3::Zero();    // df/dt, smoothed, N/s
+  bool holding_{false};         // there was a contact in the last tick
+};
+
+}  // namespace palpate

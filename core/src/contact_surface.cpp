@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/contact_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace palpate {
+
+namespace {
+
+std::size_t index(std::int64_t i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+/// A surface that is being divided.
+struct Draft {
+  std::vector<Vec3> position;  // m
+  std::vector<Vec3> normal;
+  std::vector<std::array<std::int32_t, 3>> triangle;
+};
+
+/// Middle of the cubic over an edge.
+Vec3 middle(const Draft& draft, std::int32_t a, std::int32_t b) {
+  const Vec3 along = draft.position[index(b)] - draft.position[index(a)];
+  const Vec3 &m = draft.normal[index(a)], &n = draft.normal[index(b)];
+  const Vec3 bend = n * n.dot(along) - m * m.dot(along);  // (P_a - P_b) along
+  return 0.5 * (draft.position[index(a)] + draft.position[index(b)]) + 0.125 * bend;
+}
+
+/// Normals of the nodes: of the triangles round them, weighted by their angles there.
+void findNormals(Draft& draft) {
+  draft.normal.assign(draft.position.size(), Vec3::Zero());
+  for (const auto& node : draft.triangle) {
+    const std::array<Vec3, 3> X{draft.position[index(node[0])], draft.position[index(node[1])],
+                                draft.position[index(node[2])]};
+    const Vec3 face = (X[1] - X[0]).cross(X[2] - X[0]).normalized();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 one = X[(k + 1) % 3] - X[k], other = X[(k + 2) % 3] - X[k];
+      draft.normal[index(node[k])] += std::atan2(one.cross(other).norm(), one.dot(other)) * face;
+    }
+  }
+  for (Vec3& n : draft.normal) n.normalize();
+}
+
+/// One level: the corners' triangles first, the middle one last (child() knows).
+Draft divided(const Draft& coarse) {
+  Draft fine{coarse.position, {}, {}};
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+  const auto middleOf = [&](std::int32_t a, std::int32_t b) {
+    const auto [place, is_new] =
+        middles.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(fine.position.size()));
+    if (is_new) fine.position.push_back(middle(coarse, std::min(a, b), std::max(a, b)));
+    return place->second;
+  };
+  fine.triangle.reserve(4 * coarse.triangle.size());
+  for (const auto& [a, b, c] : coarse.triangle) {
+    const std::int32_t across_a = middleOf(b, c), across_b = middleOf(c, a), across_c = middleOf(a, b);
+    fine.triangle.push_back({a, across_c, across_b});
+    fine.triangle.push_back({across_c, b, across_a});
+    fine.triangle.push_back({across_b, across_a, c});
+    fine.triangle.push_back({across_a, across_b, across_c});
+  }
+  findNormals(fine);
+  return fine;
+}
+
+Draft draftOf(const ModelView& view, const SurfaceMesh& rest) {
+  Draft draft;
+  for (int i = 0; i < rest.nodes(); ++i) {
+    draft.position.push_back(Eigen::Map<const Vec3>(view.surface_positions.data() + 3 * index(i)));
+    draft.normal.push_back(rest.nodeNormal(i));
+  }
+  for (std::size_t t = 0; t < index(rest.triangles()); ++t)
+    draft.triangle.push_back({view.surface_triangles[3 * t], view.surface_triangles[3 * t + 1],
+                              view.surface_triangles[3 * t + 2]});
+  return draft;
+}
+
+}  // namespace
+
+ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
+  constexpr int kMostLevels = 4;
+  constexpr std::size_t kMostTriangles = 300'000;
+  Draft draft = draftOf(view, rest);
+  while (levels_ < kMostLevels && 4 * draft.triangle.size() <= kMostTriangles) {
+    draft = divided(draft);
+    ++levels_;
+  }
+  for (const Vec3& X : draft.position) positions_.insert(positions_.end(), {X.x(), X.y(), X.z()});
+  for (const auto& node : draft.triangle) triangles_.insert(triangles_.end(), node.begin(), node.end());
+  std::vector<std::uint8_t> reachable(draft.triangle.size());
+  for (std::size_t t = 0; t < reachable.size(); ++t)
+    reachable[t] = rest.reachable(static_cast<std::int32_t>(t >> (2 * levels_))) ? 1 : 0;
+  mesh_ =
+      std::make_unique<SurfaceMesh>(positions_, triangles_, std::move(draft.normal), std::move(reachable));
+}
+
+ContactPoint ContactSurface::rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
+  ContactPoint s = fine;
+  for (int level = 0; level < levels_ && s.triangle >= 0; ++level) {
+    const auto child = static_cast<std::size_t>(s.triangle % 4);
+    const std::array<double, 3> w = s.barycentric;
+    s.triangle /= 4;
+    for (std::size_t k = 0; k < 3; ++k)
+      s.barycentric[k] = child == 3 ? 0.5 * (1.0 - w[k]) : 0.5 * w[k] + (k == child ? 0.5 : 0.0);
+  }
+  return s;
+}
+
+double ContactSurface::restRate(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
+  double rate = 1.0;
+  std::int32_t triangle = fine.triangle;
+  for (int level = 0; level < levels_; ++level, triangle /= 4) rate *= triangle % 4 == 3 ? -0.5 : 0.5;
+  return rate;
+}
+
+ContactPoint ContactSurface::fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING {
+  ContactPoint s = rest;
+  for (int level = 0; level < levels_ && s.triangle >= 0; ++level) {
+    const std::array<double, 3> w = s.barycentric;
+    std::size_t child = 3;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (w[k] >= 0.5) child = k;
+    s.triangle = 4 * s.triangle + static_cast<std::int32_t>(child);
+    for (std::size_t k = 0; k < 3; ++k)
+      s.barycentric[k] = child == 3 ? 1.0 - 2.0 * w[k] : 2.0 * w[k] - (k == child ? 1.0 : 0.0);
+  }
+  return s;
+}
+
+}  // namespace palpate

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/core/coupling.h"
+
+#include <Eigen/LU>
+
+namespace palpate {
+
+namespace {
+
+/// r(d) = d + f(s, d) / K_vc - g, and the answer that it belongs to.
+class Balance {
+ public:
+  Balance(const PatchResponse& patch, const Vec3& g, double compliance) noexcept
+      : patch_(patch), g_(g), compliance_(compliance) {}
+
+  /// Evaluates at d. @return whether the organ has an answer
+  bool moveTo(const Vec3& d) noexcept {
+    displacement = d;
+    status = patch_.at(d, response);
+    residual = d + compliance_ * response.force - g_;
+    return status != ResponseStatus::kNoAnswer;
+  }
+  [[nodiscard]] Mat3 slope() const noexcept { return Mat3::Identity() + compliance_ * response.stiffness; }
+
+  Vec3 displacement = Vec3::Zero();
+  Vec3 residual = Vec3::Zero();  // m
+  Response response;
+  ResponseStatus status{ResponseStatus::kOk};
+
+ private:
+  const PatchResponse& patch_;
+  Vec3 g_;
+  double compliance_;
+};
+
+/// One Newton step, halved until the residual falls. @return false when it does not
+bool improve(Balance& balance) noexcept {
+  constexpr int kMaxHalvings = 4;
+  const Balance before = balance;
+  Vec3 step = before.slope().inverse() * before.residual;
+  for (int halving = 0; halving <= kMaxHalvings; ++halving, step *= 0.5) {
+    balance.moveTo(before.displacement - step);
+    if (balance.residual.norm() < before.residual.norm()) return true;
+  }
+  balance.moveTo(before.displacement);
+  return false;
+}
+
+}  // namespace
+
+ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const ContactLaw& law,
+                      CoupledResponse& out) noexcept PALPATE_NONBLOCKING {
+  constexpr int kMaxSteps = 8;
+  constexpr double kTolerance = 1e-9;  // of |g|
+  const double compliance = law.compliance * law.stiffness_scale;
+  Balance balance(patch, g, compliance);
+  balance.moveTo(compliance > 0.0 ? out.displacement : g);
+  if (compliance > 0.0)
+    for (int i = 0; i < kMaxSteps && balance.residual.norm() > kTolerance * g.norm(); ++i)
+      if (!improve(balance)) break;
+  out.displacement = balance.displacement;
+  out.response = balance.response;
+  out.response.force *= law.stiffness_scale;
+  out.response.stiffness *= law.stiffness_scale;
+  out.stiffness = out.response.stiffness;
+  if (compliance > 0.0) out.stiffness = (out.response.stiffness * balance.slope().inverse()).eval();
+  return balance.status;
+}
+
+}  // namespace palpate

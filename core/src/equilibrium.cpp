@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "equilibrium.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace palpate {
+
+namespace {
+
+bool isNegativeDefinite(const Mat2& A) noexcept {
+  const Mat2 S = 0.5 * (A + A.transpose());
+  return S(0, 0) < 0.0 && S.determinant() > 0.0;
+}
+
+}  // namespace
+
+Equilibrium::Equilibrium(const MetaModel& model, const ContactLaw& law, double tip_radius, const Vec3& c,
+                         Contact& contact) noexcept
+    : model_(model),
+      law_(law),
+      tip_radius_(tip_radius),
+      c_(c),
+      contact_(contact),
+      frame_(model.contactSurface().mesh().frame(contact.fine)) {}
+
+bool Equilibrium::balance() noexcept {
+  const Vec3 g = c_ - frame_.position - tip_radius_ * frame_.normal - contact_.carried;
+  CoupledResponse& coupled = contact_.coupled;
+  const PatchResponse patch(model_, contact_.s);
+  const ResponseStatus status = couple(patch, g, law_, coupled);
+  if (slides()) {
+    const double rate = model_.contactSurface().restRate(contact_.fine);
+    energy_slope_ =
+        (law_.stiffness_scale * rate) * (frame_.rates.transpose() * patch.energySlope(coupled.displacement));
+  }
+  contact_.anchor = model_.surface().position(contact_.s);
+  contact_.normal = frame_.normal;
+  contact_.imposed = g;
+  contact_.flags = kInContact | (status == ResponseStatus::kClamped ? kBeyondDomain : 0);
+  return status != ResponseStatus::kNoAnswer;
+}
+
+Equilibrium::Slip Equilibrium::slip() const noexcept {
+  const Vec3& f = contact_.coupled.response.force;
+  Slip slip;
+  slip.T = frame_.tangent.transpose() * f - perTip(energy_slope_);
+  const double hold = law_.friction * std::max(0.0, -f.dot(frame_.normal));
+  const double size = slip.T.norm();
+  slip.excess = size - hold;
+  slip.hold = size > 0.0 ? std::min(1.0, hold / size) : 1.0;
+  slip.J = slope(slip);
+  return slip;
+}
+
+/// A force on the anchor, work per length of its way, as one on the tip: the tip's way is (1 + R kappa) as long.
+/// Where a tip of this radius cannot roll (a hollow sharper than itself) as it is.
+Vec2 Equilibrium::perTip(const Vec2& force) const noexcept {
+  constexpr double kLeast = 0.1;
+  const Mat2 stretch = frame_.tangent.transpose() * (frame_.along + tip_radius_ * frame_.turning);
+  return stretch.determinant() > kLeast ? Vec2(stretch.transpose().inverse() * force) : force;
+}
+
+/// d(T - mu f_n T / |T|)/dxi. Where it is not stable (a ridge sharper than the tool's tip can ride on) the part that is.
+Mat2 Equilibrium::slope(const Slip& slip) const noexcept {
+  const Mat3& K = contact_.coupled.stiffness;
+  const Vec3& n = frame_.normal;
+  const Mat32 offset = frame_.along + tip_radius_ * frame_.turning;
+  const double pressing = std::max(0.0, -contact_.coupled.response.force.dot(n));
+  const Mat23 tangent = frame_.tangent.transpose();
+  Mat2 J = -tangent * K * offset + pressing * tangent * frame_.turning;
+  const Vec2 t = slip.T.norm() > 0.0 ? Vec2(slip.T.normalized()) : Vec2::Zero();
+  const Eigen::RowVector2d normal_part = n.transpose() * K * offset;
+  if (law_.friction > 0.0) J -= law_.friction * t * normal_part;
+  if (isNegativeDefinite(J)) return J;
+  const Mat2 plain = -tangent * K * frame_.tangent;
+  return isNegativeDefinite(plain) ? plain : Mat2(-K.norm() * Mat2::Identity());
+}
+
+/// One step along J^-1 T. @return false when the anchor could not move, or has no answer where it came to
+bool Equilibrium::slideOnce(const Slip& slip) noexcept {
+  constexpr double kLongestStep = 2e-3;  // m
+  Vec2 step = -slip.J.inverse() * (slip.T * (slip.excess / slip.T.norm()));
+  if (!step.allFinite()) return false;
+  step *= std::min(1.0, kLongestStep / std::max(step.norm(), kLongestStep));
+  const Contact before = contact_;
+  const SurfaceFrame frame = frame_;
+  const SurfaceMesh& surface = model_.contactSurface().mesh();
+  const bool went = surface.move(contact_.fine, frame_.tangent * step, Reach::kAccessible);
+  contact_.s = model_.contactSurface().rest(contact_.fine);
+  frame_ = surface.frame(contact_.fine);
+  contact_.at_border = !went;
+  if (balance()) return went;
+  contact_ = before;
+  frame_ = frame;
+  return false;
+}
+
+/// A load of one direction is no force that friction could be judged by: its anchor sticks.
+bool Equilibrium::slides() const noexcept {
+  return std::isfinite(law_.friction) && model_.attributes().parameters != Parameters::kLevel;
+}
+
+bool Equilibrium::slide() noexcept {
+  constexpr double kTolerance = 1e-6;   // of |f|
+  constexpr double kLeastForce = 1e-7;  // N
+  contact_.at_border = false;
+  contact_.state = ContactState::kStick;
+  if (!balance()) return false;
+  const Response& response = contact_.coupled.response;
+  if (!slides() || !response.force.allFinite()) return true;
+  int stopped = 0;
+  for (int i = 0; i < kMaxSlides; ++i) {
+    const Slip now = slip();
+    if (!(now.excess > kTolerance * response.force.norm() + kLeastForce)) break;
+    if (i == 0) {
+      const Mat3& K = contact_.coupled.stiffness;
+      const Vec2 t = now.T.normalized();
+      const Mat2 radial = Mat2::Identity() - now.hold * (Mat2::Identity() - t * t.transpose());
+      const Eigen::RowVector3d normal_part = frame_.normal.transpose() * K;
+      give_ = -now.J.inverse() * (radial * frame_.tangent.transpose() * K + law_.friction * t * normal_part);
+      contact_.state = ContactState::kSlide;
+    }
+    if (!slideOnce(now) && ++stopped == 2) break;  // at the border: the first step may have gone too far
+  }
+  return true;
+}
+
+Mat3 Equilibrium::stiffness() const noexcept {
+  const Mat3& K = contact_.coupled.stiffness;
+  if (contact_.at_border) return K;
+  return K - K * (frame_.along + tip_radius_ * frame_.turning) * give_;
+}
+
+}  // namespace palpate

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palpate/core/contact_solver.h"
+#include "palpate/core/coupling.h"
+#include "palpate/core/meta_model.h"
+#include "palpate/core/surface_mesh.h"
+
+namespace palpate {
+
+/// One contact at one tip position, while its anchor is being found.                            DESIGN 3.1
+///   g = c - X(s) - R n(s) - e,   f(s, d) = K_vc (g - d),   T = f_t - (dW/ds) / (1 + R kappa),   f_n = -f . n
+/// e the displacement of the patch that other tools cause; kappa the surface's curvature (a matrix): the tip goes
+/// 1 + R kappa times as far as the anchor; t: along the surface, normal to n(s). Coulomb's law,
+/// |T| <= mu f_n; the anchor gives way along T where it does not hold.
+class Equilibrium {
+ public:
+  Equilibrium(const MetaModel& model, const ContactLaw& law, double tip_radius, const Vec3& c,
+              Contact& contact) noexcept;
+
+  /// d and f at the anchor as it is. @return false when the model has no answer there
+  bool balance() noexcept;
+  /// Moves the anchor until Coulomb's law holds, by at most kMaxSlides steps of Newton's method:
+  ///   ds = -J^-1 (|T| - mu f_n) T / |T|,   J = dT/ds with the coupled stiffness, offset and turning of the normal
+  /// @return false when the model's answer is missing on the way; the anchor then is where there was one
+  bool slide() noexcept;
+  /// d force / d c as the last step of slide() had it, of the force on the organ, N/m.
+  [[nodiscard]] Mat3 stiffness() const noexcept;
+  static constexpr int kMaxSlides = 8;
+
+ private:
+  /// What the law says at the anchor.
+  struct Slip {
+    Vec2 T;              // tangential force that works in sliding, N
+    double excess{0.0};  // |T| - mu f_n, N; above 0: it slides
+    double hold{0.0};    // mu f_n / |T|, at most 1
+    Mat2 J;              // d(excess T / |T|)/dxi, negative definite where sliding is stable, N/m
+  };
+  [[nodiscard]] Slip slip() const noexcept;
+  [[nodiscard]] Vec2 perTip(const Vec2& force) const noexcept;
+  [[nodiscard]] Mat2 slope(const Slip& slip) const noexcept;
+  [[nodiscard]] bool slides() const noexcept;
+  bool slideOnce(const Slip& slip) noexcept;
+
+  const MetaModel& model_;
+  const ContactLaw& law_;
+  double tip_radius_;
+  Vec3 c_;
+  Contact& contact_;
+  SurfaceFrame frame_;
+  Vec2 energy_slope_ = Vec2::Zero();  // dW/dxi at the anchor, N
+  Mat23 give_ = Mat23::Zero();           // dxi/dc of the anchor, 1
+};
+
+}  // namespace palpate

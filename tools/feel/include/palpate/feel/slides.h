@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palpate/core/meta_model.h"
+#include "palpate/feel/surface_path.h"
+
+namespace palpate::feel {
+
+struct SlideOptions {
+  int paths{100};
+  double speed{0.05};   ///< m/s, of the point of the surface under the tip
+  double depth{0.002};  ///< of the tip below the rest surface, along the interpolated normal, m
+  double length{0.05};  ///< m
+  double friction{0.0};
+  double coupling_stiffness{0.0};  ///< N/m; 0: none
+  unsigned seed{1};
+};
+
+/// What one slide felt like.
+struct SlideResult {
+  double median_step{0.0};  ///< of the force from tick to tick, N
+  double largest_step{0.0};
+  double largest_ratio{0.0};  ///< step / (3 median + 1 % of the force), at worst; above 1: a click
+  double largest_lag{0.0};    ///< |F - F_q| / (|F_q - F_q of the tick before| + 0.1 % of F), at worst
+  double mean_force{0.0};     ///< N
+  std::size_t worst{0};       ///< tick of largest_ratio
+  int releases{0};            ///< ticks without contact after the first one with it
+  int ticks{0};
+};
+
+/// One slide through step(), without limiter and ramps. The quasi-static answer F_q is what the same contact ends at
+/// when the tip stays where it is for 20 more ticks.
+[[nodiscard]] SlideResult slide(const MetaModel& model, const std::vector<PathPoint>& path,
+                                const SlideOptions& options);
+
+/// Random smooth slides over the accessible part.
+[[nodiscard]] std::vector<SlideResult> slides(const MetaModel& model, const SlideOptions& options);
+
+}  // namespace palpate::feel
