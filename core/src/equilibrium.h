@@ -49,7 +49,7 @@ class Equilibrium {
   Contact& contact_;
   SurfaceFrame frame_;
   Vec2 energy_slope_ = Vec2::Zero();  // dW/dxi at the anchor, N
-  Mat23 give_ = Mat23::Zero();           // dxi/dc of the anchor, 1
+  Mat23 give_ = Mat23::Zero();        // dxi/dc of the anchor, 1
 };
 
 }  // namespace palpate

@@ -25,7 +25,6 @@ PALPATE_MULTIVERSION void addWeightedRows(const float* A, std::size_t stride, co
   }
 }
 
-<<<<<<< HEAD
 PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows,
                                   std::size_t length, float* out) noexcept PALPATE_NONBLOCKING {
   constexpr std::size_t kLanes = 16;
@@ -39,7 +38,8 @@ PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const floa
     out[r] = 0.0F;
     for (const float part : lane) out[r] += part;
   }
-=======
+}
+
 PALPATE_MULTIVERSION void addWeighted(double weight, const double* a, std::size_t length,
                                       double* y) noexcept PALPATE_NONBLOCKING {
   const double* __restrict__ const in = a;
@@ -58,7 +58,6 @@ PALPATE_MULTIVERSION double dot(const double* a, const double* b,
   for (; i < length; ++i) total += a[i] * b[i];
   for (const double part : sum) total += part;
   return total;
->>>>>>> 30cceac (core: anchors that slide, a virtual coupling, one energy; feel: closed loops and slides tried on a model)
 }
 
 }  // namespace palpate

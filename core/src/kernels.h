@@ -12,17 +12,15 @@ namespace palpate {
 void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
                      std::size_t length, float* y) noexcept PALPATE_NONBLOCKING;
 
-<<<<<<< HEAD
 /// out[r] = sum over i < length of A[r * stride + i] * y[i], in 16 partial sums that run side by side.
 /// Real-time: yes.
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
              float* out) noexcept PALPATE_NONBLOCKING;
-=======
+
 /// y += weight * a. Real-time: yes.
 void addWeighted(double weight, const double* a, std::size_t length, double* y) noexcept PALPATE_NONBLOCKING;
 
 /// a . b. Real-time: yes.
 [[nodiscard]] double dot(const double* a, const double* b, std::size_t length) noexcept PALPATE_NONBLOCKING;
->>>>>>> 30cceac (core: anchors that slide, a virtual coupling, one energy; feel: closed loops and slides tried on a model)
 
 }  // namespace palpate

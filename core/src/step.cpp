@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "palpate/core/tool_coupling.h"
+
 namespace palpate {
 
 /// One tick over one workspace.
@@ -20,6 +22,7 @@ class Tick {
   [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept;
   [[nodiscard]] bool leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept;
   [[nodiscard]] ContactLaw law() const noexcept;
+  [[nodiscard]] Vec3 carriedBy(const ToolMemory& memory) noexcept;
   void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
@@ -81,6 +84,23 @@ ContactLaw Tick::law() const noexcept {
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
 }
 
+/// What the other tools displace the patch of this one by, as they press now (tool_coupling.h). Tools that touch the
+/// same place and ask for different displacements cannot both have them: none counts with more than it was told to.
+Vec3 Tick::carriedBy(const ToolMemory& memory) noexcept {
+  Vec3 sum = Vec3::Zero();
+  if (memory.contact.s.triangle < 0) return sum;
+  for (const ToolMemory& other : work_.tools_) {
+    const Contact& contact = other.contact;
+    if (&other == &memory || contact.state == ContactState::kFree) continue;
+    const double own = contact.coupled.displacement.norm();
+    const double told = (contact.coupled.displacement + contact.carried).norm();
+    const double share = own > told ? told / own : 1.0;
+    const FieldSource source{contact.s, contact.coupled.response.parameter, share * other.rendering.gain};
+    sum += patchDisplacement(model_, source, memory.contact.s, work_.scratch_);
+  }
+  return sum;
+}
+
 /// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
 bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
   const Contact before = memory.contact;
@@ -91,6 +111,7 @@ bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) no
     memory.contact.overlapping = true;  // whatever it meets, it does not come to it from outside
     memory.leapt = true;
   }
+  memory.contact.carried = carriedBy(memory);
   work_.solver_.update(model_, law(), c, memory.contact);
   memory.position = c;
   if (memory.contact.coupled.response.force.allFinite() && memory.contact.stiffness.allFinite()) return true;

@@ -46,9 +46,9 @@ class Random {
 
 /// W mixed as the model mixes f.
 double mixedEnergy(const ContactPoint& s, const Vec3& d) {
-  const PositionMix mix = organ().surface().mix(s);
+  const Stencil mix = organ().mixing().at(organ().surface(), s);
   double energy = 0.0;
-  for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b) {
+  for (std::size_t b = 0; b < mix.count; ++b) {
     const auto node =
         static_cast<std::size_t>(organ().view().contact_node[static_cast<std::size_t>(mix.position[b])]);
     const Vec3 X = Eigen::Map<const Vec3>(organ().view().surface_positions.data() + 3 * node);
