@@ -7,16 +7,17 @@ namespace palpate {
 
 namespace {
 
-/// r(d) = d + f(s, d) / K_vc - g, and the answer that it belongs to.
+/// r(d) = d + (f(s, d) - df/dd e) / K_vc - g, and the answer that it belongs to.
 class Balance {
  public:
-  Balance(const PatchResponse& patch, const Vec3& g, double compliance) noexcept
-      : patch_(patch), g_(g), compliance_(compliance) {}
+  Balance(const PatchResponse& patch, const Vec3& g, const Vec3& carried, double compliance) noexcept
+      : patch_(patch), g_(g), carried_(carried), compliance_(compliance) {}
 
   /// Evaluates at d. @return whether the organ has an answer
   bool moveTo(const Vec3& d) noexcept {
     displacement = d;
     status = patch_.at(d, response);
+    response.force -= response.stiffness * carried_;
     residual = d + compliance_ * response.force - g_;
     return status != ResponseStatus::kNoAnswer;
   }
@@ -29,7 +30,7 @@ class Balance {
 
  private:
   const PatchResponse& patch_;
-  Vec3 g_;
+  Vec3 g_, carried_;
   double compliance_;
 };
 
@@ -48,12 +49,12 @@ bool improve(Balance& balance) noexcept {
 
 }  // namespace
 
-ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const ContactLaw& law,
+ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const Vec3& carried, const ContactLaw& law,
                       CoupledResponse& out) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxSteps = 8;
   constexpr double kTolerance = 1e-9;  // of |g|
   const double compliance = law.compliance * law.stiffness_scale;
-  Balance balance(patch, g, compliance);
+  Balance balance(patch, g, carried, compliance);
   balance.moveTo(compliance > 0.0 ? out.displacement : g);
   if (compliance > 0.0)
     for (int i = 0; i < kMaxSteps && balance.residual.norm() > kTolerance * g.norm(); ++i)

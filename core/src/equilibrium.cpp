@@ -26,10 +26,10 @@ Equilibrium::Equilibrium(const MetaModel& model, const ContactLaw& law, double t
       frame_(model.contactSurface().mesh().frame(contact.fine)) {}
 
 bool Equilibrium::balance() noexcept {
-  const Vec3 g = c_ - frame_.position - tip_radius_ * frame_.normal - contact_.carried;
+  const Vec3 g = c_ - frame_.position - tip_radius_ * frame_.normal;
   CoupledResponse& coupled = contact_.coupled;
   const PatchResponse patch(model_, contact_.s);
-  const ResponseStatus status = couple(patch, g, law_, coupled);
+  const ResponseStatus status = couple(patch, g, contact_.carried, law_, coupled);
   if (slides()) {
     const double rate = model_.contactSurface().restRate(contact_.fine);
     energy_slope_ =

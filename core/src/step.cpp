@@ -22,7 +22,7 @@ class Tick {
   [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept;
   [[nodiscard]] bool leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept;
   [[nodiscard]] ContactLaw law() const noexcept;
-  [[nodiscard]] Vec3 carriedBy(const ToolMemory& memory) noexcept;
+  void feelEachOther() noexcept;
   void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
@@ -84,21 +84,29 @@ ContactLaw Tick::law() const noexcept {
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
 }
 
-/// What the other tools displace the patch of this one by, as they press now (tool_coupling.h). Tools that touch the
-/// same place and ask for different displacements cannot both have them: none counts with more than it was told to.
-Vec3 Tick::carriedBy(const ToolMemory& memory) noexcept {
-  Vec3 sum = Vec3::Zero();
-  if (memory.contact.s.triangle < 0) return sum;
-  for (const ToolMemory& other : work_.tools_) {
-    const Contact& contact = other.contact;
-    if (&other == &memory || contact.state == ContactState::kFree) continue;
-    const double own = contact.coupled.displacement.norm();
-    const double told = (contact.coupled.displacement + contact.carried).norm();
-    const double share = own > told ? told / own : 1.0;
-    const FieldSource source{contact.s, contact.coupled.response.parameter, share * other.rendering.gain};
-    sum += patchDisplacement(model_, source, memory.contact.s, work_.scratch_);
+/// What each tool's patch is displaced by the others, by the contacts as the last tick left them (tool_coupling.h).
+void Tick::feelEachOther() noexcept {
+  std::array<ContactPoint, kMaxTools> s;
+  std::array<Vec3, kMaxTools> d, own;
+  std::array<Contact*, kMaxTools> pressing{};
+  std::size_t count = 0;
+  for (ToolMemory& memory : work_.tools_) {
+    memory.contact.carried.setZero();
+    if (memory.contact.state == ContactState::kFree) continue;
+    s[count] = memory.contact.s;
+    d[count] = memory.contact.coupled.displacement;
+    pressing[count++] = &memory.contact;
   }
-  return sum;
+  if (count == 0) return;
+  ownDisplacements(model_, std::span(s).first(count), std::span(d).first(count), work_.scratch_, own);
+  for (std::size_t i = 0; i < count; ++i) pressing[i]->carried = d[i] - own[i];
+  for (ToolMemory& memory : work_.tools_) {
+    if (!memory.known || memory.contact.state != ContactState::kFree || memory.contact.s.triangle < 0)
+      continue;
+    for (std::size_t i = 0; i < count; ++i)
+      for (const FieldSource& source : ownField(model_, s[i], d[i], own[i]))
+        memory.contact.carried += patchDisplacement(model_, source, memory.contact.s, work_.scratch_);
+  }
 }
 
 /// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
@@ -111,7 +119,6 @@ bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) no
     memory.contact.overlapping = true;  // whatever it meets, it does not come to it from outside
     memory.leapt = true;
   }
-  memory.contact.carried = carriedBy(memory);
   work_.solver_.update(model_, law(), c, memory.contact);
   memory.position = c;
   if (memory.contact.coupled.response.force.allFinite() && memory.contact.stiffness.allFinite()) return true;
@@ -193,11 +200,21 @@ void Tick::blendField() noexcept {
 
 /// The surface under all tools together; a tool whose force fades takes its dimple with it.
 void Tick::evaluate(StepResult& result) noexcept {
-  std::array<FieldSource, kMaxTools> sources;
+  std::array<FieldSource, 2 * kMaxTools> sources;
   std::size_t count = 0;
-  for (const ToolMemory& memory : work_.tools_)
-    if (memory.contact.state != ContactState::kFree)
-      sources[count++] = {memory.contact.s, memory.contact.coupled.response.parameter, memory.rendering.gain};
+  for (const ToolMemory& memory : work_.tools_) {
+    const Contact& contact = memory.contact;
+    if (contact.state == ContactState::kFree) continue;
+    const Vec3& d = contact.coupled.displacement;
+    if (contact.carried == Vec3::Zero()) {
+      sources[count++] = {contact.s, contact.coupled.response.parameter, memory.rendering.gain};
+      continue;
+    }
+    for (FieldSource source : ownField(model_, contact.s, d, d - contact.carried)) {
+      source.gain *= memory.rendering.gain;
+      sources[count++] = source;
+    }
+  }
   const std::span<float> u(work_.displacement_);
   std::fill(u.begin(), u.end(), 0.0F);
   if (count == 0) return;
@@ -222,6 +239,7 @@ void Tick::report(const ToolMemory& memory, ToolResult& out) const noexcept {
 StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   result = StepResult{};
   work_.live_.advance(input_.has_live != 0 ? input_.live : work_.live_.target(), dt_);
+  feelEachOther();
   for (std::size_t i = 0; i < kMaxTools; ++i) advance(input_.tools[i], work_.tools_[i], result.tools[i]);
   deform(result);
   std::uint32_t flags = 0;

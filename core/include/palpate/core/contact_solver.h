@@ -18,7 +18,7 @@ struct Contact {
   ContactPoint fine;              ///< the same of MetaModel::contactSurface()
   Vec3 anchor = Vec3::Zero();     ///< X(s), m
   Vec3 normal = Vec3::Zero();     ///< n(s), outward unit normal of the contact surface
-  Vec3 imposed = Vec3::Zero();    ///< g = c - X(s) - R n(s) - carried, where the tool would have the patch, m
+  Vec3 imposed = Vec3::Zero();    ///< g = c - X(s) - R n(s), where the tool would have the patch, m
   CoupledResponse coupled;        ///< d, the organ's answer to it and df/dg; zero when free
   Mat3 stiffness = Mat3::Zero();  ///< df/dc of the force on the organ, sliding included, N/m; zero when free
   Vec3 carried = Vec3::Zero();    ///< displacement of the patch that the other tools cause, m; the caller's

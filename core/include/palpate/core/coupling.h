@@ -21,11 +21,12 @@ struct CoupledResponse {
 };
 
 /// The virtual coupling: tool - spring - patch, the organ as it answers                            DESIGN 3.1
-///   f(s, d) = K_vc (g - d),   g where the tool would have the patch if the spring were rigid
+///   f(s, d) - df/dd e = K_vc (g - d),   g where the tool would have the patch if the spring were rigid, e the part of d
+///   that other tools cause (tool_coupling.h)
 /// Newton on d, from `out.displacement`, halved where it does not help; at most 8 steps of up to 5 evaluations, 1 or 2
 /// when g moves little. Numbers that overflow come out as respond() gives them.
-/// @param[in] g  W, m, finite, @param[in,out] out  displacement: where to begin. Real-time: yes.
-ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const ContactLaw& law,
+/// @param[in] g, carried  g and e, W, m, finite, @param[in,out] out  displacement: where to begin. Real-time: yes.
+ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const Vec3& carried, const ContactLaw& law,
                       CoupledResponse& out) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

@@ -82,7 +82,7 @@ struct FieldScratch {
 struct FieldSource {
   ContactPoint s;
   Vec3 parameter = Vec3::Zero();  ///< Response::parameter; clamped to the domain
-  double gain{1.0};               ///< 0 to 1
+  double gain{1.0};               ///< any finite number
 };
 
 /// Displacement of the surface nodes, far plus near field, superposed over the tools (DESIGN 2.3).
