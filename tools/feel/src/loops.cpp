@@ -57,7 +57,7 @@ class HeldWay {
     across_ = Vec3(uniform(random), uniform(random), uniform(random)).cross(n).normalized();
     other_ = n.cross(across_);
     reach_ = reach * (0.6 + 0.3 * uniform(random));
-    for (double& a : amplitude_) a = 0.35 * uniform(random);
+    for (double& a : amplitude_) a = 0.2 * uniform(random);
   }
   /// @param[in] x  0 to 1
   [[nodiscard]] Vec3 at(double x) const {
@@ -73,13 +73,6 @@ class HeldWay {
   double reach_;
   std::array<double, 4> amplitude_{};
 };
-
-double normalStiffness(const MetaModel& model, const ContactPoint& s) {
-  Response response;
-  (void)respond(model, s, Vec3::Zero(), response);
-  const Vec3 n = model.surface().normal(s);
-  return n.dot(response.stiffness * n);
-}
 
 }  // namespace
 

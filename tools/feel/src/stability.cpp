@@ -36,16 +36,15 @@ device::Verdict press(const MetaModel& model, const StabilityCase& which, double
   device::MotionOptions options;
   options.tip_radius = config.tip_radius;
   options.lead = device::leadOf(mechanics, which.hand);
-  const device::Motion motion =
-      device::makeMotion("press", pointOf(model.surface().position(which.s)),
-                         pointOf(model.surface().normal(which.s)), options);
+  const device::Motion motion = device::makeMotion("press", pointOf(model.surface().position(which.s)),
+                                                   pointOf(model.surface().normal(which.s)), options);
   device::HeldDevice held(mechanics, which.hand, motion.path);
   const device::HeldDevice other = held;
   Player player(model, config);
   const device::Trace with = device::closedLoop(held, motion, [&](const device::Point& c) {
     return pointOf(forceOf(player.at(Vec3(c[0], c[1], c[2]))));
   });
-  return device::judge(motion, with, device::withoutOrgan(other, motion));
+  return device::judge(with, device::withoutOrgan(other, motion), motion);
 }
 
 StabilityResult stability(const MetaModel& model, const StabilityCase& which) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/feel/surface_path.h"
 
+#include <algorithm>
+
 #include <cmath>
 #include <numbers>
+
+#include "palpate/core/response.h"
 
 namespace palpate::feel {
 
@@ -36,6 +40,13 @@ ContactPoint randomContact(const MetaModel& model, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const double root = std::sqrt(uniform(random)), other = uniform(random);
   return {triangle(random), {1.0 - root, root * (1.0 - other), root * other}};
+}
+
+double normalStiffness(const MetaModel& model, const ContactPoint& s) {
+  Response response;
+  (void)respond(model, s, Vec3::Zero(), response);
+  const Vec3 n = model.surface().normal(s);
+  return n.dot(response.stiffness * n);
 }
 
 std::optional<std::vector<PathPoint>> randomPath(const MetaModel& model, double step, double length,

@@ -16,7 +16,7 @@ struct StabilityCase {
   DevicePreset preset;
   double youngs_modulus;  ///< E, Pa
   device::Hand hand;
-  ContactPoint s;      ///< where it presses
+  ContactPoint s;       ///< where it presses
   bool friction{true};  ///< of the device; without it nothing but hand and coupling damps
 };
 
@@ -28,7 +28,8 @@ struct StabilityResult {
 
 /// One press, closed loop at 1 kHz with the answer a period later, through step().
 /// @param[in] coupling_stiffness  N/m; the damping keeps the preset's ratio to it
-[[nodiscard]] device::Verdict press(const MetaModel& model, const StabilityCase& which, double coupling_stiffness);
+[[nodiscard]] device::Verdict press(const MetaModel& model, const StabilityCase& which,
+                                    double coupling_stiffness);
 
 /// The preset's coupling, and 8 bisections for the largest stable one.
 [[nodiscard]] StabilityResult stability(const MetaModel& model, const StabilityCase& which);

@@ -20,6 +20,9 @@ struct PathPoint {
 /// A random point of the accessible part, with equal chances for equal areas.
 [[nodiscard]] ContactPoint randomContact(const MetaModel& model, std::mt19937& random);
 
+/// n . (df/dd) n at rest, N/m.
+[[nodiscard]] double normalStiffness(const MetaModel& model, const ContactPoint& s);
+
 /// A smooth random way over the accessible part: it begins somewhere and turns slowly, at most 60 degrees a cm.
 /// @param[in] step  way between two points, m, @param[in] length  of the whole, m
 /// @return nothing when the border came before half the length; otherwise what was possible

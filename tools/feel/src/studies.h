@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace palpate::feel {
+
+/// What the command line asks for.
+struct Study {
+  std::string model;
+  unsigned seed{1};
+  int count{1000};      ///< loops of each kind
+  int paths{100};       ///< slides of each kind
+  double depth{0.002};  ///< m
+  double speed{0.05};   ///< m/s
+  bool json{false};
+};
+
+// Each runs, prints a table or JSON, and returns the exit code of the program: 0, whatever was found.
+// @throw LoadError
+int runLoops(const Study& study);
+int runSlides(const Study& study);
+int runCoupling(const Study& study);
+
+}  // namespace palpate::feel
