@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kernels.h"
+#include "palpate/core/length.h"
 
 namespace palpate {
 
@@ -72,7 +73,7 @@ ContactSeries ContactResponse::at(const Stencil& stencil, double limit) const no
 Vec3 ContactResponse::energySlope(const Stencil& stencil, const Vec3& d,
                                   double limit) const noexcept PALPATE_NONBLOCKING {
   const auto C = static_cast<std::size_t>(functions_.size());
-  const double length = d.stableNorm(), beyond = length > limit ? length / limit : 1.0;
+  const double length = lengthOf(d), beyond = length > limit ? length / limit : 1.0;
   std::array<double, MonomialBasis::kMaxCoefficients> share;
   functions_.energyShares(d / beyond, share);
   std::array<double, std::size_t{3} * MonomialBasis::kMaxCoefficients> weight;  // W_b = weight . c_b

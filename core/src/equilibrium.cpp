@@ -78,7 +78,7 @@ Mat2 Equilibrium::slope(const Slip& slip) const noexcept {
   return isNegativeDefinite(plain) ? plain : Mat2(-K.norm() * Mat2::Identity());
 }
 
-/// One step along J^-1 T. @return false when the anchor could not move, or has no answer where it came to
+/// One step along J^-1 T. @return false when there is no step, or no answer where the anchor came to
 bool Equilibrium::slideOnce(const Slip& slip) noexcept {
   constexpr double kLongestStep = 2e-3;  // m
   Vec2 step = -slip.J.inverse() * (slip.T * (slip.excess / slip.T.norm()));
@@ -91,7 +91,7 @@ bool Equilibrium::slideOnce(const Slip& slip) noexcept {
   contact_.s = model_.contactSurface().rest(contact_.fine);
   frame_ = surface.frame(contact_.fine);
   contact_.at_border = !went;
-  if (balance()) return went;
+  if (balance()) return true;
   contact_ = before;
   frame_ = frame;
   return false;

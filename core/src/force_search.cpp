@@ -108,7 +108,7 @@ bool ForceSearch::find(const Vec3& d, Vec3& f) const noexcept {
 
 /// |d| where the ray of f leaves the domain; at rest, where there is no ray, a length that is inside of it.
 double radiusAlong(const ContactSeries& series, const Vec3& f, const Mat3& stiffness) noexcept {
-  if (f.norm() > 0.0) return series.value(f.stableNormalized() * series.limit()).norm();
+  if (lengthOf(f) > 0.0) return series.value((series.limit() / lengthOf(f)) * f).norm();
   return stiffness.isZero(0.0) ? 0.0 : series.limit() / stiffness.norm();
 }
 

@@ -12,11 +12,11 @@ namespace palpate {
 
 Vec3 clampToDomain(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
   const double length = lengthOf(d);  // |d|^2 of a huge displacement overflows
-  return length > radius ? Vec3(d.stableNormalized() * radius) : d;
+  return length > radius ? Vec3((radius / length) * d) : d;
 }
 
 Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
-  const Vec3 direction = d.stableNormalized();
+  const Vec3 direction = d / lengthOf(d);
   return (radius / lengthOf(d)) * (Mat3::Identity() - direction * direction.transpose());
 }
 
@@ -43,7 +43,7 @@ ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, 
   out.domain_radius = series.limit();
   out.displacement = clampToDomain(d, out.domain_radius);
   out.parameter = out.displacement;
-  if (!(d.stableNorm() > out.domain_radius)) {
+  if (!(lengthOf(d) > out.domain_radius)) {
     out.force = series.value(d);
     out.stiffness = series.gradient(d);
     return ResponseStatus::kOk;

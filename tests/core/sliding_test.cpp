@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// Anchors that slide, the coupling, the contact surface: physics on the synthetic organ.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "driver.h"
+#include "palpate/core/contact_solver.h"
+#include "palpate/core/coupling.h"
+
+namespace palpate::testing {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+const MetaModel& organ() {
+  static const MetaModel model = loadSynthetic();
+  return model;
+}
+
+/// Nothing but the contact: no limiter, ramps, coupling or speed limit.
+StepConfig bare(double friction) {
+  StepConfig config;
+  config.friction = friction;
+  config.force_limit = config.speed_limit = kInfinity;
+  config.ramp_time = 0.0;
+  return config;
+}
+
+/// Tip centre `depth` deep over the organ at an angle from the top.
+Vec3 over(double angle, double depth, double azimuth = 0.3) {
+  const Vec3 direction(std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
+                       std::cos(angle));
+  return (0.05 + 0.005 - depth) * direction;
+}
+
+/// Presses at the top and drags to an angle, 0.05 mm a tick.
+void drag(Driver& driver, double angle, double depth) {
+  for (double d = -0.001; d < depth; d += 5e-5) driver.at(over(0.0, d));
+  for (double a = 0.0; a < angle; a += 1e-3) driver.at(over(a, depth));
+}
+
+Vec3 normalAt(const ToolResult& r) {
+  const ContactSurface& surface = organ().contactSurface();
+  return surface.mesh().normal(surface.fine(organ().surface().closestPoint(vec(r.anchor)).s));
+}
+
+}  // namespace
+
+TEST(Sliding, WithoutFrictionTheAnchorStaysBelowTheTool) {
+  Driver driver(organ(), bare(0.0));
+  drag(driver, 0.8, 0.002);
+  const ToolResult& r = driver.result().tools[0];
+  EXPECT_EQ(r.state, static_cast<std::uint32_t>(ContactState::kSlide));
+  const Vec3 f = vec(r.force), n = normalAt(r);
+  EXPECT_GT(f.dot(n), 0.3);
+  EXPECT_LT((f - n * n.dot(f)).norm(), 0.1 * f.norm()) << "what is left is dW/ds";
+  EXPECT_LT((vec(r.anchor).normalized() - over(0.8, 0.0).normalized()).norm(), 0.02);
+}
+
+TEST(Sliding, FrictionIsWhatCoulombAllows) {
+  for (const double mu : {0.05, 0.3, 0.8}) {
+    Driver driver(organ(), bare(mu));
+    drag(driver, 0.6, 0.002);
+    const ToolResult& r = driver.result().tools[0];
+    ASSERT_EQ(r.state, static_cast<std::uint32_t>(ContactState::kSlide)) << mu;
+    const Vec3 f = vec(r.force), n = normalAt(r);
+    const double pressing = f.dot(n);
+    EXPECT_NEAR((f - n * pressing).norm() / pressing, mu, 0.06) << "dW/ds may add to it";
+  }
+}
+
+TEST(Sliding, WithoutLimitOfFrictionTheAnchorStays) {
+  Driver driver(organ(), bare(kInfinity));
+  for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
+  const Vec3 anchor = vec(driver.result().tools[0].anchor);
+  for (double a = 0.0; a < 0.04; a += 1e-3) ASSERT_EQ(vec(driver.at(over(a, 0.002)).anchor), anchor);
+  EXPECT_EQ(driver.result().tools[0].state, static_cast<std::uint32_t>(ContactState::kStick));
+}
+
+TEST(Sliding, ForceHasNoClicksOverTrianglesEdgesAndNodes) {
+  for (const double azimuth : {0.0, 0.3, 1.1, 2.0, 4.4}) {
+    Driver driver(organ(), bare(0.0));
+    for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d, azimuth));
+    Vec3 last = vec(driver.at(over(0.0, 0.002, azimuth)).force);
+    std::vector<double> steps;
+    for (double a = 1e-3; a < 1.2; a += 1e-3) {
+      const Vec3 now = vec(driver.at(over(a, 0.002, azimuth)).force);
+      steps.push_back((now - last).norm());
+      last = now;
+    }
+    const double largest = *std::max_element(steps.begin(), steps.end());
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
+    EXPECT_LT(largest, 3.0 * steps[steps.size() / 2] + 0.01 * last.norm()) << azimuth;
+  }
+}
+
+TEST(Sliding, NoEnergyComesOutOfAClosedWay) {
+  for (const double mu : {0.0, 0.05, 0.3}) {
+    Driver driver(organ(), bare(mu));
+    double work = 0.0, most = 0.0;
+    Vec3 c = over(0.0, -0.001), force = Vec3::Zero();
+    const auto to = [&](const Vec3& next) {
+      const ToolResult& r = driver.at(next);
+      work -= 0.5 * (force + vec(r.force)).dot(next - c);
+      force = vec(r.force);
+      c = next;
+      most = std::max(most, 0.5 * force.norm() * r.penetration);
+    };
+    for (double d = -0.001; d < 0.002; d += 5e-5) to(over(0.0, d));
+    for (double a = 0.0; a < 1.0; a += 1e-3) to(over(a, 0.002));
+    for (double d = 0.002; d > -0.002; d -= 5e-5) to(over(1.0, d));
+    EXPECT_EQ(force, Vec3::Zero());
+    EXPECT_GT(work, -1e-2 * most) << mu;
+  }
+}
+
+TEST(Sliding, RenderedStiffnessIsTheSlopeOfTheForceWhileSliding) {
+  for (const double mu : {0.0, 0.2}) {
+    Driver driver(organ(), bare(mu));
+    drag(driver, 0.5, 0.002);
+    const Vec3 c = over(0.501, 0.002);
+    const Driver before = driver;
+    const ToolResult here = driver.at(c);
+    for (int j = 0; j < 3; ++j) {
+      constexpr double kStep = 1e-6;
+      Driver one = before, other = before;
+      const Vec3 slope =
+          (vec(one.at(c + kStep * Vec3::Unit(j)).force) - vec(other.at(c - kStep * Vec3::Unit(j)).force)) /
+          (2.0 * kStep);
+      Vec3 rendered;
+      for (int i = 0; i < 3; ++i) rendered[i] = here.stiffness[static_cast<std::size_t>(3 * i + j)];
+      EXPECT_LT((slope - rendered).norm(), 0.1 * 450.0) << "mu " << mu << ", direction " << j;
+    }
+  }
+}
+
+TEST(Sliding, StopsAtTheBorderOfTheAccessiblePartAndSaysSo) {
+  Driver driver(organ(), bare(0.0));
+  bool flagged = false;
+  for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
+  Vec3 last = vec(driver.result().tools[0].force);
+  for (double a = 0.0; a < 3.1; a += 1e-3) {
+    const ToolResult& r = driver.at(over(a, 0.002));
+    ASSERT_LT((vec(r.force) - last).norm(), 0.15) << a;
+    last = vec(r.force);
+    flagged = flagged || (r.flags & kNotAccessible) != 0;
+    if (r.state != 0) {
+      ASSERT_TRUE(organ().surface().reachable(organ().surface().closestPoint(vec(r.anchor)).s.triangle)) << a;
+    }
+  }
+  EXPECT_TRUE(flagged);
+}
+
+TEST(Coupling, SpringAndOrganCarryTheSameForce) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const ContactPoint s = organ().surface().closestPoint(Vec3(0.01, 0.02, 0.05)).s;
+  const PatchResponse patch(organ(), s);
+  for (int trial = 0; trial < 200; ++trial) {
+    ContactLaw law;
+    law.compliance = 1.0 / std::pow(10.0, 3.0 + 1.5 * uniform(random));
+    law.stiffness_scale = std::pow(10.0, uniform(random));
+    const Vec3 g = 0.02 * Vec3(uniform(random), uniform(random), uniform(random));
+    CoupledResponse out;
+    ASSERT_NE(couple(patch, g, Vec3::Zero(), law, out), ResponseStatus::kNoAnswer);
+    EXPECT_LT((out.response.force - (g - out.displacement) / law.compliance).norm(),
+              1e-6 * (1.0 + out.response.force.norm()));
+    EXPECT_LE(out.stiffness.norm(), 1.01 * std::sqrt(3.0) / law.compliance)
+        << "never stiffer than the spring";
+  }
+}
+
+TEST(Coupling, RenderedStiffnessNeverExceedsTheSprings) {
+  StepConfig config = bare(kInfinity);
+  config.coupling_stiffness = 300.0;
+  config.youngs_modulus = 1e6;
+  Driver driver(organ(), config);
+  for (double d = -0.001; d < 0.006; d += 1e-4) {
+    const ToolResult& r = driver.at(over(0.0, d));
+    const Mat3 K = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.stiffness.data());
+    ASSERT_LE(K.operatorNorm(), 300.0 * 1.001) << d;
+  }
+  EXPECT_GT(vec(driver.result().tools[0].force).norm(), 1.0);
+}
+
+TEST(LiveParameters, ForceScalesWithTheModulusAndNeverJumps) {
+  Driver driver(organ(), bare(kInfinity));
+  for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
+  const double before = vec(driver.at(over(0.0, 0.002)).force).norm();
+  driver.input().has_live = 1;
+  driver.input().live = liveParameters(bare(kInfinity));
+  driver.input().live.youngs_modulus = 2.0 * organ().attributes().E;
+  double last = before;
+  for (int ms = 0; ms < 150; ++ms) {
+    const double now = vec(driver.at(over(0.0, 0.002)).force).norm();
+    ASSERT_LT(std::abs(now - last), 0.02 * before);
+    last = now;
+  }
+  EXPECT_NEAR(last, 2.0 * before, 1e-6 * before);
+}
+
+TEST(Safety, APoseThatJumpsIsFlaggedAndEngagedAnew) {
+  StepConfig config;
+  Driver driver(organ(), config);
+  for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
+  const ToolResult held = driver.settle(over(0.0, 0.002));
+  const ToolResult& leapt = driver.at(over(0.7, 0.002));
+  EXPECT_NE(leapt.flags & kPoseJump, 0U);
+  EXPECT_LT((vec(leapt.force) - vec(held.force)).norm(), 0.15) << "no step of the force";
+  EXPECT_EQ(driver.at(over(0.7, 0.002)).flags & kPoseJump, 0U);
+  EXPECT_NEAR(vec(driver.settle(over(0.7, 0.002)).force).norm(), vec(held.force).norm(), 0.4);
+}
+
+TEST(Safety, ForceChangesNoFasterThanItsRateLimit) {
+  StepConfig config = bare(kInfinity);
+  config.force_rate_limit = 50.0;
+  Driver driver(organ(), config);
+  Vec3 last = Vec3::Zero();
+  bool flagged = false;
+  for (double d = -0.001; d < 0.004; d += 5e-4) {
+    const ToolResult& r = driver.at(over(0.0, d));
+    ASSERT_LE((vec(r.force) - last).norm(), 0.05 + 1e-12);
+    flagged = flagged || (r.flags & kForceRateLimited) != 0;
+    last = vec(r.force);
+  }
+  EXPECT_TRUE(flagged);
+}
+
+TEST(ContactSurface, PointsGoToTheRestSurfaceAndBack) {
+  const ContactSurface& surface = organ().contactSurface();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 500; ++trial) {
+    const double a = uniform(random), b = uniform(random) * (1.0 - a);
+    const ContactPoint s{
+        static_cast<std::int32_t>(random() % static_cast<unsigned>(organ().surface().triangles())),
+        {1.0 - a - b, a, b}};
+    const ContactPoint back = surface.rest(surface.fine(s));
+    EXPECT_EQ(back.triangle, s.triangle);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back.barycentric[k], s.barycentric[k], 1e-12);
+  }
+}
+
+TEST(ContactSurface, IsRounderThanTheTriangles) {
+  const SurfaceMesh& fine = organ().contactSurface().mesh();
+  double flat = 0.0, rounded = 0.0;
+  for (int t = 0; t < organ().surface().triangles(); ++t) {
+    const ContactPoint middle{t, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
+    flat = std::max(flat, std::abs(organ().surface().position(middle).norm() - 0.05));
+    rounded = std::max(rounded, std::abs(fine.position(organ().contactSurface().fine(middle)).norm() - 0.05));
+  }
+  EXPECT_LT(rounded, 0.1 * flat);
+}
+
+TEST(Projection, FindsThePointThatTheTipLiesStraightAbove) {
+  const SurfaceMesh& fine = organ().contactSurface().mesh();
+  for (double angle = 0.0; angle < 2.0; angle += 0.013) {
+    const Vec3 c = over(angle, 0.001);
+    ContactPoint s = fine.closestPoint(c).s;
+    double h = 0.0;
+    ASSERT_TRUE(fine.project(c, s, h)) << angle;
+    EXPECT_LT((fine.position(s) + h * fine.normal(s) - c).norm(), 1e-9);
+  }
+}
+
+}  // namespace palpate::testing
