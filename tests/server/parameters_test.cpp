@@ -58,5 +58,34 @@ TEST_F(Parameters, OfAnotherServerAreNotOurs) {
   EXPECT_EQ(ask({"--server-id", "3"})["revision"], 0);
 }
 
+TEST_F(Parameters, ForceScalesWithEAndNeverSteps) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  const double before = sizeOf(client_->forces().back().force);
+  const double E = ask({})["model_youngs_modulus_Pa"];
+  for (const double factor : {0.25, 2.0, 1.0}) {
+    client_->forget();
+    EXPECT_TRUE(ask({"--youngs-modulus", std::to_string(factor * E)})["accepted"]);
+    pause(250);
+    const auto forces = client_->forces();
+    EXPECT_NEAR(sizeOf(forces.back().force), factor * before, 1e-6 * before);
+    EXPECT_LT(steepest(forces), 0.1 * before) << "a change is gone over to, not jumped to";
+  }
+}
+
+TEST_F(Parameters, ALowerForceLimitIsReachedWithoutAStep) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.003));
+  const double before = sizeOf(client_->forces().back().force);
+  ASSERT_GT(before, 1.0);
+  client_->forget();
+  EXPECT_TRUE(ask({"--force-limit", "0.2"})["accepted"]);
+  pause(250);
+  const auto forces = client_->forces();
+  EXPECT_NEAR(sizeOf(forces.back().force), 0.2, 1e-6);
+  EXPECT_NE(forces.back().flags & dds::flag::kForceLimited, 0U);
+  EXPECT_LT(steepest(forces), 0.1 * before);
+}
+
 }  // namespace
 }  // namespace palpate::server::testing

@@ -40,6 +40,18 @@ inline std::uint64_t gaps(const std::vector<dds::ToolForce>& forces) {
   return forces.back().seq - forces.front().seq + 1 - forces.size();
 }
 
+// Largest change of the force from an answer to the next, N per ms; ticks that came late count by their time.
+inline double steepest(const std::vector<dds::ToolForce>& forces) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < forces.size(); ++i) {
+    const double ms = static_cast<double>(forces[i].stamp_ns - forces[i - 1].stamp_ns) / kMs;
+    double change[3];
+    for (int k = 0; k < 3; ++k) change[k] = forces[i].force[k] - forces[i - 1].force[k];
+    largest = std::max(largest, sizeOf(change) / std::max(ms, 1.0));
+  }
+  return largest;
+}
+
 class ServerEndToEnd : public ::testing::Test {
  protected:
   ServerEndToEnd() { palpate::testing::writeSyntheticModel(model_); }
