@@ -42,18 +42,21 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
     Vec3 target = in.force;
     K = in.stiffness;
     if (cut(in.force_limit, target, K)) out.flags |= kForceLimited;
-    if (follow(memory.target, in.force_rate_limit * in.dt, target, K)) out.flags |= kForceRateLimited;
     memory.target = target;
   }
   if (in.jumped) {
     memory.from = memory.rendered;
+    memory.mixed = memory.rendered;
     memory.blend = 1.0;
   }
   const double step = config_.ramp_time > 0.0 ? in.dt / config_.ramp_time : 1.0;
   memory.blend = std::max(0.0, memory.blend - step);
   if (in.shutting_down) memory.fade = std::max(0.0, memory.fade - step);
   memory.gain = memory.fade * freshness(in.age + in.period);
-  out.force = memory.gain * ((1.0 - memory.blend) * memory.target + memory.blend * memory.from);
+  Vec3 mixed = (1.0 - memory.blend) * memory.target + memory.blend * memory.from;
+  if (follow(memory.mixed, in.force_rate_limit * in.dt, mixed, K)) out.flags |= kForceRateLimited;
+  memory.mixed = mixed;
+  out.force = memory.gain * mixed;
   out.stiffness = memory.gain * (1.0 - memory.blend) * K;
   memory.rendered = out.force;
   if (in.age > config_.stale_timeout) out.flags |= kStalePose;

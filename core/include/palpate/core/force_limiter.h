@@ -15,6 +15,7 @@ struct Rendering {
   Vec3 target = Vec3::Zero();    ///< last good force on the tool, limited, N
   Vec3 rendered = Vec3::Zero();  ///< force of the last tick, N
   Vec3 from = Vec3::Zero();      ///< force at the last jump, N
+  Vec3 mixed = Vec3::Zero();     ///< force of the last tick before its gain, N
   double blend{0.0};             ///< weight of `from`, 1 at the jump, then falling to 0
   double gain{0.0};              ///< of the last tick, 0 to 1: staleness and shutdown together
   double fade{1.0};              ///< 1, falling to 0 at shutdown
@@ -42,8 +43,8 @@ struct LimitedForce {
 };
 
 /// Keeps what a device gets safe and continuous (DESIGN 3.2).
-///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|), moved towards at the rate
-///   limit at most
+///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
+///   what stands behind the gain changes no faster than the rate limit allows; letting go is not held up by it
 ///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
 ///   that the force will have when the next one replaces it, so that none but zero stands after zero_after,
 ///   whatever the rate of the loop. A jump keeps the force of the tick before as `from`
