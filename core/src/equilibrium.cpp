@@ -78,9 +78,9 @@ Mat2 Equilibrium::slope(const Slip& slip) const noexcept {
   return isNegativeDefinite(plain) ? plain : Mat2(-K.norm() * Mat2::Identity());
 }
 
-/// One step along J^-1 T. @return false when there is no step, or no answer where the anchor came to
+/// One step along J^-1 T. @return false when the anchor stays where it was, or has no answer where it came to
 bool Equilibrium::slideOnce(const Slip& slip) noexcept {
-  constexpr double kLongestStep = 2e-3;  // m
+  constexpr double kLongestStep = 2e-3, kShortestStep = 1e-9;  // m
   Vec2 step = -slip.J.inverse() * (slip.T * (slip.excess / slip.T.norm()));
   if (!step.allFinite()) return false;
   step *= std::min(1.0, kLongestStep / std::max(step.norm(), kLongestStep));
@@ -91,7 +91,9 @@ bool Equilibrium::slideOnce(const Slip& slip) noexcept {
   contact_.s = model_.contactSurface().rest(contact_.fine);
   frame_ = surface.frame(contact_.fine);
   contact_.at_border = !went;
-  if (balance()) return true;
+  const bool stayed =
+      !went && (contact_.anchor - model_.surface().position(contact_.s)).norm() < kShortestStep;
+  if (balance()) return !stayed;  // at the border the next step may lead back inside
   contact_ = before;
   frame_ = frame;
   return false;

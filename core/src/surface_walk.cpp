@@ -47,12 +47,6 @@ Exit exitOf(const ContactPoint& s, const Vec3& rate) noexcept {
   return exit;
 }
 
-/// Part of w along an edge.
-Vec3 alongEdge(const std::array<Vec3, 3>& corner, std::size_t edge, const Vec3& w) noexcept {
-  const Vec3 e = (corner[(edge + 2) % 3] - corner[(edge + 1) % 3]).normalized();
-  return e * e.dot(w);
-}
-
 /// Part of v that is normal to the unit vector e, as a unit vector.
 Vec3 across(const Vec3& v, const Vec3& e) noexcept {
   return (v - e * e.dot(v)).normalized();
@@ -124,26 +118,21 @@ void SurfaceMesh::crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to, 
 
 bool SurfaceMesh::move(ContactPoint& s, const Vec3& v, Reach reach) const noexcept PALPATE_NONBLOCKING {
   Vec3 w = intoPlane(v, face_normals_[index(s.triangle)], normal(s));
-  bool arrived = true;
   for (int crossing = 0; crossing <= kMaxCrossings; ++crossing) {
     const Vec3 rate = rates(s.triangle, w);
     const Exit exit = exitOf(s, rate);
     for (std::size_t k = 0; k < 3; ++k)
       s.barycentric[k] = std::max(0.0, s.barycentric[k] + exit.t * rate[static_cast<Eigen::Index>(k)]);
-    if (exit.edge == 3) return arrived;
+    if (exit.edge == 3) return true;
     s.barycentric[exit.edge] = 0.0;
     const double sum = s.barycentric[0] + s.barycentric[1] + s.barycentric[2];
     for (double& weight : s.barycentric) weight /= sum;
     const std::int32_t to = neighbours_[index(s.triangle)][exit.edge];
+    if (reach == Reach::kAccessible && !reachable(to)) return false;
     w *= 1.0 - exit.t;
-    if (reach == Reach::kAccessible && !reachable(to)) {
-      arrived = false;
-      w = alongEdge(corners(s.triangle), exit.edge, w);
-    } else {
-      crossEdge(s, exit.edge, to, w);
-    }
+    crossEdge(s, exit.edge, to, w);
   }
-  return arrived;
+  return true;
 }
 
 bool SurfaceMesh::project(const Vec3& c, ContactPoint& s, double& h) const noexcept PALPATE_NONBLOCKING {

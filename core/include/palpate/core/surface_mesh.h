@@ -78,7 +78,7 @@ class SurfaceMesh {
   [[nodiscard]] SurfaceFrame frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   /// Goes from s over the surface, straight within triangles and turned over at their edges.
   /// @param v  m, normal to n(s): what the way looks like from there. At most kMaxCrossings edges are crossed.
-  /// @return false when it came to the border of what may be reached, and went on along that. Real-time: yes.
+  /// @return false when the way ended earlier, at the border of what may be reached; s is there. Real-time: yes.
   [[nodiscard]] bool move(ContactPoint& s, const Vec3& v, Reach reach) const noexcept PALPATE_NONBLOCKING;
   static constexpr int kMaxCrossings = 32;
   /// The s near `nearest` that c lies straight above, c = X(s) + h n(s) with the interpolated normal n.
