@@ -2,7 +2,6 @@
 #include "palpate/feel/surface_path.h"
 
 #include <algorithm>
-
 #include <cmath>
 #include <numbers>
 
