@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace palpate {
@@ -45,19 +44,45 @@ void findNormals(Draft& draft) {
   for (Vec3& n : draft.normal) n.normalize();
 }
 
-/// One level: the corners' triangles first, the middle one last (child() knows).
+/// One side of a triangle, named by the nodes of its edge, so that the two sides of an edge meet when sorted.
+struct Side {
+  std::int64_t edge;  // smaller node, then larger
+  std::size_t slot;   // 3 triangle + the node that lies opposite
+  friend bool operator<(const Side& a, const Side& b) { return a.edge < b.edge; }
+};
+
+/// The new node on each side of each triangle, [T][3]; adds their positions to `fine`.
+std::vector<std::int32_t> addMiddles(const Draft& coarse, Draft& fine) {
+  constexpr int kHalf = 32;  // bits
+  std::vector<Side> sides;
+  sides.reserve(3 * coarse.triangle.size());
+  for (const auto& node : coarse.triangle)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({node[(k + 1) % 3], node[(k + 2) % 3]});
+      sides.push_back({(std::int64_t{low} << kHalf) | high, sides.size()});
+    }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::int32_t> middles(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (i == 0 || sides[i].edge != sides[i - 1].edge) {
+      const auto low = static_cast<std::int32_t>(sides[i].edge >> kHalf);
+      const auto high = static_cast<std::int32_t>(sides[i].edge & ((std::int64_t{1} << kHalf) - 1));
+      fine.position.push_back(middle(coarse, low, high));
+    }
+    middles[sides[i].slot] = static_cast<std::int32_t>(fine.position.size()) - 1;
+  }
+  return middles;
+}
+
+/// One level: the corners' triangles first, the middle one last.
 Draft divided(const Draft& coarse) {
   Draft fine{coarse.position, {}, {}};
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
-  const auto middleOf = [&](std::int32_t a, std::int32_t b) {
-    const auto [place, is_new] =
-        middles.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(fine.position.size()));
-    if (is_new) fine.position.push_back(middle(coarse, std::min(a, b), std::max(a, b)));
-    return place->second;
-  };
+  const std::vector<std::int32_t> middles = addMiddles(coarse, fine);
   fine.triangle.reserve(4 * coarse.triangle.size());
-  for (const auto& [a, b, c] : coarse.triangle) {
-    const std::int32_t across_a = middleOf(b, c), across_b = middleOf(c, a), across_c = middleOf(a, b);
+  for (std::size_t t = 0; t < coarse.triangle.size(); ++t) {
+    const auto& [a, b, c] = coarse.triangle[t];
+    const std::int32_t across_a = middles[3 * t], across_b = middles[3 * t + 1],
+                       across_c = middles[3 * t + 2];
     fine.triangle.push_back({a, across_c, across_b});
     fine.triangle.push_back({across_c, b, across_a});
     fine.triangle.push_back({across_b, across_a, c});
