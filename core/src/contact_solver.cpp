@@ -44,6 +44,9 @@ bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& c,
   const double reach = tip_radius_ + kHysteresis;
   const SurfaceMesh& surface = model.contactSurface().mesh();
   if ((c - surface.position(contact.fine)).norm() < reach) return false;
+  const double distance = model.surface().closestPoint(c).signed_distance;
+  const double bulge = model.contactSurface().bulge();
+  if (std::abs(distance - reach) > bulge) return distance > reach;
   return surface.closestPoint(c).signed_distance >= reach;
 }
 
@@ -57,14 +60,21 @@ void ContactSolver::release(Contact& contact) noexcept PALPATE_NONBLOCKING {
   contact.at_border = false;
 }
 
-/// Where the tip would touch. @return how high above that point, along its normal, m
+/// Where the tip would touch: found on the rest surface, whose search costs a tenth, where the contact surface cannot
+/// be near enough to matter. @return how high above that point, along its normal there, m
 double ContactSolver::lookFor(const MetaModel& model, const Vec3& c,
                               Contact& contact) const noexcept PALPATE_NONBLOCKING {
   const SurfaceMesh& surface = model.contactSurface().mesh();
-  const NearestPoint nearest = surface.closestPoint(c);
-  contact.fine = nearest.s;
+  const double near = tip_radius_ + model.contactSurface().bulge();
+  NearestPoint nearest = model.surface().closestPoint(c);
+  contact.fine = model.contactSurface().fine(nearest.s);
+  const bool is_near = std::abs(nearest.signed_distance) < near;
+  if (is_near) {
+    nearest = surface.closestPoint(c);
+    contact.fine = nearest.s;
+  }
   double height = nearest.signed_distance;
-  if (height < tip_radius_) (void)surface.project(c, contact.fine, height);
+  if (is_near && height < tip_radius_) (void)surface.project(c, contact.fine, height);
   contact.s = model.contactSurface().rest(contact.fine);
   contact.anchor = model.surface().position(contact.s);
   contact.normal = surface.normal(contact.fine);

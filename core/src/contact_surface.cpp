@@ -92,6 +92,15 @@ Draft divided(const Draft& coarse) {
   return fine;
 }
 
+/// Whether each triangle has an area.
+bool isSound(const Draft& draft) {
+  return std::all_of(draft.triangle.begin(), draft.triangle.end(), [&draft](const auto& node) {
+    const Vec3& X = draft.position[index(node[0])];
+    const double area = (draft.position[index(node[1])] - X).cross(draft.position[index(node[2])] - X).norm();
+    return area > 0.0 && std::isfinite(area);
+  });
+}
+
 Draft draftOf(const ModelView& view, const SurfaceMesh& rest) {
   Draft draft;
   for (int i = 0; i < rest.nodes(); ++i) {
@@ -111,7 +120,9 @@ ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
   constexpr std::size_t kMostTriangles = 300'000;
   Draft draft = draftOf(view, rest);
   while (levels_ < kMostLevels && 4 * draft.triangle.size() <= kMostTriangles) {
-    draft = divided(draft);
+    Draft finer = divided(draft);
+    if (!isSound(finer)) break;
+    draft = std::move(finer);
     ++levels_;
   }
   for (const Vec3& X : draft.position) positions_.insert(positions_.end(), {X.x(), X.y(), X.z()});
@@ -121,6 +132,17 @@ ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
     reachable[t] = rest.reachable(static_cast<std::int32_t>(t >> (2 * levels_))) ? 1 : 0;
   mesh_ =
       std::make_unique<SurfaceMesh>(positions_, triangles_, std::move(draft.normal), std::move(reachable));
+  measureBulge(rest);
+}
+
+/// At the nodes: between them both surfaces are flat over each fine triangle.
+void ContactSurface::measureBulge(const SurfaceMesh& rest) {
+  for (std::int32_t t = 0; t < mesh_->triangles(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      ContactPoint corner{t, {}};
+      corner.barycentric[k] = 1.0;
+      bulge_ = std::max(bulge_, (mesh_->position(corner) - rest.position(this->rest(corner))).norm());
+    }
 }
 
 ContactPoint ContactSurface::rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {

@@ -10,6 +10,8 @@ Vec3 CouplingDamper::force(const Contact& contact, double time_constant,
   constexpr double kSmoothing = 2e-3;  // s: two ticks at 1 kHz, so that a tick without a new pose is no stop
   const Vec3& f = contact.coupled.response.force;
   const bool goes_on = holding_ && !contact.jumped && contact.state != ContactState::kFree;
+  dt += waited_;
+  waited_ = 0.0;
   if (goes_on && dt > 0.0) rate_ += (dt / (dt + kSmoothing)) * ((f - spring_) / dt - rate_);
   if (!goes_on) rate_.setZero();
   spring_ = f;

@@ -112,6 +112,7 @@ bool Equilibrium::slide() noexcept {
   if (!balance()) return false;
   const Response& response = contact_.coupled.response;
   if (!slides() || !response.force.allFinite()) return true;
+  if (contact_.coupled.stiffness.isZero(0.0)) return true;  // beyond a fold: where to slide, nothing says
   int stopped = 0;
   for (int i = 0; i < kMaxSlides; ++i) {
     const Slip now = slip();
@@ -122,6 +123,7 @@ bool Equilibrium::slide() noexcept {
       const Mat2 radial = Mat2::Identity() - now.hold * (Mat2::Identity() - t * t.transpose());
       const Eigen::RowVector3d normal_part = frame_.normal.transpose() * K;
       give_ = -now.J.inverse() * (radial * frame_.tangent.transpose() * K + law_.friction * t * normal_part);
+      if (!give_.allFinite()) give_.setZero();
       contact_.state = ContactState::kSlide;
     }
     if (!slideOnce(now) && ++stopped == 2) break;  // at the border: the first step may have gone too far

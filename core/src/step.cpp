@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "palpate/core/tool_coupling.h"
 
@@ -14,7 +15,11 @@ namespace palpate {
 class Tick {
  public:
   Tick(const MetaModel& model, Workspace& work, const StepInput& input) noexcept
-      : model_(model), work_(work), input_(input), dt_(std::clamp(1e-9 * double(input.dt_ns), 0.0, 0.1)) {}
+      : model_(model),
+        work_(work),
+        input_(input),
+        dt_(std::clamp(1e-9 * double(input.dt_ns), 0.0, 0.1)),
+        shaken_(std::exchange(work.shaken_, false)) {}
 
   [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
 
@@ -37,6 +42,7 @@ class Tick {
   const StepInput& input_;
   double dt_;
   bool jumped_{false};  // some tool's contact did, in this tick
+  bool shaken_;         // some tool's contact did in the tick before: what the others feel of it jumps now
 };
 
 namespace {
@@ -140,7 +146,9 @@ void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) n
   const bool fresh = tool.present != 0 && 1e-9 * double(tool.age_ns) <= work_.config_.stale_timeout;
   const bool usable = fresh && out.flags == 0;
   const bool good = usable && input_.shutting_down == 0 && follow(tool, memory, out);
-  const bool jumped = good && (memory.contact.jumped || memory.was_stale || memory.leapt || !memory.known);
+  const bool itself = good && (memory.contact.jumped || memory.was_stale || memory.leapt || !memory.known);
+  const bool jumped = itself || (good && shaken_ && memory.contact.state != ContactState::kFree);
+  work_.shaken_ = work_.shaken_ || itself;
   if (good) memory.leapt = false;
   if (usable && (out.flags & ~kPoseJump) == 0) {
     memory.age = std::max(0.0, 1e-9 * double(tool.age_ns));
@@ -157,7 +165,9 @@ void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) n
 void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept {
   LimiterInput in;
   const LiveParameters& live = work_.live_.now();
-  if (!held)
+  if (held)
+    memory.damper.wait(dt_);
+  else
     in.force = -memory.damper.force(memory.contact, live.coupling_damping / live.coupling_stiffness, dt_);
   in.stiffness = -memory.contact.stiffness;
   in.force_limit = live.force_limit;
@@ -169,7 +179,10 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
   in.jumped = jumped;
   in.shutting_down = input_.shutting_down != 0;
   const LimitedForce limited = work_.limiter_.limit(in, memory.rendering);
-  if (memory.rendering.gain <= 0.0) ContactSolver::release(memory.contact);
+  if (memory.rendering.gain <= 0.0) {
+    work_.shaken_ = work_.shaken_ || memory.contact.state != ContactState::kFree;
+    ContactSolver::release(memory.contact);
+  }
   out.flags |= limited.flags | memory.contact.flags;
   store(limited.force, out.force);
   for (std::size_t i = 0; i < 9; ++i)

@@ -7,20 +7,6 @@
 
 namespace palpate::testing {
 
-namespace {
-
-/// d_x = 0.003 (x - 1.2 x^2) m, d_y and d_z linear, at every position of a model of order 2.
-void fold(modelfile::ModelData& data) {
-  const std::size_t width = static_cast<std::size_t>(3 * MonomialBasis::size(2));
-  for (std::size_t i = 0; i < data.contact_displacement.size(); i += width) {
-    std::fill_n(data.contact_displacement.begin() + static_cast<std::ptrdiff_t>(i), width, 0.0);
-    for (const std::size_t axis : {0U, 1U, 2U}) data.contact_displacement[i + 4 * axis] = 0.003;
-    data.contact_displacement[i + 9] = -0.0036;  // xx of x
-  }
-}
-
-}  // namespace
-
 TEST(ForceModel, DisplacementIsGradientOfTheComplementaryEnergy) {
   Random random;
   const MetaModel& model = forceModel();

@@ -60,4 +60,19 @@ TEST(ForceModelStep, WhereTheAnswerIsNoNumberTheForceBeforeIsHeldAndFades) {
   EXPECT_EQ(before, Vec3::Zero());
 }
 
+TEST(ForceModelStep, BeyondAFoldTheForceStaysAlsoWhenTheToolIsDraggedAside) {
+  SyntheticOptions options = forceOptions();
+  options.order = 2;
+  const MetaModel folded = spoiled(options, fold);
+  Driver driver(folded);
+  const auto at = [](double depth, double aside) { return Vec3(-0.055 + depth, aside, 0.0); };
+  for (double depth = -0.002; depth < 0.003; depth += 5e-5) driver.at(at(depth, 0.0));
+  for (double aside = 0.0; aside < 0.004; aside += 5e-5) {
+    const ToolResult& tool = driver.at(at(0.003, aside));
+    ASSERT_EQ(tool.flags & kNonFiniteForce, 0U) << aside;
+    ASSERT_NE(tool.flags & kInContact, 0U) << aside;
+    ASSERT_LT(tool.force[0], -0.1) << aside;
+  }
+}
+
 }  // namespace palpate::testing

@@ -11,6 +11,7 @@
 #include "driver.h"
 #include "palpate/core/contact_solver.h"
 #include "palpate/core/coupling.h"
+#include "palpate/core/coupling_damper.h"
 
 namespace palpate::testing {
 
@@ -234,6 +235,45 @@ TEST(Safety, ForceChangesNoFasterThanItsRateLimit) {
     last = vec(r.force);
   }
   EXPECT_TRUE(flagged);
+}
+
+TEST(Coupling, DamperTakesTheTimeThatPassedWithoutAForce) {
+  const auto after = [](int ticks) {  // the force rises by 1 N in so many ms, and only its end is seen
+    CouplingDamper damper;
+    Contact contact;
+    contact.state = ContactState::kStick;
+    contact.normal = Vec3::UnitZ();
+    contact.coupled.response.force = Vec3(0.0, 0.0, -1.0);
+    (void)damper.force(contact, 0.003, 1e-3);
+    for (int i = 1; i < ticks; ++i) damper.wait(1e-3);
+    contact.coupled.response.force = Vec3(0.0, 0.0, -2.0);
+    return -damper.force(contact, 0.003, 1e-3).z() - 2.0;
+  };
+  EXPECT_NEAR(after(1), 0.003 * 1000.0 / 3.0, 1e-12);
+  EXPECT_NEAR(after(10), 0.003 * 100.0 * 10.0 / 12.0, 1e-12);
+}
+
+TEST(Safety, WhatOneToolDoesAtOnceTheOtherDoesNotFeelAtOnce) {
+  Driver driver(organ(), StepConfig{});
+  const auto place = [&driver](std::size_t tool, const Vec3& c, std::int64_t age_ns) {
+    driver.input().tools[tool].present = 1;
+    driver.input().tools[tool].position = {c.x(), c.y(), c.z()};
+    driver.input().tools[tool].age_ns = age_ns;
+  };
+  for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
+  Vec3 last = vec(driver.settle(over(0.0, 0.002)).force);
+  const Vec3 alone = last;
+  double moved = 0.0;
+  for (std::int64_t ms = 0; ms < 200;
+       ++ms) {  // another one appears deep inside, and falls silent after 60 ms
+    place(1, over(0.6, 0.004), std::max<std::int64_t>(0, ms - 60) * 1'000'000);
+    const Vec3 now = vec(driver.at(over(0.0, 0.002)).force);
+    moved = std::max(moved, (now - alone).norm());
+    ASSERT_LT((now - last).norm(), 0.1 * std::max(moved, 0.01)) << ms << " ms";
+    last = now;
+  }
+  EXPECT_GT(moved, 0.005) << "it is felt";
+  EXPECT_LT((last - alone).norm(), 1e-6) << "and forgotten";
 }
 
 TEST(ContactSurface, PointsGoToTheRestSurfaceAndBack) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "palpate/core/contact_surface.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {
@@ -223,6 +224,19 @@ TEST(SurfaceMesh, NodesWithoutAnAnswerAreDroppedAndWeightsRenormalized) {
   EXPECT_TRUE(mesh.accessible(0));
   EXPECT_FALSE(mesh.accessible(2));
   EXPECT_FALSE(mesh.accessible(9)) << "2, 4, 6: a helper alone";
+}
+
+TEST(ContactSurface, OfSharpAndThinShapesHasTrianglesWithAnArea) {
+  for (Shape shape : {box(1.0, 0.6, 0.3), box(1.0, 1.0, 0.001), box(1.0, 1e-4, 1e-4), wedge()}) {
+    const ModelView view = shape.view();
+    const SurfaceMesh rest(view);
+    const ContactSurface surface(view, rest);
+    EXPECT_EQ(surface.mesh().triangles(), rest.triangles() << (2 * surface.levels()));
+    for (int t = 0; t < rest.triangles(); ++t) {
+      const ContactPoint corner{t, {1.0, 0.0, 0.0}};
+      EXPECT_LT((surface.mesh().position(surface.fine(corner)) - rest.position(corner)).norm(), 1e-12);
+    }
+  }
 }
 
 }  // namespace palpate::testing

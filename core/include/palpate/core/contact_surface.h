@@ -22,12 +22,15 @@ namespace palpate {
 /// Built before the loop, then const.
 class ContactSurface {
  public:
-  /// As many levels, at most 4, as give no more than 300,000 triangles.
+  /// As many levels, at most 4, as give no more than 300,000 triangles and
+  /// none without an area (a blade's edge may fold up); 0 is the rest surface itself.
   ContactSurface(const ModelView& view, const SurfaceMesh& rest);
 
   /// The rounded surface; its contact points are "fine" ones.
   [[nodiscard]] const SurfaceMesh& mesh() const noexcept { return *mesh_; }
   [[nodiscard]] int levels() const noexcept { return levels_; }
+  /// Farthest that any of its points lies from the point of the rest surface that it stands for, m.
+  [[nodiscard]] double bulge() const noexcept { return bulge_; }
   /// The point of the rest surface that a fine one stands for. Real-time: yes.
   [[nodiscard]] ContactPoint rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
   /// How much faster the barycentric weights of rest() change than those of a fine point: 2^-levels, or its
@@ -37,9 +40,12 @@ class ContactSurface {
   [[nodiscard]] ContactPoint fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING;
 
  private:
+  void measureBulge(const SurfaceMesh& rest);
+
   std::vector<double> positions_;        // [N][3], m
   std::vector<std::int32_t> triangles_;  // [T 4^levels][3]
   int levels_{0};
+  double bulge_{0.0};                  // m
   std::unique_ptr<SurfaceMesh> mesh_;  // borrows the first two
 };
 

@@ -17,10 +17,13 @@ class CouplingDamper {
   /// last call. Real-time: yes.
   [[nodiscard]] Vec3 force(const Contact& contact, double time_constant,
                            double dt) noexcept PALPATE_NONBLOCKING;
+  /// A tick without a force: the next change of the spring took so much longer. Real-time: yes.
+  void wait(double dt) noexcept PALPATE_NONBLOCKING { waited_ += dt; }
 
  private:
   Vec3 spring_ = Vec3::Zero();  // f of the last tick, N
   Vec3 rate_ = Vec3::Zero();    // df/dt, smoothed, N/s
+  double waited_{0.0};          // s since the last force(), less its dt
   bool holding_{false};         // there was a contact in the last tick
 };
 

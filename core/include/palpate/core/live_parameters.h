@@ -7,7 +7,7 @@
 namespace palpate {
 
 /// Parameters of the tick that may change while it runs; meaning and ranges as in StepConfig. Plain: it crosses
-/// threads. A change is never a jump: step() goes over to the new values within LiveParameters' own ramp.
+/// threads. A change is never a jump: step() goes over to the new values within LiveBlend::kSeconds.
 struct LiveParameters {
   double youngs_modulus{0.0};      ///< E, Pa; 0: the model's own
   double friction{0.0};            ///< mu

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kNonUnitQuaternion =
 inline constexpr std::uint32_t kStalePose =
     1U << 3;  ///< no good pose for stale_timeout; the force ramps to zero
 inline constexpr std::uint32_t kBeyondDomain =
-    1U << 4;  ///< d is beyond what the model answers: that of the nearest d, f or level is given
+    1U << 4;  ///< d is beyond what the model answers: the force goes on, or is that of the nearest f or level
 /// |f| above the force limit; direction kept, size cut
 inline constexpr std::uint32_t kForceLimited = 1U << 5;
 inline constexpr std::uint32_t kNotAccessible =

@@ -26,7 +26,7 @@ struct StepInput {
   std::int64_t dt_ns{1'000'000};      ///< since the last tick, ns; taken as 0 to 0.1 s
   std::int64_t period_ns{1'000'000};  ///< of the loop: what is sent now stands until it is replaced, ns
   std::uint32_t shutting_down{0};     ///< not 0: ramp every force to zero within ramp_time and stay there
-  /// not 0: go over to `live`, within 0.1 s. 0: the parameters stay as they are (at first StepConfig's)
+  /// not 0: go over to `live`, within LiveBlend::kSeconds. 0: the parameters stay as they are (at first StepConfig's)
   std::uint32_t has_live{0};
   LiveParameters live;  ///< checked by the caller: firstComplaint() is empty
 };
