@@ -133,6 +133,7 @@ ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
   mesh_ =
       std::make_unique<SurfaceMesh>(positions_, triangles_, std::move(draft.normal), std::move(reachable));
   measureBulge(rest);
+  findSlopes(rest);
 }
 
 /// At the nodes: between them both surfaces are flat over each fine triangle.
@@ -143,6 +144,39 @@ void ContactSurface::measureBulge(const SurfaceMesh& rest) {
       corner.barycentric[k] = 1.0;
       bulge_ = std::max(bulge_, (mesh_->position(corner) - rest.position(this->rest(corner))).norm());
     }
+}
+
+/// Of each triangle, sum_k v_k grad lambda_k; of a node, those round it, weighted by their areas.
+void ContactSurface::findSlopes(const SurfaceMesh& rest) {
+  slopes_.resize(positions_.size() / 3);
+  for (std::int32_t t = 0; t < mesh_->triangles(); ++t) {
+    const std::array<Vec3, 3> X = mesh_->corners(t);
+    const Vec3 face = (X[1] - X[0]).cross(X[2] - X[0]).normalized();
+    const std::int32_t* const node = triangles_.data() + 3 * index(t);
+    Mat3 normal = Mat3::Zero(), to_rest = Mat3::Zero();  // times twice the area
+    for (std::size_t k = 0; k < 3; ++k) {
+      ContactPoint corner{t, {}};
+      corner.barycentric[k] = 1.0;
+      const Vec3 gradient = face.cross(X[(k + 2) % 3] - X[(k + 1) % 3]);
+      normal += mesh_->nodeNormal(node[k]) * gradient.transpose();
+      to_rest += rest.position(this->rest(corner)) * gradient.transpose();
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      slopes_[index(node[k])].normal += normal.cast<float>();
+      slopes_[index(node[k])].rest += to_rest.cast<float>();
+    }
+  }
+  std::vector<float> weight(slopes_.size(), 0.0F);
+  for (std::int32_t t = 0; t < mesh_->triangles(); ++t) {
+    const std::array<Vec3, 3> X = mesh_->corners(t);
+    const double twice = (X[1] - X[0]).cross(X[2] - X[0]).norm();
+    for (std::size_t k = 0; k < 3; ++k)
+      weight[index(triangles_[3 * index(t) + k])] += static_cast<float>(twice);
+  }
+  for (std::size_t i = 0; i < slopes_.size(); ++i) {
+    slopes_[i].normal /= weight[i];
+    slopes_[i].rest /= weight[i];
+  }
 }
 
 ContactPoint ContactSurface::rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
@@ -157,11 +191,22 @@ ContactPoint ContactSurface::rest(const ContactPoint& fine) const noexcept PALPA
   return s;
 }
 
-double ContactSurface::restRate(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
-  double rate = 1.0;
-  std::int32_t triangle = fine.triangle;
-  for (int level = 0; level < levels_; ++level, triangle /= 4) rate *= triangle % 4 == 3 ? -0.5 : 0.5;
-  return rate;
+SurfaceFrame ContactSurface::frame(const SurfaceMesh& rest,
+                                   const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
+  SurfaceFrame frame = mesh_->frame(fine);
+  Mat3 normal = Mat3::Zero(), to_rest = Mat3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Slope& slope = slopes_[index(triangles_[3 * index(fine.triangle) + k])];
+    normal += fine.barycentric[k] * slope.normal.cast<double>();
+    to_rest += fine.barycentric[k] * slope.rest.cast<double>();
+  }
+  const std::int32_t rest_triangle = this->rest(fine).triangle;
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const Vec3 turning = normal * frame.tangent.col(i);
+    frame.turning.col(i) = turning - frame.normal * frame.normal.dot(turning);
+    frame.rates.col(i) = rest.rates(rest_triangle, to_rest * frame.tangent.col(i));
+  }
+  return frame;
 }
 
 ContactPoint ContactSurface::fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING {

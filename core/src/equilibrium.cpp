@@ -23,18 +23,16 @@ Equilibrium::Equilibrium(const MetaModel& model, const ContactLaw& law, double t
       tip_radius_(tip_radius),
       c_(c),
       contact_(contact),
-      frame_(model.contactSurface().mesh().frame(contact.fine)) {}
+      frame_(model.contactSurface().frame(model.surface(), contact.fine)) {}
 
 bool Equilibrium::balance() noexcept {
   const Vec3 g = c_ - frame_.position - tip_radius_ * frame_.normal;
   CoupledResponse& coupled = contact_.coupled;
   const PatchResponse patch(model_, contact_.s);
   const ResponseStatus status = couple(patch, g, contact_.carried, law_, coupled);
-  if (slides()) {
-    const double rate = model_.contactSurface().restRate(contact_.fine);
+  if (slides())
     energy_slope_ =
-        (law_.stiffness_scale * rate) * (frame_.rates.transpose() * patch.energySlope(coupled.displacement));
-  }
+        law_.stiffness_scale * (frame_.rates.transpose() * patch.energySlope(coupled.displacement));
   contact_.anchor = model_.surface().position(contact_.s);
   contact_.normal = frame_.normal;
   contact_.imposed = g;
@@ -78,18 +76,22 @@ Mat2 Equilibrium::slope(const Slip& slip) const noexcept {
   return isNegativeDefinite(plain) ? plain : Mat2(-K.norm() * Mat2::Identity());
 }
 
-/// One step along J^-1 T. @return false when the anchor stays where it was, or has no answer where it came to
-bool Equilibrium::slideOnce(const Slip& slip) noexcept {
-  constexpr double kLongestStep = 2e-3, kShortestStep = 1e-9;  // m
-  Vec2 step = -slip.J.inverse() * (slip.T * (slip.excess / slip.T.norm()));
+Vec2 Equilibrium::stepOf(const Slip& slip) noexcept {
+  constexpr double kLongestStep = 2e-3;  // m
+  const Vec2 step = -slip.J.inverse() * (slip.T * (slip.excess / slip.T.norm()));
+  return step * std::min(1.0, kLongestStep / std::max(step.norm(), kLongestStep));
+}
+
+/// Moves the anchor. @return false when it stays where it was, or has no answer where it came to
+bool Equilibrium::slideBy(const Vec2& step) noexcept {
+  constexpr double kShortestStep = 1e-9;  // m
   if (!step.allFinite()) return false;
-  step *= std::min(1.0, kLongestStep / std::max(step.norm(), kLongestStep));
   const Contact before = contact_;
   const SurfaceFrame frame = frame_;
   const SurfaceMesh& surface = model_.contactSurface().mesh();
   const bool went = surface.move(contact_.fine, frame_.tangent * step, Reach::kAccessible);
   contact_.s = model_.contactSurface().rest(contact_.fine);
-  frame_ = surface.frame(contact_.fine);
+  frame_ = model_.contactSurface().frame(model_.surface(), contact_.fine);
   contact_.at_border = !went;
   const bool stayed =
       !went && (contact_.anchor - model_.surface().position(contact_.s)).norm() < kShortestStep;
@@ -114,21 +116,46 @@ bool Equilibrium::slide() noexcept {
   if (!slides() || !response.force.allFinite()) return true;
   if (contact_.coupled.stiffness.isZero(0.0)) return true;  // beyond a fold: where to slide, nothing says
   int stopped = 0;
-  for (int i = 0; i < kMaxSlides; ++i) {
-    const Slip now = slip();
-    if (!(now.excess > kTolerance * response.force.norm() + kLeastForce)) break;
+  Slip now = slip();
+  for (int i = 0; i < kMaxSlides && now.excess > kTolerance * response.force.norm() + kLeastForce; ++i) {
     if (i == 0) {
-      const Mat3& K = contact_.coupled.stiffness;
-      const Vec2 t = now.T.normalized();
-      const Mat2 radial = Mat2::Identity() - now.hold * (Mat2::Identity() - t * t.transpose());
-      const Eigen::RowVector3d normal_part = frame_.normal.transpose() * K;
-      give_ = -now.J.inverse() * (radial * frame_.tangent.transpose() * K + law_.friction * t * normal_part);
-      if (!give_.allFinite()) give_.setZero();
+      giveWay(now);
       contact_.state = ContactState::kSlide;
     }
-    if (!slideOnce(now) && ++stopped == 2) break;  // at the border: the first step may have gone too far
+    const Vec2 step = stepOf(now);
+    const Start start{contact_, frame_, energy_slope_};
+    if (!slideBy(step) && ++stopped == 2) break;  // at the border: the first step may have gone too far
+    now = landed(start, now, step);
   }
   return true;
+}
+
+/// A step that went past the cone, where friction would hold what did not move so far, is cut short: by the rule of
+/// false position, to the edge of the cone.
+Equilibrium::Slip Equilibrium::landed(const Start& start, const Slip& from, const Vec2& step) noexcept {
+  constexpr int kMaxCuts = 4;
+  constexpr double kInside = 1e-3;  // of |f|
+  Slip now = slip();
+  double share = 1.0;
+  for (int i = 0; i < kMaxCuts && now.excess < -kInside * contact_.coupled.response.force.norm(); ++i) {
+    share *= std::clamp(from.excess / (from.excess - now.excess), 0.1, 0.9);
+    contact_ = start.contact;
+    frame_ = start.frame;
+    energy_slope_ = start.energy_slope;
+    if (!slideBy(share * step)) break;
+    now = slip();
+  }
+  return now;
+}
+
+/// d xi / dc of an anchor that slides, as the law has it at the begin.
+void Equilibrium::giveWay(const Slip& now) noexcept {
+  const Mat3& K = contact_.coupled.stiffness;
+  const Vec2 t = now.T.normalized();
+  const Mat2 radial = Mat2::Identity() - now.hold * (Mat2::Identity() - t * t.transpose());
+  const Eigen::RowVector3d normal_part = frame_.normal.transpose() * K;
+  give_ = -now.J.inverse() * (radial * frame_.tangent.transpose() * K + law_.friction * t * normal_part);
+  if (!give_.allFinite()) give_.setZero();
 }
 
 Mat3 Equilibrium::stiffness() const noexcept {

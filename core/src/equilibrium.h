@@ -40,7 +40,16 @@ class Equilibrium {
   [[nodiscard]] Vec2 perTip(const Vec2& force) const noexcept;
   [[nodiscard]] Mat2 slope(const Slip& slip) const noexcept;
   [[nodiscard]] bool slides() const noexcept;
-  bool slideOnce(const Slip& slip) noexcept;
+  /// Where a step begins.
+  struct Start {
+    Contact contact;
+    SurfaceFrame frame;
+    Vec2 energy_slope;
+  };
+  [[nodiscard]] static Vec2 stepOf(const Slip& slip) noexcept;
+  bool slideBy(const Vec2& step) noexcept;
+  Slip landed(const Start& start, const Slip& from, const Vec2& step) noexcept;
+  void giveWay(const Slip& now) noexcept;
 
   const MetaModel& model_;
   const ContactLaw& law_;

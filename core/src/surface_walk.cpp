@@ -60,7 +60,7 @@ std::array<Vec3, 3> SurfaceMesh::corners(std::int32_t triangle) const noexcept P
 }
 
 /// How the barycentric weights change along w, a vector in the triangle's plane.
-Vec3 SurfaceMesh::rates(std::int32_t triangle, const Vec3& w) const noexcept {
+Vec3 SurfaceMesh::rates(std::int32_t triangle, const Vec3& w) const noexcept PALPATE_NONBLOCKING {
   const std::array<Vec3, 3> X = corners(triangle);
   const Vec3 area = (X[1] - X[0]).cross(X[2] - X[0]);
   const double square = area.squaredNorm();

@@ -263,15 +263,16 @@ TEST(Safety, WhatOneToolDoesAtOnceTheOtherDoesNotFeelAtOnce) {
   for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
   Vec3 last = vec(driver.settle(over(0.0, 0.002)).force);
   const Vec3 alone = last;
-  double moved = 0.0;
+  double moved = 0.0, largest_step = 0.0;
   for (std::int64_t ms = 0; ms < 200;
        ++ms) {  // another one appears deep inside, and falls silent after 60 ms
     place(1, over(0.6, 0.004), std::max<std::int64_t>(0, ms - 60) * 1'000'000);
     const Vec3 now = vec(driver.at(over(0.0, 0.002)).force);
     moved = std::max(moved, (now - alone).norm());
-    ASSERT_LT((now - last).norm(), 0.1 * std::max(moved, 0.01)) << ms << " ms";
+    largest_step = std::max(largest_step, (now - last).norm());
     last = now;
   }
+  EXPECT_LT(largest_step, 0.1 * moved) << "a ramp takes 30 ms";
   EXPECT_GT(moved, 0.005) << "it is felt";
   EXPECT_LT((last - alone).norm(), 1e-6) << "and forgotten";
 }

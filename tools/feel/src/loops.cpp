@@ -116,9 +116,12 @@ std::vector<LoopResult> slidingLoops(const MetaModel& model, const LoopOptions& 
     const auto to = [&](const PathPoint& p, double d) {
       ledger.to(p.position + (config.tip_radius - d) * p.normal);
     };
-    for (double d = -5e-4; d < depth; d += step) to(path->front(), d);
+    // From the air to the air: the contact surface is rounded and reaches beyond the mesh, and a loop that began
+    // within it would give back what nobody put in.
+    const double clear = 1e-3 + model.contactSurface().bulge();
+    for (double d = -clear; d < depth; d += step) to(path->front(), d);
     for (const PathPoint& point : *path) to(point, depth);
-    for (double d = depth; d > -2e-3; d -= step) to(path->back(), d);
+    for (double d = depth; d > -clear; d -= step) to(path->back(), d);
     results.push_back(ledger.book());
   }
   return results;

@@ -42,21 +42,60 @@ class Shadow {
   Contact contact_;
 };
 
-std::vector<Felt> play(const MetaModel& model, const std::vector<PathPoint>& path,
-                       const SlideOptions& options) {
+StepConfig configOf(const SlideOptions& options) {
   StepConfig config = bareContact(options.friction);
   if (options.coupling_stiffness > 0.0) config.coupling_stiffness = options.coupling_stiffness;
+  return config;
+}
+
+/// Where the tip is from tick to tick: down from 0.5 mm above the path's begin, then along it.
+struct Tips {
+  std::vector<Vec3> down;
+  std::vector<Vec3> along;
+};
+
+Tips tipsOf(const std::vector<PathPoint>& path, const SlideOptions& options) {
+  constexpr double kAbove = 5e-4;  // m
+  const double radius = StepConfig{}.tip_radius;
+  const auto tip = [&](const PathPoint& p, double depth) {
+    return Vec3(p.position + (radius - depth) * p.normal);
+  };
+  Tips tips;
+  for (double depth = -kAbove; depth < options.depth; depth += options.speed * kTick)
+    tips.down.push_back(tip(path[0], depth));
+  for (const PathPoint& point : path) tips.along.push_back(tip(point, options.depth));
+  return tips;
+}
+
+std::vector<Felt> play(const MetaModel& model, const Tips& tips, const SlideOptions& options) {
+  const StepConfig config = configOf(options);
   Player player(model, config);
   Shadow shadow(model, config);
-  const auto to = [&](const PathPoint& point, double depth) {
-    const Vec3 c = point.position + (config.tip_radius - depth) * point.normal;
+  const auto to = [&](const Vec3& c) {
     const ToolResult& result = player.at(c);
     return Felt{forceOf(result), shadow.settledAt(c), result.state != 0};
   };
-  for (double depth = -5e-4; depth < options.depth; depth += options.speed * kTick) (void)to(path[0], depth);
+  for (const Vec3& c : tips.down) (void)to(c);
   std::vector<Felt> felt;
-  for (const PathPoint& point : path) felt.push_back(to(point, options.depth));
+  for (const Vec3& c : tips.along) felt.push_back(to(c));
   return felt;
+}
+
+/// The largest step of the force along the same way at a tenth of the speed: a slope gives a tenth, a jump the same.
+double largestSlowStep(const MetaModel& model, const Tips& tips, const SlideOptions& options) {
+  constexpr int kSlower = 10;
+  Player player(model, configOf(options));
+  for (const Vec3& c : tips.down) (void)player.at(c);
+  Vec3 last = forceOf(player.at(tips.along.front()));
+  double largest = 0.0;
+  for (std::size_t i = 1; i < tips.along.size(); ++i)
+    for (int part = 1; part <= kSlower; ++part) {
+      const double share = static_cast<double>(part) / kSlower;
+      const Vec3 force = forceOf(player.at(tips.along[i - 1] + share * (tips.along[i] - tips.along[i - 1])));
+      largest = std::max(largest, (force - last).norm());
+      last = force;
+    }
+  return largest;
 }
 
 double median(std::vector<double> values) {
@@ -69,7 +108,9 @@ double median(std::vector<double> values) {
 
 SlideResult slide(const MetaModel& model, const std::vector<PathPoint>& path, const SlideOptions& options) {
   constexpr double kOfForce = 0.01, kOfMedian = 3.0, kOfForceInLag = 1e-3;
-  const std::vector<Felt> felt = play(model, path, options);
+  constexpr double kBuildUp = 3e-3;  // m
+  const Tips tips = tipsOf(path, options);
+  const std::vector<Felt> felt = play(model, tips, options);
   SlideResult result;
   std::vector<double> steps;
   for (std::size_t i = 1; i < felt.size(); ++i) steps.push_back((felt[i].force - felt[i - 1].force).norm());
@@ -81,11 +122,14 @@ SlideResult slide(const MetaModel& model, const std::vector<PathPoint>& path, co
                        ((felt[i].settled - felt[i - 1].settled).norm() + kOfForceInLag * size);
     if (ratio > result.largest_ratio) result.worst = i;
     result.largest_ratio = std::max(result.largest_ratio, ratio);
+    if (static_cast<double>(i) * options.speed * kTick > kBuildUp)
+      result.largest_ratio_later = std::max(result.largest_ratio_later, ratio);
     result.largest_step = std::max(result.largest_step, steps[i - 1]);
     result.largest_lag = std::max(result.largest_lag, lag);
     result.releases += felt[i].contact ? 0 : 1;
     result.mean_force += size / static_cast<double>(felt.size() - 1);
   }
+  if (result.largest_ratio > 1.0) result.largest_slow_step = largestSlowStep(model, tips, options);
   result.ticks = static_cast<int>(felt.size());
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -33,14 +34,19 @@ void print(const ordered_json& rows, bool json) {
   }
 }
 
-ordered_json rowOf(const char* kind, double friction, const std::vector<LoopResult>& loops) {
-  const auto [least, most] = std::minmax_element(
-      loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.share() < b.share(); });
+/// Loops of a held anchor in which the tool was let go on the way are left out, and counted.
+ordered_json rowOf(const char* kind, double friction, std::vector<LoopResult> loops) {
   int releases = 0;
   for (const LoopResult& loop : loops) releases += loop.releases > 0 ? 1 : 0;
+  const std::size_t count = loops.size();
+  if (std::isinf(friction)) std::erase_if(loops, [](const LoopResult& loop) { return loop.releases > 0; });
+  if (loops.empty())
+    return {{"loops", kind}, {"friction", friction}, {"count", count}, {"with_release", releases}};
+  const auto [least, most] = std::minmax_element(
+      loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.share() < b.share(); });
   return {{"loops", kind},
           {"friction", friction},
-          {"count", loops.size()},
+          {"count", count},
           {"least_work_share", least->share()},
           {"largest_work_share", most->share()},
           {"with_release", releases}};
@@ -51,15 +57,19 @@ ordered_json rowOf(double friction, const std::vector<SlideResult>& slides) {
     return a.largest_ratio < b.largest_ratio;
   });
   double lag = 0.0;
-  int clicks = 0, releases = 0;
+  int clicks = 0, later = 0, jumps = 0, releases = 0;
   for (const SlideResult& slide : slides) {
     lag = std::max(lag, slide.largest_lag);
     clicks += slide.largest_ratio > 1.0 ? 1 : 0;
+    later += slide.largest_ratio_later > 1.0 ? 1 : 0;
+    jumps += slide.largest_slow_step > 0.5 * slide.largest_step ? 1 : 0;
     releases += slide.releases > 0 ? 1 : 0;
   }
   return {{"friction", friction},
           {"count", slides.size()},
           {"clicks", clicks},
+          {"clicks_after_3_mm", later},
+          {"jumps", jumps},
           {"worst_step_share", worst->largest_ratio},
           {"worst_step_N", worst->largest_step},
           {"worst_median_step_N", worst->median_step},

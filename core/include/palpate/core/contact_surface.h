@@ -33,20 +33,29 @@ class ContactSurface {
   [[nodiscard]] double bulge() const noexcept { return bulge_; }
   /// The point of the rest surface that a fine one stands for. Real-time: yes.
   [[nodiscard]] ContactPoint rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
-  /// How much faster the barycentric weights of rest() change than those of a fine point: 2^-levels, or its
-  /// negative in a triangle that lies the other way round. Real-time: yes.
-  [[nodiscard]] double restRate(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
+  /// SurfaceMesh::frame() of a fine point, but continuous over edges: `turning` and `rates` are the triangles' averaged at
+  /// their nodes and mixed barycentrically, `rates` those of the rest point's weights.
+  /// @param rest  the surface that this one was made from. Real-time: yes.
+  [[nodiscard]] SurfaceFrame frame(const SurfaceMesh& rest,
+                                   const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
   /// The fine point that stands for one of the rest surface. Real-time: yes.
   [[nodiscard]] ContactPoint fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING;
 
  private:
+  /// What changes along the surface, at a node.
+  struct Slope {
+    Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();  // dn/dX, 1/m
+    Eigen::Matrix3f rest = Eigen::Matrix3f::Zero();    // d(rest point)/dX
+  };
   void measureBulge(const SurfaceMesh& rest);
+  void findSlopes(const SurfaceMesh& rest);
 
   std::vector<double> positions_;        // [N][3], m
   std::vector<std::int32_t> triangles_;  // [T 4^levels][3]
   int levels_{0};
   double bulge_{0.0};                  // m
   std::unique_ptr<SurfaceMesh> mesh_;  // borrows the first two
+  std::vector<Slope> slopes_;          // [N]
 };
 
 }  // namespace palpate

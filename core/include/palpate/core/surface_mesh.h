@@ -87,6 +87,9 @@ class SurfaceMesh {
   /// edge or deep inside. Real-time: yes.
   [[nodiscard]] bool project(const Vec3& c, ContactPoint& s, double& h) const noexcept PALPATE_NONBLOCKING;
 
+  /// d lambda: how a triangle's barycentric weights change along w, as far as it lies in the triangle's plane.
+  /// @param w  m. Real-time: yes.
+  [[nodiscard]] Vec3 rates(std::int32_t triangle, const Vec3& w) const noexcept PALPATE_NONBLOCKING;
   /// Rest positions of a triangle's nodes, m. Real-time: yes.
   [[nodiscard]] std::array<Vec3, 3> corners(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// Each of the triangle's nodes has a contact position. Real-time: yes.
@@ -97,7 +100,6 @@ class SurfaceMesh {
 
  private:
   [[nodiscard]] Vec3 nodePosition(std::int32_t node) const noexcept;
-  [[nodiscard]] Vec3 rates(std::int32_t triangle, const Vec3& w) const noexcept;
   void crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to, Vec3& w) const noexcept;
   void buildFaceNormals();
   void buildNodeNormals();
