@@ -9,6 +9,8 @@ namespace palpate {
 
 namespace {
 
+constexpr double kSmallForce = 1e-3;  // N, less than a device shows
+
 /// Whether the organ would have to pull the tool, or gives no force to one that is withdrawn: a load that only
 /// pushes (Parameters::kLevel) cannot pull. What is no number does not pull: it is left for the tick to find.
 bool pulls(const Contact& contact) noexcept {
@@ -19,10 +21,18 @@ bool pulls(const Contact& contact) noexcept {
 
 /// Lets go. What is left of the force, along the surface, is a jump.
 void letGo(Contact& contact) noexcept {
-  constexpr double kSmallForce = 1e-3;  // N, less than a device shows
   const bool felt = !(contact.coupled.response.force.norm() < kSmallForce);
   ContactSolver::release(contact);
   contact.jumped = felt;
+}
+
+/// Whether the tip has come no deeper than it could in one tick, and what it feels is owed to that. In the dent of
+/// another tool the tangent there may give it some force at once.
+bool beganSoftly(const Contact& contact) noexcept {
+  constexpr double kDeep = 1e-3;  // m; from outside a tool has to be faster than 1 m/s for that
+  const double depth = (contact.imposed - contact.carried.constant).norm();
+  const double owed = contact.coupled.stiffness.norm() * depth;
+  return depth <= kDeep && contact.coupled.response.force.norm() <= owed + kSmallForce;
 }
 
 }  // namespace
@@ -42,12 +52,13 @@ bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& c,
                             const Contact& contact) const noexcept PALPATE_NONBLOCKING {
   constexpr double kHysteresis = 5e-4;  // m beyond the capture distance, so that noise does not toggle
   const double reach = tip_radius_ + kHysteresis;
+  const Vec3 at_rest = c - contact.carried.at(contact.coupled.displacement);
   const SurfaceMesh& surface = model.contactSurface().mesh();
-  if ((c - surface.position(contact.fine)).norm() < reach) return false;
-  const double distance = model.surface().closestPoint(c).signed_distance;
+  if ((at_rest - surface.position(contact.fine)).norm() < reach) return false;
+  const double distance = model.surface().closestPoint(at_rest).signed_distance;
   const double bulge = model.contactSurface().bulge();
   if (std::abs(distance - reach) > bulge) return distance > reach;
-  return surface.closestPoint(c).signed_distance >= reach;
+  return surface.closestPoint(at_rest).signed_distance >= reach;
 }
 
 void ContactSolver::release(Contact& contact) noexcept PALPATE_NONBLOCKING {
@@ -83,11 +94,11 @@ double ContactSolver::lookFor(const MetaModel& model, const Vec3& c,
 
 void ContactSolver::tryCapture(const MetaModel& model, const ContactLaw& law, const Vec3& c,
                                Contact& contact) const noexcept PALPATE_NONBLOCKING {
-  constexpr double kDeepCapture = 1e-3;  // m; from outside a tool has to be faster than 1 m/s for that
   const bool was_overlapping = contact.overlapping;
   release(contact);
-  const double height = lookFor(model, c, contact);
-  contact.overlapping = height < tip_radius_ + contact.carried.dot(contact.normal);
+  const double height =
+      lookFor(model, c - contact.carried.constant, contact);  // as other tools displaced the surface
+  contact.overlapping = height < tip_radius_;
   if (!contact.overlapping) return;
   if (!model.surface().reachable(contact.s.triangle)) {
     contact.flags = kNotAccessible;
@@ -97,7 +108,7 @@ void ContactSolver::tryCapture(const MetaModel& model, const ContactLaw& law, co
   hold(model, law, c, contact);
   if (contact.state == ContactState::kFree) return;
   contact.overlapping = false;
-  contact.jumped = was_overlapping || contact.imposed.norm() > kDeepCapture;
+  contact.jumped = was_overlapping || !beganSoftly(contact);
 }
 
 void ContactSolver::hold(const MetaModel& model, const ContactLaw& law, const Vec3& c,

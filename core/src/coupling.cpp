@@ -7,17 +7,18 @@ namespace palpate {
 
 namespace {
 
-/// r(d) = d + (f(s, d) - df/dd e) / K_vc - g, and the answer that it belongs to.
+/// r(d) = d + (f(s, d) - df/dd e(d)) / K_vc - g, and the answer that it belongs to.
 class Balance {
  public:
-  Balance(const PatchResponse& patch, const Vec3& g, const Vec3& carried, double compliance) noexcept
+  Balance(const PatchResponse& patch, const Vec3& g, const Carried& carried, double compliance) noexcept
       : patch_(patch), g_(g), carried_(carried), compliance_(compliance) {}
 
   /// Evaluates at d. @return whether the organ has an answer
   bool moveTo(const Vec3& d) noexcept {
     displacement = d;
     status = patch_.at(d, response);
-    response.force -= response.stiffness * carried_;
+    response.force -= response.stiffness * carried_.at(d);
+    response.stiffness -= (response.stiffness * carried_.slope).eval();
     residual = d + compliance_ * response.force - g_;
     return status != ResponseStatus::kNoAnswer;
   }
@@ -30,7 +31,8 @@ class Balance {
 
  private:
   const PatchResponse& patch_;
-  Vec3 g_, carried_;
+  Vec3 g_;
+  Carried carried_;
   double compliance_;
 };
 
@@ -49,8 +51,8 @@ bool improve(Balance& balance) noexcept {
 
 }  // namespace
 
-ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const Vec3& carried, const ContactLaw& law,
-                      CoupledResponse& out) noexcept PALPATE_NONBLOCKING {
+ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const Carried& carried,
+                      const ContactLaw& law, CoupledResponse& out) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxSteps = 8;
   constexpr double kTolerance = 1e-9;  // of |g|
   const double compliance = law.compliance * law.stiffness_scale;

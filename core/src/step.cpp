@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "palpate/core/tool_coupling.h"
+#include "tool_group.h"
 
 namespace palpate {
 
@@ -27,7 +28,6 @@ class Tick {
   [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept;
   [[nodiscard]] bool leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept;
   [[nodiscard]] ContactLaw law() const noexcept;
-  void feelEachOther() noexcept;
   void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
@@ -88,31 +88,6 @@ bool Tick::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept
 ContactLaw Tick::law() const noexcept {
   const LiveParameters& live = work_.live_.now();
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
-}
-
-/// What each tool's patch is displaced by the others, by the contacts as the last tick left them (tool_coupling.h).
-void Tick::feelEachOther() noexcept {
-  std::array<ContactPoint, kMaxTools> s;
-  std::array<Vec3, kMaxTools> d, own;
-  std::array<Contact*, kMaxTools> pressing{};
-  std::size_t count = 0;
-  for (ToolMemory& memory : work_.tools_) {
-    memory.contact.carried.setZero();
-    if (memory.contact.state == ContactState::kFree) continue;
-    s[count] = memory.contact.s;
-    d[count] = memory.contact.coupled.displacement;
-    pressing[count++] = &memory.contact;
-  }
-  if (count == 0) return;
-  ownDisplacements(model_, std::span(s).first(count), std::span(d).first(count), work_.scratch_, own);
-  for (std::size_t i = 0; i < count; ++i) pressing[i]->carried = d[i] - own[i];
-  for (ToolMemory& memory : work_.tools_) {
-    if (!memory.known || memory.contact.state != ContactState::kFree || memory.contact.s.triangle < 0)
-      continue;
-    for (std::size_t i = 0; i < count; ++i)
-      for (const FieldSource& source : ownField(model_, s[i], d[i], own[i]))
-        memory.contact.carried += patchDisplacement(model_, source, memory.contact.s, work_.scratch_);
-  }
 }
 
 /// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
@@ -219,11 +194,12 @@ void Tick::evaluate(StepResult& result) noexcept {
     const Contact& contact = memory.contact;
     if (contact.state == ContactState::kFree) continue;
     const Vec3& d = contact.coupled.displacement;
-    if (contact.carried == Vec3::Zero()) {
+    const Vec3 carried = contact.carried.at(d);
+    if (carried == Vec3::Zero()) {
       sources[count++] = {contact.s, contact.coupled.response.parameter, memory.rendering.gain};
       continue;
     }
-    for (FieldSource source : ownField(model_, contact.s, d, d - contact.carried)) {
+    for (FieldSource source : ownField(model_, contact.s, d, d - carried)) {
       source.gain *= memory.rendering.gain;
       sources[count++] = source;
     }
@@ -252,8 +228,12 @@ void Tick::report(const ToolMemory& memory, ToolResult& out) const noexcept {
 StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   result = StepResult{};
   work_.live_.advance(input_.has_live != 0 ? input_.live : work_.live_.target(), dt_);
-  feelEachOther();
-  for (std::size_t i = 0; i < kMaxTools; ++i) advance(input_.tools[i], work_.tools_[i], result.tools[i]);
+  ToolGroup group(model_, work_.tools_, work_.scratch_);
+  group.feelEachOther();
+  for (std::size_t i = 0; i < kMaxTools; ++i) {
+    advance(input_.tools[i], work_.tools_[i], result.tools[i]);
+    group.hasMoved(i);
+  }
   deform(result);
   std::uint32_t flags = 0;
   for (std::size_t i = 0; i < kMaxTools; ++i) {

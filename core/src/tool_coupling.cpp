@@ -6,7 +6,6 @@
 #include <array>
 
 #include "load_driven.h"
-#include "palpate/core/workspace.h"
 
 namespace palpate {
 
@@ -102,18 +101,19 @@ class Influence {
   std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3> slope_;  // dphi/dd_i
 };
 
-/// The y of slope y = r that leaves least, at a price for its length. Repeated with what is left, so that only
+/// The X of slope X = 1 that leaves least, at a price for its length. Repeated with what is left, so that only
 /// what is nearly impossible pays it: of a direction that slope shrinks to a tenth 2e-8, to a hundredth 1 %.
-Numbers damped(const Table& slope, const Numbers& r) noexcept {
+Table dampedInverse(const Table& slope) noexcept {
   constexpr double kDamping = 0.005;
   constexpr int kRounds = 3;
   Table normal = slope.transpose() * slope;
   normal.diagonal().array() += kDamping * kDamping;
   const Eigen::LDLT<Table> factor(normal);
-  Numbers y = Numbers::Zero(r.size());
+  const Table one = Table::Identity(slope.rows(), slope.cols());
+  Table inverse = Table::Zero(slope.rows(), slope.cols());
   for (int round = 0; round < kRounds; ++round)
-    y += factor.solve(Numbers(slope.transpose() * (r - slope * y)));
-  return y;
+    inverse += factor.solve(Table(slope.transpose() * (one - slope * inverse)));
+  return inverse;
 }
 
 }  // namespace
@@ -141,9 +141,12 @@ FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
 }
 
 void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                      FieldScratch& scratch, std::span<Vec3> own) noexcept PALPATE_NONBLOCKING {
+                      FieldScratch& scratch, std::span<Vec3> own,
+                      InfluenceTable* influence) noexcept PALPATE_NONBLOCKING {
   const std::size_t tools = std::min<std::size_t>(s.size(), kMaxTools);
   std::copy(d.begin(), d.end(), own.begin());
+  if (influence != nullptr)
+    for (auto& row : *influence) row.fill(Mat3::Zero());
   double length = 0.0;
   for (const Vec3& prescribed : d) length = std::max(length, prescribed.norm());
   if (tools < 2 || length == 0.0) return;
@@ -151,17 +154,24 @@ void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, s
   Table slope = Table::Identity(size, size);
   Numbers moved = Numbers::Zero(size);
   for (std::size_t b = 0; b < tools; ++b) {
-    const Influence influence(model, s[b], d[b], 0.01 * length);
+    const Influence of(model, s[b], d[b], 0.01 * length);
     for (std::size_t a = 0; a < tools; ++a) {
       if (a == b) continue;
       const auto row = static_cast<Eigen::Index>(3 * a), column = static_cast<Eigen::Index>(3 * b);
-      const Vec3 u = influence.on(s[a], scratch);
+      const Vec3 u = of.on(s[a], scratch);
       moved.segment<3>(row) += u;
-      slope.block<3, 3>(row, column) = influence.slopeOn(s[a], u, scratch);
+      slope.block<3, 3>(row, column) = of.slopeOn(s[a], u, scratch);
     }
   }
-  const Numbers y = damped(slope, -moved);
+  const Table inverse = dampedInverse(slope);
+  const Numbers y = -(inverse * moved);
   for (std::size_t a = 0; a < tools; ++a) own[a] += y.segment<3>(static_cast<Eigen::Index>(3 * a));
+  if (influence == nullptr) return;
+  const Table carried = inverse * (slope - Table::Identity(size, size));  // e = inverse moved
+  for (std::size_t a = 0; a < tools; ++a)
+    for (std::size_t b = 0; b < tools; ++b)
+      (*influence)[a][b] =
+          carried.block<3, 3>(static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b));
 }
 
 std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s, const Vec3& d,

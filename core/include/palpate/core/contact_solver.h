@@ -21,7 +21,7 @@ struct Contact {
   Vec3 imposed = Vec3::Zero();    ///< g = c - X(s) - R n(s), where the tool would have the patch, m
   CoupledResponse coupled;        ///< d, the organ's answer to it and df/dg; zero when free
   Mat3 stiffness = Mat3::Zero();  ///< df/dc of the force on the organ, sliding included, N/m; zero when free
-  Vec3 carried = Vec3::Zero();    ///< displacement of the patch that the other tools cause, m; the caller's
+  Carried carried;                ///< e, displacement of the patch that the other tools cause; the caller's
   std::uint32_t flags{0};         ///< kInContact, kBeyondDomain, kNotAccessible
   bool overlapping{false};        ///< free, although the tip's sphere reaches into the organ
   bool at_border{false};          ///< the anchor would slide on, out of the accessible part

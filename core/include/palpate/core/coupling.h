@@ -13,20 +13,28 @@ struct ContactLaw {
   double stiffness_scale{1.0};  ///< E over the model's own: forces are so many times the model's
 };
 
+/// e, the part of a patch's displacement that other tools cause, as it changes with the patch's own: a tool pushes the
+/// others' patches, whose tools push back (tool_coupling.h).
+struct Carried {
+  Vec3 constant = Vec3::Zero();  ///< m
+  Mat3 slope = Mat3::Zero();     ///< de/dd, 1
+  [[nodiscard]] Vec3 at(const Vec3& d) const noexcept { return constant + slope * d; }
+};
+
 /// A patch and a tool in balance.
 struct CoupledResponse {
   Vec3 displacement = Vec3::Zero();  ///< d that the tool imposes through the coupling, m
-  Response response;                 ///< the organ's answer, with E: force f in N, stiffness df/dd
-  Mat3 stiffness = Mat3::Zero();     ///< df/dg, N/m: organ and coupling in series
+  Response response;  ///< the organ's answer, with E and the other tools: force f in N, stiffness df/dd
+  Mat3 stiffness = Mat3::Zero();  ///< df/dg, N/m: organ and coupling in series
 };
 
 /// The virtual coupling: tool - spring - patch, the organ as it answers                            DESIGN 3.1
-///   f(s, d) - df/dd e = K_vc (g - d),   g where the tool would have the patch if the spring were rigid, e the part of d
-///   that other tools cause (tool_coupling.h)
+///   f(s, d) - df/dd e(d) = K_vc (g - d),   g where the tool would have the patch if the spring were rigid
+/// Its derivative is taken as df/dd (1 - de/dd).
 /// Newton on d, from `out.displacement`, halved where it does not help; at most 8 steps of up to 5 evaluations, 1 or 2
 /// when g moves little. Numbers that overflow come out as respond() gives them.
-/// @param[in] g, carried  g and e, W, m, finite, @param[in,out] out  displacement: where to begin. Real-time: yes.
-ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const Vec3& carried, const ContactLaw& law,
-                      CoupledResponse& out) noexcept PALPATE_NONBLOCKING;
+/// @param[in] g  W, m, finite, @param[in] carried  e(d), finite, @param[in,out] out  displacement: where to begin. Real-time: yes.
+ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const Carried& carried,
+                      const ContactLaw& law, CoupledResponse& out) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

@@ -7,6 +7,8 @@
 
 namespace palpate {
 
+inline constexpr int kMaxTools = 4;
+
 /// Parameters of the tick. Checked once, before the loop. Infinity switches off what it bounds.
 struct StepConfig {
   double tip_radius{0.005};     ///< R, m, in [0, 0.05]

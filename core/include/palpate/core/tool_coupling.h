@@ -7,6 +7,7 @@
 #include "palpate/core/contact_point.h"
 #include "palpate/core/meta_model.h"
 #include "palpate/core/response.h"
+#include "palpate/core/step_config.h"
 #include "palpate/core/types.h"
 
 namespace palpate {
@@ -25,6 +26,9 @@ namespace palpate {
 [[nodiscard]] FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
                                   const Vec3& d) noexcept PALPATE_NONBLOCKING;
 
+/// How the displacement of each patch that the others cause changes with what is prescribed: [A][B] de_A/dd_B, 1.
+using InfluenceTable = std::array<std::array<Mat3, kMaxTools>, kMaxTools>;
+
 /// Tools that press together: what each imposes by itself, so that all patches move as prescribed.  DESIGN 3.1
 ///   d_own,A + sum_{B != A} P_A [u(s_B, d_B) + u'(s_B, d_B) (d_own,B - d_B)] = d_A
 /// Linear in d_own: the tangent at what each patch really does, so that the tools' own parts, which may be several
@@ -34,9 +38,11 @@ namespace palpate {
 /// answer at a small price for its length: tools at one place that ask for different d would need any force.
 /// @param s  contact points, at most kMaxTools, all in contact  @param d  prescribed, m, finite, one for each
 /// @param[out] own  d_own, m; d itself for one tool
+/// @param[out] influence  if given, of e_A = d_A - d_own,A, the tangents held fixed; zero for one tool
 /// Cost tools * (tools - 1) * 4 patchDisplacement(), no iteration: core/README.md. Real-time: yes.
 void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                      FieldScratch& scratch, std::span<Vec3> own) noexcept PALPATE_NONBLOCKING;
+                      FieldScratch& scratch, std::span<Vec3> own,
+                      InfluenceTable* influence = nullptr) noexcept PALPATE_NONBLOCKING;
 
 /// One tool's part in the field of several, u(s, d) + u'(s, d) (own - d), as two sources of evaluateField() whose
 /// sum it is: a difference over a step much shorter than the domain. Real-time: yes.

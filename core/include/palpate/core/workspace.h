@@ -15,8 +15,6 @@
 
 namespace palpate {
 
-inline constexpr int kMaxTools = 4;
-
 /// What one tool carries from tick to tick.
 struct ToolMemory {
   Contact contact;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tool_group.h"
+
+namespace palpate {
+
+void ToolGroup::feelEachOther() noexcept PALPATE_NONBLOCKING {
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    Contact& contact = tools_[i].contact;
+    contact.carried = {};
+    if (contact.state == ContactState::kFree) continue;
+    s_[count_] = contact.s;
+    d_[count_] = contact.coupled.displacement;
+    pressing_[count_++] = i;
+  }
+  if (count_ == 0) return;
+  ownDisplacements(model_, std::span(s_).first(count_), std::span(d_).first(count_), scratch_, own_,
+                   &influence_);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Mat3& slope = influence_[i][i];
+    tools_[pressing_[i]].contact.carried = {d_[i] - own_[i] - slope * d_[i], slope};
+  }
+  approach();
+}
+
+/// What tools in the air would find displaced.
+void ToolGroup::approach() noexcept {
+  for (ToolMemory& memory : tools_) {
+    Contact& contact = memory.contact;
+    if (!memory.known || contact.state != ContactState::kFree || contact.s.triangle < 0) continue;
+    for (std::size_t i = 0; i < count_; ++i)
+      for (const FieldSource& source : ownField(model_, s_[i], d_[i], own_[i]))
+        contact.carried.constant += patchDisplacement(model_, source, contact.s, scratch_);
+  }
+}
+
+void ToolGroup::hasMoved(std::size_t tool) noexcept PALPATE_NONBLOCKING {
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (pressing_[i] != tool) continue;
+    const Contact& contact = tools_[tool].contact;
+    if (contact.state == ContactState::kFree) return;  // the others feel that in the next tick
+    for (std::size_t later = i + 1; later < count_; ++later)
+      tools_[pressing_[later]].contact.carried.constant +=
+          influence_[later][i] * (contact.coupled.displacement - d_[i]);
+  }
+}
+
+}  // namespace palpate

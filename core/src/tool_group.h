@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "palpate/core/tool_coupling.h"
+#include "palpate/core/workspace.h"
+
+namespace palpate {
+
+/// The tools of one tick, and what each feels of the others.                                     DESIGN 3.1
+/// The organ between them is taken as its tangent at the contacts that the last tick left. Tools move one after the
+/// other, each with what it feels of itself through the others (Contact::carried's slope) and the others as they are by
+/// then: a descent in the energy of all, tool by tool (Gauss-Seidel), where the others as they were a tick ago would
+/// make a loop that rings or grows.
+class ToolGroup {
+ public:
+  ToolGroup(const MetaModel& model, std::span<ToolMemory> tools, FieldScratch& scratch) noexcept
+      : model_(model), tools_(tools), scratch_(scratch) {}
+
+  /// Sets each contact's `carried`; at most kMaxTools tools. Real-time: yes.
+  void feelEachOther() noexcept PALPATE_NONBLOCKING;
+  /// A tool has moved in this tick: those that come after it feel it where it now is. Real-time: yes.
+  void hasMoved(std::size_t tool) noexcept PALPATE_NONBLOCKING;
+
+ private:
+  void approach() noexcept;
+
+  const MetaModel& model_;
+  std::span<ToolMemory> tools_;
+  FieldScratch& scratch_;
+  std::size_t count_{0};                           // of tools in contact:
+  std::array<std::size_t, kMaxTools> pressing_{};  // their numbers, rising,
+  std::array<ContactPoint, kMaxTools> s_;          // where they are
+  std::array<Vec3, kMaxTools> d_, own_;            // and what they prescribe, m
+  InfluenceTable influence_;
+};
+
+}  // namespace palpate
