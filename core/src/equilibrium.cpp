@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "equilibrium.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -52,12 +53,15 @@ Equilibrium::Slip Equilibrium::slip() const noexcept {
   return slip;
 }
 
-/// A force on the anchor, work per length of its way, as one on the tip: the tip's way is (1 + R kappa) as long.
-/// Where a tip of this radius cannot roll (a hollow sharper than itself) as it is.
+/// A force on the anchor, work per length of its way, as one on the tip: the tip's way is (1 + R kappa) as long, taken as
+/// a tenth where a tip of this radius can hardly roll or not at all (a hollow sharper than itself).
 Vec2 Equilibrium::perTip(const Vec2& force) const noexcept {
   constexpr double kLeast = 0.1;
   const Mat2 stretch = frame_.tangent.transpose() * (frame_.along + tip_radius_ * frame_.turning);
-  return stretch.determinant() > kLeast ? Vec2(stretch.transpose().inverse() * force) : force;
+  Eigen::SelfAdjointEigenSolver<Mat2> eigen;
+  eigen.computeDirect(0.5 * (stretch + stretch.transpose()));
+  const Vec2 inverse = eigen.eigenvalues().cwiseMax(kLeast).cwiseInverse();
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose() * force;
 }
 
 /// d(T - mu f_n T / |T|)/dxi. Where it is not stable (a ridge sharper than the tool's tip can ride on) the part that is.
@@ -148,20 +152,21 @@ Equilibrium::Slip Equilibrium::landed(const Start& start, const Slip& from, cons
   return now;
 }
 
-/// d xi / dc of an anchor that slides, as the law has it at the begin.
+/// dX/dc of an anchor that slides, as the law has it at the begin.
 void Equilibrium::giveWay(const Slip& now) noexcept {
   const Mat3& K = contact_.coupled.stiffness;
   const Vec2 t = now.T.normalized();
   const Mat2 radial = Mat2::Identity() - now.hold * (Mat2::Identity() - t * t.transpose());
   const Eigen::RowVector3d normal_part = frame_.normal.transpose() * K;
-  give_ = -now.J.inverse() * (radial * frame_.tangent.transpose() * K + law_.friction * t * normal_part);
+  give_ = -frame_.tangent * now.J.inverse() *
+          (radial * frame_.tangent.transpose() * K + law_.friction * t * normal_part);
   if (!give_.allFinite()) give_.setZero();
 }
 
 Mat3 Equilibrium::stiffness() const noexcept {
   const Mat3& K = contact_.coupled.stiffness;
   if (contact_.at_border) return K;
-  return K - K * (frame_.along + tip_radius_ * frame_.turning) * give_;
+  return K - K * (frame_.along + tip_radius_ * frame_.turning) * frame_.tangent.transpose() * give_;
 }
 
 }  // namespace palpate

@@ -20,11 +20,12 @@ class Equilibrium {
 
   /// d and f at the anchor as it is. @return false when the model has no answer there
   bool balance() noexcept;
-  /// Moves the anchor until Coulomb's law holds, by at most kMaxSlides steps of Newton's method:
+  /// Moves the anchor until Coulomb's law holds, by at most kMaxSlides steps of Newton's method (where the anchor
+  /// snaps from one balance to another, the next ticks go on):
   ///   ds = -J^-1 (|T| - mu f_n) T / |T|,   J = dT/ds with the coupled stiffness, offset and turning of the normal
   /// @return false when the model's answer is missing on the way; the anchor then is where there was one
   bool slide() noexcept;
-  /// d force / d c as the last step of slide() had it, of the force on the organ, N/m.
+  /// d force / d c, of the force on the organ, N/m; how the anchor gives way as slide() had it at its begin.
   [[nodiscard]] Mat3 stiffness() const noexcept;
   static constexpr int kMaxSlides = 8;
 
@@ -58,7 +59,7 @@ class Equilibrium {
   Contact& contact_;
   SurfaceFrame frame_;
   Vec2 energy_slope_ = Vec2::Zero();  // dW/dxi at the anchor, N
-  Mat23 give_ = Mat23::Zero();        // dxi/dc of the anchor, 1
+  Mat3 give_ = Mat3::Zero();          // dX/dc of the anchor as it began to slide, 1
 };
 
 }  // namespace palpate

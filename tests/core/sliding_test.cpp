@@ -277,6 +277,26 @@ TEST(Safety, WhatOneToolDoesAtOnceTheOtherDoesNotFeelAtOnce) {
   EXPECT_LT((last - alone).norm(), 1e-6) << "and forgotten";
 }
 
+TEST(Safety, AnAnchorThatSnapsIsBlendedOver) {
+  StepConfig config = bare(kInfinity);
+  config.ramp_time = 0.03;
+  Driver driver(organ(), config);
+  drag(driver, 0.1, 0.002);
+  Vec3 last = vec(driver.result().tools[0].force);
+  const Vec3 stuck = last;
+  driver.input().has_live = 1;  // friction gives up all at once
+  driver.input().live = driver.work().live();
+  driver.input().live.friction = 0.0;
+  double largest_step = 0.0;
+  for (int ms = 0; ms < 200; ++ms) {
+    const Vec3 now = vec(driver.at(over(0.1, 0.002)).force);
+    largest_step = std::max(largest_step, (now - last).norm());
+    last = now;
+  }
+  EXPECT_GT((last - stuck).norm(), 0.5);
+  EXPECT_LT(largest_step, 0.15 * (last - stuck).norm());
+}
+
 TEST(ContactSurface, PointsGoToTheRestSurfaceAndBack) {
   const ContactSurface& surface = organ().contactSurface();
   std::mt19937 random(5);

@@ -44,8 +44,8 @@ class ContactSolver {
   explicit ContactSolver(double tip_radius) noexcept : tip_radius_(tip_radius) {}
 
   /// One tick of one tool. @param c  tip centre, W, m, finite. At most one change between free and not free.
-  /// Sets `jumped` where the force is not continuous in c: at a release that leaves a tangential force, and at a
-  /// capture that is deep at once. Real-time: yes.
+  /// Sets `jumped` where the force is not continuous in c: at a release that leaves a tangential force, at a capture
+  /// that is deep at once, and where the anchor snaps from one balance to another. Real-time: yes.
   void update(const MetaModel& model, const ContactLaw& law, const Vec3& c,
               Contact& contact) const noexcept PALPATE_NONBLOCKING;
   /// Frees the tool: no force, no displacement; the anchor stays as the nearest point known. Real-time: yes.
@@ -58,6 +58,8 @@ class ContactSolver {
                                Contact& contact) const noexcept PALPATE_NONBLOCKING;
   void tryCapture(const MetaModel& model, const ContactLaw& law, const Vec3& c,
                   Contact& contact) const noexcept PALPATE_NONBLOCKING;
+  void follow(const MetaModel& model, const ContactLaw& law, const Vec3& c,
+              Contact& contact) const noexcept PALPATE_NONBLOCKING;
   void hold(const MetaModel& model, const ContactLaw& law, const Vec3& c,
             Contact& contact) const noexcept PALPATE_NONBLOCKING;
 
