@@ -277,24 +277,22 @@ TEST(Safety, WhatOneToolDoesAtOnceTheOtherDoesNotFeelAtOnce) {
   EXPECT_LT((last - alone).norm(), 1e-6) << "and forgotten";
 }
 
-TEST(Safety, AnAnchorThatSnapsIsBlendedOver) {
-  StepConfig config = bare(kInfinity);
-  config.ramp_time = 0.03;
-  Driver driver(organ(), config);
-  drag(driver, 0.1, 0.002);
-  Vec3 last = vec(driver.result().tools[0].force);
-  const Vec3 stuck = last;
-  driver.input().has_live = 1;  // friction gives up all at once
-  driver.input().live = driver.work().live();
-  driver.input().live.friction = 0.0;
-  double largest_step = 0.0;
-  for (int ms = 0; ms < 200; ++ms) {
-    const Vec3 now = vec(driver.at(over(0.1, 0.002)).force);
-    largest_step = std::max(largest_step, (now - last).norm());
-    last = now;
+TEST(Sliding, AnAnchorThatSnapsIsAJumpAndOneThatSlidesIsNone) {
+  const ContactSolver solver(0.005);
+  Contact contact;
+  for (double depth = -0.001; depth < 0.002; depth += 5e-5)
+    solver.update(organ(), {0.0, 0.0, 1.0}, over(0.0, depth), contact);
+  for (double angle = 0.0; angle < 0.2; angle += 1e-3) {
+    solver.update(organ(), {0.0, 0.0, 1.0}, over(angle, 0.002), contact);
+    ASSERT_FALSE(contact.jumped) << angle;
   }
-  EXPECT_GT((last - stuck).norm(), 0.5);
-  EXPECT_LT(largest_step, 0.15 * (last - stuck).norm());
+  for (double angle = 0.2; angle < 0.3; angle += 1e-3)
+    solver.update(organ(), {kInfinity, 0.0, 1.0}, over(angle, 0.002), contact);
+  ASSERT_FALSE(contact.jumped) << "it sticks";
+  solver.update(organ(), {0.0, 0.0, 1.0}, over(0.3, 0.002), contact);
+  EXPECT_TRUE(contact.jumped) << "5 mm at once, with the tip at rest";
+  solver.update(organ(), {0.0, 0.0, 1.0}, over(0.3, 0.002), contact);
+  EXPECT_FALSE(contact.jumped);
 }
 
 TEST(ContactSurface, PointsGoToTheRestSurfaceAndBack) {
