@@ -155,9 +155,10 @@ TEST(Device, AWallThatIsTooStiffForItsHandIsCalledUnstable) {
   EXPECT_LT(report["energy_net_J"].get<double>(), 0.0) << "and gives energy that nobody put in";
 }
 
-// The stiffest spring that this hand stands needs its answers in time: 40 ms without one, felt, would throw the tip off.
+// Stiff enough that 40 ms without an answer, felt, would throw the tip off; soft enough to stand answers that are always
+// a period late, as a busy machine gives them.
 TEST(Device, AStallOfTheServerIsWaitedForAndNotFelt) {
-  const FakeServer server(exclusiveDomain(), {.stiffness = 900.0, .stall_every = 150});
+  const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .stall_every = 150});
   const auto result = runProgram(
       "palpate-device",
       onDomain({"--preset", "custom", "--mass", "0.05", "--motion", "press", "--seconds", "2.5", "--json"}));
@@ -166,7 +167,7 @@ TEST(Device, AStallOfTheServerIsWaitedForAndNotFelt) {
   EXPECT_GE(report["waited_periods"].get<int>(), 200) << "some ten stalls";
   EXPECT_TRUE(report["stable"]);
   EXPECT_EQ(report["tip_m"].size(), 2501U);
-  EXPECT_NEAR(report["penetration_m"].get<double>(), 0.003 * 200.0 / 1100.0, 1e-4);
+  EXPECT_NEAR(report["penetration_m"].get<double>(), 0.003 * 200.0 / 700.0, 1e-4);
 }
 
 TEST(Device, StopsWhenTheServerLeaves) {
