@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/contact_response.h"
 
-#include <algorithm>
-
 #include "kernels.h"
 #include "palpate/core/length.h"
 
@@ -18,12 +16,51 @@ Vec3 ContactSeries::value(const Vec3& p) const noexcept PALPATE_NONBLOCKING {
 }
 
 Mat3 ContactSeries::gradient(const Vec3& p) const noexcept PALPATE_NONBLOCKING {
-  std::array<Vec3, MonomialBasis::kMaxCoefficients> gradient;
-  functions_->gradient(p, gradient);
-  Mat3 sum = Mat3::Zero();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(functions_->size()); ++k)
-    sum += coefficient_[k] * gradient[k].transpose();
-  return sum / functions_->reference();
+  Vec3 value;
+  Mat3 gradient;
+  evaluate(p, value, gradient);
+  return gradient;
+}
+
+void ContactSeries::evaluate(const Vec3& p, Vec3& value, Mat3& gradient) const noexcept PALPATE_NONBLOCKING {
+  Jets jets;
+  functions_->jets(p, jets);
+  sum(jets, value, gradient);
+}
+
+/// One row of value and gradient for each component: whole vectors, nothing is stored on the way.
+void ContactSeries::sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept {
+  Vec4 x = Vec4::Zero(), y = Vec4::Zero(), z = Vec4::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(functions_->size()); ++k) {
+    x += coefficient_[k].x() * jets[k];
+    y += coefficient_[k].y() * jets[k];
+    z += coefficient_[k].z() * jets[k];
+  }
+  value = Vec3(x[0], y[0], z[0]);
+  gradient << x.tail<3>().transpose(), y.tail<3>().transpose(), z.tail<3>().transpose();
+  gradient /= functions_->reference();
+}
+
+void ContactSeries::evaluate(const Vec3& p, Vec3& value, Mat3& gradient,
+                             std::array<Mat3, 3>& turn) const noexcept PALPATE_NONBLOCKING {
+  Jets jets;
+  std::array<Vec6, MonomialBasis::kMaxCoefficients> bends;
+  functions_->jets(p, jets);
+  functions_->bends(p, jets, bends);
+  sum(jets, value, gradient);
+  Vec6 x = Vec6::Zero(), y = Vec6::Zero(), z = Vec6::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(functions_->size()); ++k) {
+    x += coefficient_[k].x() * bends[k];
+    y += coefficient_[k].y() * bends[k];
+    z += coefficient_[k].z() * bends[k];
+  }
+  constexpr Eigen::Index kEntry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const double square = functions_->reference() * functions_->reference();
+  for (std::size_t j = 0; j < 3; ++j)
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const Eigen::Index entry = kEntry[j][i];
+      turn[j].col(i) = Vec3(x[entry], y[entry], z[entry]) / square;
+    }
 }
 
 double ContactSeries::energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
@@ -59,13 +96,9 @@ ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE
 
 ContactSeries ContactResponse::at(const Stencil& stencil, double limit) const noexcept PALPATE_NONBLOCKING {
   ContactSeries series(functions_);
-  const auto C = static_cast<std::size_t>(functions_.size());
-  double* const sum = series.coefficient_.front().data();
-  std::fill(sum, sum + 3 * C, 0.0);
-  for (std::size_t b = 0; b < stencil.count; ++b) {
-    const double* const c = coefficient_.data() + 3 * C * static_cast<std::size_t>(stencil.position[b]);
-    addWeighted(stencil.weight[b], c, 3 * C, sum);
-  }
+  const std::size_t width = 3 * static_cast<std::size_t>(functions_.size());
+  mixRows(coefficient_.data(), width, stencil.position.data(), stencil.weight.data(), stencil.count,
+          series.coefficient_.front().data());
   series.limit_ = limit;
   return series;
 }
@@ -78,11 +111,10 @@ Vec3 ContactResponse::energySlope(const Stencil& stencil, const Vec3& d,
   functions_.energyShares(d / beyond, share);
   std::array<double, std::size_t{3} * MonomialBasis::kMaxCoefficients> weight;  // W_b = weight . c_b
   for (std::size_t k = 0; k < C; ++k) Eigen::Map<Vec3>(weight.data() + 3 * k) = (share[k] / beyond) * d;
+  std::array<double, Stencil::kMost> W;
+  dotRows(coefficient_.data(), 3 * C, stencil.position.data(), weight.data(), stencil.count, W.data());
   Vec3 slope = Vec3::Zero();
-  for (std::size_t b = 0; b < stencil.count; ++b) {
-    const double* const c = coefficient_.data() + 3 * C * static_cast<std::size_t>(stencil.position[b]);
-    slope += dot(c, weight.data(), 3 * C) * stencil.slope[b];
-  }
+  for (std::size_t b = 0; b < stencil.count; ++b) slope += W[b] * stencil.slope[b];
   return beyond * beyond * slope;
 }
 

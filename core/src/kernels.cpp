@@ -40,24 +40,41 @@ PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const floa
   }
 }
 
-PALPATE_MULTIVERSION void addWeighted(double weight, const double* a, std::size_t length,
-                                      double* y) noexcept PALPATE_NONBLOCKING {
-  const double* __restrict__ const in = a;
+PALPATE_MULTIVERSION void mixRows(const double* A, std::size_t length, const std::int32_t* row,
+                                  const double* weight, std::size_t rows,
+                                  double* y) noexcept PALPATE_NONBLOCKING {
   double* __restrict__ const out = y;
-  for (std::size_t i = 0; i < length; ++i) out[i] += weight * in[i];
+  const auto begin = [=](std::size_t r) { return A + length * static_cast<std::size_t>(row[r]); };
+  for (std::size_t i = 0; i < length; ++i) out[i] = 0.0;
+  std::size_t r = 0;
+  for (; r + 4 <= rows; r += 4) {  // as above
+    const double* __restrict__ const a0 = begin(r);
+    const double* __restrict__ const a1 = begin(r + 1);
+    const double* __restrict__ const a2 = begin(r + 2);
+    const double* __restrict__ const a3 = begin(r + 3);
+    const double w0 = weight[r], w1 = weight[r + 1], w2 = weight[r + 2], w3 = weight[r + 3];
+    for (std::size_t i = 0; i < length; ++i) out[i] += (w0 * a0[i] + w1 * a1[i]) + (w2 * a2[i] + w3 * a3[i]);
+  }
+  for (; r < rows; ++r) {
+    const double* __restrict__ const a = begin(r);
+    for (std::size_t i = 0; i < length; ++i) out[i] += weight[r] * a[i];
+  }
 }
 
-PALPATE_MULTIVERSION double dot(const double* a, const double* b,
-                                std::size_t length) noexcept PALPATE_NONBLOCKING {
-  constexpr std::size_t kLanes = 8;  // partial sums, so that the additions need not wait for each other
-  double sum[kLanes] = {};
-  std::size_t i = 0;
-  for (; i + kLanes <= length; i += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) sum[lane] += a[i + lane] * b[i + lane];
-  double total = 0.0;
-  for (; i < length; ++i) total += a[i] * b[i];
-  for (const double part : sum) total += part;
-  return total;
+PALPATE_MULTIVERSION void dotRows(const double* A, std::size_t length, const std::int32_t* row,
+                                  const double* y, std::size_t rows,
+                                  double* out) noexcept PALPATE_NONBLOCKING {
+  constexpr std::size_t kLanes = 16;  // partial sums, so that the additions need not wait for each other
+  for (std::size_t r = 0; r < rows; ++r) {
+    const double* const a = A + length * static_cast<std::size_t>(row[r]);
+    double lane[kLanes] = {};
+    std::size_t i = 0;
+    for (; i + kLanes <= length; i += kLanes)
+      for (std::size_t k = 0; k < kLanes; ++k) lane[k] += a[i + k] * y[i + k];
+    for (std::size_t k = 0; i < length; ++i, ++k) lane[k] += a[i] * y[i];
+    out[r] = 0.0;
+    for (const double part : lane) out[r] += part;
+  }
 }
 
 }  // namespace palpate

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "palpate/core/types.h"
 
@@ -17,10 +18,12 @@ void addWeightedRows(const float* A, std::size_t stride, const float* weight, st
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
              float* out) noexcept PALPATE_NONBLOCKING;
 
-/// y += weight * a. Real-time: yes.
-void addWeighted(double weight, const double* a, std::size_t length, double* y) noexcept PALPATE_NONBLOCKING;
+/// y = sum over `rows` rows of weight[r] * A[row[r]], each `length` long. Real-time: yes.
+void mixRows(const double* A, std::size_t length, const std::int32_t* row, const double* weight,
+             std::size_t rows, double* y) noexcept PALPATE_NONBLOCKING;
 
-/// a . b. Real-time: yes.
-[[nodiscard]] double dot(const double* a, const double* b, std::size_t length) noexcept PALPATE_NONBLOCKING;
+/// out[r] = A[row[r]] . y, r < rows, each `length` long. Real-time: yes.
+void dotRows(const double* A, std::size_t length, const std::int32_t* row, const double* y, std::size_t rows,
+             double* out) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

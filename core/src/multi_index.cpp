@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/multi_index.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -8,20 +9,19 @@ namespace palpate {
 
 namespace {
 
-using Powers = std::array<std::array<double, MonomialBasis::kMaxOrder + 1>, 3>;
-
-Powers powersOf(const Vec3& x, int order) noexcept {
-  Powers power{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    power[axis][0] = 1.0;
-    for (std::size_t n = 1; n <= static_cast<std::size_t>(order); ++n)
-      power[axis][n] = power[axis][n - 1] * x[static_cast<Eigen::Index>(axis)];
+/// Visits the monomials of degree 2 to `order` as products, x^alpha_k = x_axis x^alpha_from, each after its factor:
+/// in a degree first x times all of the degree before, then y times those without x, then z^n.
+template <typename Visit>
+void forEachProduct(int order, Visit&& visit) noexcept {
+  std::size_t before = 0, count = 3;  // the degree before: its first, and how many
+  for (std::size_t degree = 2; degree <= static_cast<std::size_t>(order); ++degree) {
+    const std::size_t first = before + count, without_x = before + count - degree;
+    for (std::size_t i = 0; i < count; ++i) visit(first + i, before + i, std::size_t{0});
+    for (std::size_t i = 0; i < degree; ++i) visit(first + count + i, without_x + i, std::size_t{1});
+    visit(first + count + degree, first - 1, std::size_t{2});
+    before = first;
+    count += degree + 1;
   }
-  return power;
-}
-
-double at(const Powers& power, std::size_t axis, int exponent) noexcept {
-  return power[axis][static_cast<std::size_t>(exponent)];
 }
 
 }  // namespace
@@ -43,27 +43,40 @@ int MonomialBasis::find(const MultiIndex& alpha) const noexcept {
 }
 
 void MonomialBasis::evaluate(const Vec3& x, std::span<double> values) const noexcept PALPATE_NONBLOCKING {
-  const Powers power = powersOf(x, order_);
-  for (std::size_t k = 0; k < indices_.size(); ++k) {
-    const MultiIndex& a = indices_[k];
-    values[k] = at(power, 0, a[0]) * at(power, 1, a[1]) * at(power, 2, a[2]);
-  }
+  const std::array<double, 3> factor{x.x(), x.y(), x.z()};
+  std::copy(factor.begin(), factor.end(), values.begin());
+  forEachProduct(order_, [&](std::size_t k, std::size_t from, std::size_t axis) {
+    values[k] = factor[axis] * values[from];
+  });
 }
 
 void MonomialBasis::gradient(const Vec3& x, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING {
-  const Powers power = powersOf(x, order_);
-  for (std::size_t k = 0; k < indices_.size(); ++k) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      MultiIndex a = indices_[k];
-      const int exponent = a[axis];
-      double slope = 0.0;
-      if (exponent > 0) {
-        --a[axis];
-        slope = exponent * at(power, 0, a[0]) * at(power, 1, a[1]) * at(power, 2, a[2]);
-      }
-      gradient[k][static_cast<Eigen::Index>(axis)] = slope;
-    }
-  }
+  std::array<Vec4, kMaxCoefficients> all;
+  jets(x, all);
+  for (std::size_t k = 0; k < indices_.size(); ++k) gradient[k] = all[k].tail<3>();
+}
+
+/// By the product rule: d(x_axis m) = x_axis dm + m e_axis.
+void MonomialBasis::jets(const Vec3& x, std::span<Vec4> jets) const noexcept PALPATE_NONBLOCKING {
+  const std::array<Vec4, 3> slope{Vec4::Unit(1), Vec4::Unit(2), Vec4::Unit(3)};
+  const std::array<double, 3> factor{x.x(), x.y(), x.z()};
+  for (std::size_t axis = 0; axis < 3; ++axis) jets[axis] = slope[axis] + factor[axis] * Vec4::Unit(0);
+  forEachProduct(order_, [&](std::size_t k, std::size_t from, std::size_t axis) {
+    jets[k] = factor[axis] * jets[from] + jets[from][0] * slope[axis];
+  });
+}
+
+/// By the product rule: d^2(x_axis m) = x_axis d^2 m + e_axis dm^T + dm e_axis^T.
+void MonomialBasis::bends(const Vec3& x, std::span<const Vec4> jets,
+                          std::span<Vec6> bends) const noexcept PALPATE_NONBLOCKING {
+  constexpr std::array<std::array<Eigen::Index, 3>, 3> kEntry{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+  const std::array<double, 3> factor{x.x(), x.y(), x.z()};
+  for (std::size_t axis = 0; axis < 3; ++axis) bends[axis].setZero();
+  forEachProduct(order_, [&](std::size_t k, std::size_t from, std::size_t axis) {
+    bends[k] = factor[axis] * bends[from];
+    for (std::size_t other = 0; other < 3; ++other)
+      bends[k][kEntry[axis][other]] += (other == axis ? 2.0 : 1.0) * jets[from][1 + Eigen::Index(other)];
+  });
 }
 
 }  // namespace palpate

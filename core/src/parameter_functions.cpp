@@ -2,6 +2,7 @@
 #include "palpate/core/parameter_functions.h"
 
 #include <algorithm>
+#include <array>
 
 namespace palpate {
 
@@ -61,12 +62,24 @@ void ParameterFunctions::energyShares(const Vec3& p,
 
 void ParameterFunctions::gradient(const Vec3& p,
                                   std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING {
-  if (level_steps_ == 0) return basis_.gradient(p / reference_, gradient);
-  const std::size_t step = place(p.x()).step;
+  std::array<Vec4, MonomialBasis::kMaxCoefficients> all;
+  jets(p, all);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(size_); ++k) gradient[k] = all[k].tail<3>();
+}
+
+void ParameterFunctions::jets(const Vec3& p, std::span<Vec4> jets) const noexcept PALPATE_NONBLOCKING {
+  if (level_steps_ == 0) return basis_.jets(p / reference_, jets);
+  const auto [step, weight] = place(p.x());
   for (int q = 0; q < size_; ++q) {
     const double* const z = row(q) + step;
-    gradient[static_cast<std::size_t>(q)] = Vec3((z[1] - z[0]) * level_steps_, 0.0, 0.0);
+    const double value = (1.0 - weight) * z[0] + weight * z[1];
+    jets[static_cast<std::size_t>(q)] = Vec4(value, (z[1] - z[0]) * level_steps_, 0.0, 0.0);
   }
+}
+
+void ParameterFunctions::bends(const Vec3& p, std::span<const Vec4> jets,
+                               std::span<Vec6> bends) const noexcept PALPATE_NONBLOCKING {
+  basis_.bends(p / reference_, jets, bends);
 }
 
 }  // namespace palpate

@@ -23,37 +23,63 @@ Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKI
 namespace {
 
 /// The part of the symmetrized K that pushes back: its negative eigenvalues set to zero.
-Mat3 positivePart(const Mat3& K) noexcept {
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-  eigen.computeDirect(0.5 * (K + K.transpose()));
-  const Mat3& V = eigen.eigenvectors();
-  return V * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * V.transpose();
-}
+class PushingPart {
+ public:
+  explicit PushingPart(const Mat3& K) noexcept {
+    Eigen::SelfAdjointEigenSolver<Mat3> eigen;
+    eigen.computeDirect(0.5 * (K + K.transpose()));
+    vectors_ = eigen.eigenvectors();
+    values_ = eigen.eigenvalues();
+  }
+  [[nodiscard]] Mat3 matrix() const noexcept {
+    return vectors_ * values_.cwiseMax(0.0).asDiagonal() * vectors_.transpose();
+  }
+  /// How it changes when K does so by dK: between eigenvectors i and j by (l_i+ - l_j+) / (l_i - l_j) of that, the
+  /// divided difference (Daleckii and Krein; R. Bhatia, Matrix Analysis, 1997, theorem V.3.3).
+  [[nodiscard]] Mat3 change(const Mat3& dK) const noexcept {
+    Mat3 seen = vectors_.transpose() * (0.5 * (dK + dK.transpose())) * vectors_;
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j < 3; ++j) seen(i, j) *= share(values_[i], values_[j]);
+    return vectors_ * seen * vectors_.transpose();
+  }
 
-/// The force beyond the domain, |d| > d_max.
-Vec3 continued(const ContactSeries& series, const Vec3& d) noexcept {
-  const Vec3 edge = clampToDomain(d, series.limit());
-  return series.value(edge) + positivePart(series.gradient(edge)) * (d - edge);
+ private:
+  [[nodiscard]] static double share(double a, double b) noexcept {
+    const double high = std::max(a, b), low = std::min(a, b);
+    return high > 0.0 ? (low > 0.0 ? 1.0 : high / (high - low)) : 0.0;
+  }
+
+  Mat3 vectors_;
+  Vec3 values_;
+};
+
+/// Force and its derivative beyond the domain, |d| > d_max:
+///   f = f(e) + P(e) (d - e),   df/dd = P + (K + B - P) de/dd,   B_j = dP/de_j (d - e)
+/// e the point of the domain's edge towards d, K = df/dd there, P its pushing part.
+void continueTo(const ContactSeries& series, const Vec3& d, Response& out) noexcept {
+  const Vec3 edge = clampToDomain(d, series.limit()), beyond = d - edge;
+  std::array<Mat3, 3> turn;
+  Mat3 K;
+  series.evaluate(edge, out.force, K, turn);
+  const PushingPart pushing(K);
+  const Mat3 P = pushing.matrix();
+  out.force += P * beyond;
+  Mat3 B;
+  for (Eigen::Index j = 0; j < 3; ++j) B.col(j) = pushing.change(turn[static_cast<std::size_t>(j)]) * beyond;
+  out.stiffness = P + (K + B - P) * projectionGradient(d, series.limit());
 }
 
 /// f(s, d) of a "displacement" model.
 ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, Response& out) noexcept {
-  constexpr double kFar = 1e3;    // m; beyond every domain, and what follows is finite
-  constexpr double kStep = 1e-4;  // of |d|
+  constexpr double kFar = 1e3;  // m; beyond every domain, and what follows is finite
   out.domain_radius = series.limit();
   out.displacement = clampToDomain(d, out.domain_radius);
   out.parameter = out.displacement;
   if (!(lengthOf(d) > out.domain_radius)) {
-    out.force = series.value(d);
-    out.stiffness = series.gradient(d);
+    series.evaluate(d, out.force, out.stiffness);
     return ResponseStatus::kOk;
   }
-  const Vec3 far = clampToDomain(d, kFar);
-  const double h = std::min(kStep * far.norm(), 0.5 * (far.norm() - out.domain_radius) + 1e-12);
-  out.force = continued(series, far);
-  for (Eigen::Index j = 0; j < 3; ++j)
-    out.stiffness.col(j) =
-        (continued(series, far + h * Vec3::Unit(j)) - continued(series, far - h * Vec3::Unit(j))) / (2.0 * h);
+  continueTo(series, clampToDomain(d, kFar), out);
   return ResponseStatus::kClamped;
 }
 

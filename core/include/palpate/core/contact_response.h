@@ -22,6 +22,11 @@ class ContactSeries {
   [[nodiscard]] Vec3 value(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
   /// dc/dp, 3 x 3; of a level the first column only. Cost O(C). Real-time: yes.
   [[nodiscard]] Mat3 gradient(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
+  /// value() and gradient() in one pass. Real-time: yes.
+  void evaluate(const Vec3& p, Vec3& value, Mat3& gradient) const noexcept PALPATE_NONBLOCKING;
+  /// The same, and turn[j] = d(gradient)/dp_j, symmetric in its second index and j; not of a level. Real-time: yes.
+  void evaluate(const Vec3& p, Vec3& value, Mat3& gradient,
+                std::array<Mat3, 3>& turn) const noexcept PALPATE_NONBLOCKING;
   /// W(d) = int_0^1 f(tau d) . d dtau of a "displacement" model, J: the energy that the patch has stored, whose
   /// gradient f is (DESIGN 2.2). Cost O(C). Real-time: yes.
   [[nodiscard]] double energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING;
@@ -33,6 +38,8 @@ class ContactSeries {
  private:
   friend class ContactResponse;
   explicit ContactSeries(const ParameterFunctions& functions) noexcept : functions_(&functions) {}
+  using Jets = std::array<Vec4, MonomialBasis::kMaxCoefficients>;
+  void sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept;
 
   const ParameterFunctions* functions_;
   std::array<Vec3, MonomialBasis::kMaxCoefficients> coefficient_;  // the first size() of them

@@ -44,6 +44,12 @@ class MonomialBasis {
   void evaluate(const Vec3& x, std::span<double> values) const noexcept PALPATE_NONBLOCKING;
   /// gradient[k] = d(x^alpha_k)/dx. @param[out] gradient  size() vectors. Real-time: yes.
   void gradient(const Vec3& x, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING;
+  /// jets[k] = x^alpha_k, d/dx, d/dy, d/dz of it. @param[out] jets  size() of them. Real-time: yes.
+  void jets(const Vec3& x, std::span<Vec4> jets) const noexcept PALPATE_NONBLOCKING;
+  /// bends[k] = second derivatives of x^alpha_k: xx xy xz yy yz zz. @param  jets  jets() at x
+  /// @param[out] bends  size() of them. Real-time: yes.
+  void bends(const Vec3& x, std::span<const Vec4> jets,
+             std::span<Vec6> bends) const noexcept PALPATE_NONBLOCKING;
 
  private:
   int order_;

@@ -33,6 +33,12 @@ class ParameterFunctions {
   /// gradient[k] = reference() dphi_k/dp: the caller divides once, the sum. Of a level that of the segment which
   /// begins at or before t. @param[out] gradient  size() vectors. Real-time: yes.
   void gradient(const Vec3& p, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING;
+  /// jets[k] = phi_k(p) and, below it, gradient(). @param[out] jets  size() of them. Real-time: yes.
+  void jets(const Vec3& p, std::span<Vec4> jets) const noexcept PALPATE_NONBLOCKING;
+  /// bends[k] = reference()^2 times the second derivatives of phi_k; monomials only. @param  jets  jets() at p
+  /// @param[out] bends  xx xy xz yy yz zz, size() of them. Real-time: yes.
+  void bends(const Vec3& p, std::span<const Vec4> jets,
+             std::span<Vec6> bends) const noexcept PALPATE_NONBLOCKING;
 
  private:
   /// Where t lies among the steps: Z(t) = (1 - weight) Z[step] + weight Z[step + 1].

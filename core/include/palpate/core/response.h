@@ -47,7 +47,7 @@ class PatchResponse {
 /// Reaction of the organ to a tool that displaced its contact patch at s by d            DESIGN 2.2, 3.1
 /// |d| beyond the domain is scaled to it, d_c = d_max d / |d|, and the force goes on along the symmetrized,
 /// positive part of the stiffness there: f = f(s, d_c) + (df/dd)+ (d - d_c). It is continuous, and never less stiff
-/// than nothing; stiffness is its derivative (central differences of it beyond the domain).
+/// than nothing; stiffness is its derivative.
 /// A "force" model is searched for the f with d(s, f) = d (bounded Newton), a "level" model for the t with
 /// e . d(s, t) = e . d, e the load's direction. Where no f gives d, kClamped: beyond f_max the f_max in its
 /// direction; where the model turns back before that, the f at which |d(s, f) - d| is smallest, as found downhill
