@@ -107,10 +107,11 @@ Vec3 ContactResponse::energySlope(const Stencil& stencil, const Vec3& d,
                                   double limit) const noexcept PALPATE_NONBLOCKING {
   const auto C = static_cast<std::size_t>(functions_.size());
   const double length = lengthOf(d), beyond = length > limit ? length / limit : 1.0;
+  const Vec3 inside = d / beyond;
   std::array<double, MonomialBasis::kMaxCoefficients> share;
-  functions_.energyShares(d / beyond, share);
+  functions_.energyShares(inside, share);
   std::array<double, std::size_t{3} * MonomialBasis::kMaxCoefficients> weight;  // W_b = weight . c_b
-  for (std::size_t k = 0; k < C; ++k) Eigen::Map<Vec3>(weight.data() + 3 * k) = (share[k] / beyond) * d;
+  for (std::size_t k = 0; k < C; ++k) Eigen::Map<Vec3>(weight.data() + 3 * k) = share[k] * inside;
   std::array<double, Stencil::kMost> W;
   dotRows(coefficient_.data(), 3 * C, stencil.position.data(), weight.data(), stencil.count, W.data());
   Vec3 slope = Vec3::Zero();

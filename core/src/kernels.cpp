@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels.h"
 
+#include <algorithm>
+
 #include "multiversion.h"
 
 namespace palpate {
+
+namespace {
+
+/// Four numbers side by side, of gcc and clang; two pairs where the processor has no more.
+using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+
+const Lanes& lanesAt(const double* p) noexcept {
+  return *reinterpret_cast<const Lanes*>(p);
+}
+
+}  // namespace
 
 PALPATE_MULTIVERSION void addWeightedRows(const float* A, std::size_t stride, const float* weight,
                                           std::size_t rows, std::size_t length,
@@ -64,16 +77,24 @@ PALPATE_MULTIVERSION void mixRows(const double* A, std::size_t length, const std
 PALPATE_MULTIVERSION void dotRows(const double* A, std::size_t length, const std::int32_t* row,
                                   const double* y, std::size_t rows,
                                   double* out) noexcept PALPATE_NONBLOCKING {
-  constexpr std::size_t kLanes = 16;  // partial sums, so that the additions need not wait for each other
-  for (std::size_t r = 0; r < rows; ++r) {
-    const double* const a = A + length * static_cast<std::size_t>(row[r]);
-    double lane[kLanes] = {};
+  const auto begin = [=](std::size_t r) { return A + length * static_cast<std::size_t>(row[r]); };
+  for (std::size_t r = 0; r < rows; r += 4) {  // four rows at a time; the last ones may be the same row
+    const std::size_t last = rows - 1;
+    const double* const a[4] = {begin(r), begin(std::min(r + 1, last)), begin(std::min(r + 2, last)),
+                                begin(std::min(r + 3, last))};
+    Lanes even[4] = {}, odd[4] = {};  // partial sums, so that the additions need not wait for each other
     std::size_t i = 0;
-    for (; i + kLanes <= length; i += kLanes)
-      for (std::size_t k = 0; k < kLanes; ++k) lane[k] += a[i + k] * y[i + k];
-    for (std::size_t k = 0; i < length; ++i, ++k) lane[k] += a[i] * y[i];
-    out[r] = 0.0;
-    for (const double part : lane) out[r] += part;
+    for (; i + 8 <= length; i += 8)
+      for (std::size_t k = 0; k < 4; ++k) {
+        even[k] += lanesAt(a[k] + i) * lanesAt(y + i);
+        odd[k] += lanesAt(a[k] + i + 4) * lanesAt(y + i + 4);
+      }
+    for (std::size_t k = 0; k < 4 && r + k < rows; ++k) {
+      const Lanes sum = even[k] + odd[k];
+      double rest = 0.0;
+      for (std::size_t j = i; j < length; ++j) rest += a[k][j] * y[j];
+      out[r + k] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) + rest;
+    }
   }
 }
 

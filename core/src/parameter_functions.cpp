@@ -55,9 +55,11 @@ void ParameterFunctions::evaluate(const Vec3& p,
 void ParameterFunctions::energyShares(const Vec3& p,
                                       std::span<double> shares) const noexcept PALPATE_NONBLOCKING {
   basis_.evaluate(p / reference_, shares);
-  for (int degree = 1; degree <= basis_.order(); ++degree)
+  for (int degree = 1; degree <= basis_.order(); ++degree) {
+    const double part = 1.0 / (degree + 1.0);
     for (int k = basis_.begin(degree); k < basis_.begin(degree + 1); ++k)
-      shares[static_cast<std::size_t>(k)] /= degree + 1.0;
+      shares[static_cast<std::size_t>(k)] *= part;
+  }
 }
 
 void ParameterFunctions::gradient(const Vec3& p,

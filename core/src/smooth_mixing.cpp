@@ -11,56 +11,39 @@ std::size_t index(std::int64_t i) noexcept {
   return static_cast<std::size_t>(i);
 }
 
-/// The cubic over one triangle, sum_a A_a c_a + sum_a v_a . G_a, of nodal values c and gradients G:
-///   A_a = l_a^3 + 3 l_a^2 (l_b + l_c) + 2 l_0 l_1 l_2,   v_a = sum_c (l_a^2 l_c + l_0 l_1 l_2 / 2) (X_c - X_a)
+/// The cubic over one triangle, sum_a A_a c_a + sum_a sum_c B_ac (X_c - X_a) . G_a, of nodal values c, gradients G:
+///   A_a = l_a^3 + 3 l_a^2 (l_b + l_c) + 2 l_0 l_1 l_2,   B_ac = l_a^2 l_c + l_0 l_1 l_2 / 2
+/// Each with its derivative by l below it.
 struct Cubic {
-  std::array<double, 3> A{};
-  std::array<Vec3, 3> v;
-  std::array<Vec3, 3> A_slope;  // dA_a/dl
-  std::array<Mat3, 3> v_slope;  // dv_a/dl
+  std::array<Vec4, 3> A;
+  std::array<std::array<Vec4, 2>, 3> B;  // [a][turn]: c = a + 1 + turn, modulo 3
 };
 
-Cubic cubicAt(const std::array<double, 3>& l, const std::array<Vec3, 3>& X) noexcept {
-  const std::array<Vec3, 3> slope{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  // dl_a/dl
-  const double product = l[0] * l[1] * l[2];
-  const Vec3 product_slope = l[1] * l[2] * slope[0] + l[2] * l[0] * slope[1] + l[0] * l[1] * slope[2];
+Cubic cubicAt(const std::array<double, 3>& l) noexcept {
+  const std::array<Vec4, 3> slope{Vec4::Unit(1), Vec4::Unit(2), Vec4::Unit(3)};  // dl_a/dl
+  const Vec4 product(l[0] * l[1] * l[2], l[1] * l[2], l[2] * l[0], l[0] * l[1]);
   Cubic cubic;
   for (std::size_t a = 0; a < 3; ++a) {
     const double square = l[a] * l[a], rest = 1.0 - l[a];
-    cubic.A[a] = square * (l[a] + 3.0 * rest) + 2.0 * product;
-    cubic.A_slope[a] = 6.0 * l[a] * rest * slope[a] + 2.0 * product_slope;
-    cubic.v[a].setZero();
-    cubic.v_slope[a].setZero();
-    for (std::size_t turn = 1; turn < 3; ++turn) {
-      const std::size_t c = (a + turn) % 3;
-      const Vec3 edge = X[c] - X[a];
-      cubic.v[a] += (square * l[c] + 0.5 * product) * edge;
-      const Vec3 rate = 2.0 * l[a] * l[c] * slope[a] + square * slope[c] + 0.5 * product_slope;
-      cubic.v_slope[a] += edge * rate.transpose();
+    cubic.A[a] = square * (l[a] + 3.0 * rest) * Vec4::Unit(0) + 6.0 * l[a] * rest * slope[a] + 2.0 * product;
+    for (std::size_t turn = 0; turn < 2; ++turn) {
+      const std::size_t c = (a + 1 + turn) % 3;
+      cubic.B[a][turn] =
+          square * l[c] * Vec4::Unit(0) + 2.0 * l[a] * l[c] * slope[a] + square * slope[c] + 0.5 * product;
     }
   }
   return cubic;
 }
 
-void add(Stencil& stencil, std::int32_t position, double weight, const Vec3& slope) noexcept {
-  std::size_t i = 0;
-  while (i < stencil.count && stencil.position[i] != position) ++i;
-  if (i == stencil.count) {
-    if (i == Stencil::kMost) return;  // the constructor saw to it that this does not happen
-    stencil.position[i] = position;
-    stencil.weight[i] = 0.0;
-    stencil.slope[i].setZero();
-    ++stencil.count;
-  }
-  stencil.weight[i] += weight;
-  stencil.slope[i] += slope;
-}
-
 Stencil linear(const SurfaceMesh& surface, const ContactPoint& s) noexcept {
   const PositionMix mix = surface.mix(s);
   Stencil stencil;
-  for (std::size_t b = 0; b < index(mix.count); ++b)
-    add(stencil, mix.position[b], mix.weight[b], Vec3::Zero());
+  stencil.count = index(mix.count);
+  for (std::size_t b = 0; b < stencil.count; ++b) {
+    stencil.position[b] = mix.position[b];
+    stencil.weight[b] = mix.weight[b];
+    stencil.slope[b].setZero();
+  }
   return stencil;
 }
 
@@ -78,6 +61,24 @@ SmoothMixing::SmoothMixing(const ModelView& view, const SurfaceMesh& surface)
       for (const Part& part : parts[node]) parts_.push_back({part.position, part.gradient / area[node]});
     first_.push_back(parts_.size());
   }
+  for (std::size_t t = 0; t < triangles_.size() / 3; ++t) addStencil(surface, t);
+}
+
+/// Which positions answer in a triangle, each once, and for each part of each of its nodes which of them it is.
+void SmoothMixing::addStencil(const SurfaceMesh& surface, std::size_t triangle) {
+  std::vector<std::int32_t> known;
+  const auto meet = [&](std::int32_t position) {
+    const auto found = std::find(known.begin(), known.end(), position);
+    slots_.push_back(static_cast<std::uint8_t>(found - known.begin()));
+    if (found == known.end()) known.push_back(position);
+  };
+  places_.push_back({positions_.size(), slots_.size()});
+  if (!surface.complete(static_cast<std::int32_t>(triangle))) return;
+  for (const std::int32_t node : triangles_.subspan(3 * triangle, 3)) {
+    meet(position_of_node_[index(node)]);
+    for (std::size_t i = first_[index(node)]; i < first_[index(node) + 1]; ++i) meet(parts_[i].position);
+  }
+  positions_.insert(positions_.end(), known.begin(), known.end());
 }
 
 /// The gradients of a triangle's three linear functions, times its area, go to each of its nodes. A triangle with a
@@ -112,16 +113,29 @@ Stencil SmoothMixing::at(const SurfaceMesh& surface,
                          const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
   if (s.triangle < 0 || s.triangle >= surface.triangles() || !surface.complete(s.triangle))
     return linear(surface, s);
-  const Cubic cubic = cubicAt(s.barycentric, surface.corners(s.triangle));
-  Stencil stencil;
+  const Cubic cubic = cubicAt(s.barycentric);
+  const std::array<Vec3, 3> X = surface.corners(s.triangle);
+  const auto [first, first_slot] = places_[index(s.triangle)];
+  const std::size_t end =
+      index(s.triangle) + 1 < places_.size() ? places_[index(s.triangle) + 1].position : positions_.size();
+  std::array<Vec4, Stencil::kMost> sum;  // weight and slope
+  std::fill_n(sum.begin(), end - first, Vec4::Zero());
+  const std::uint8_t* slot = slots_.data() + first_slot;
   for (std::size_t a = 0; a < 3; ++a) {
     const std::size_t node = index(triangles_[3 * index(s.triangle) + a]);
-    add(stencil, position_of_node_[node], cubic.A[a], cubic.A_slope[a]);
+    const Vec3 one = X[(a + 1) % 3] - X[a], other = X[(a + 2) % 3] - X[a];
+    sum[*slot++] += cubic.A[a];
     for (std::size_t i = first_[node]; i < first_[node + 1]; ++i) {
-      const Part& part = parts_[i];
-      add(stencil, part.position, cubic.v[a].dot(part.gradient),
-          cubic.v_slope[a].transpose() * part.gradient);
+      const Vec3& G = parts_[i].gradient;
+      sum[*slot++] += one.dot(G) * cubic.B[a][0] + other.dot(G) * cubic.B[a][1];
     }
+  }
+  Stencil stencil;
+  stencil.count = end - first;
+  for (std::size_t b = 0; b < stencil.count; ++b) {
+    stencil.position[b] = positions_[first + b];
+    stencil.weight[b] = sum[b][0];
+    stencil.slope[b] = sum[b].tail<3>();
   }
   return stencil;
 }

@@ -17,10 +17,10 @@ namespace palpate {
 /// Which contact positions answer at s, how much each, and how that changes as s moves.
 struct Stencil {
   static constexpr std::size_t kMost = 48;
-  std::size_t count{0};  ///< 0: no answer at s
-  std::array<std::int32_t, kMost> position{};
-  std::array<double, kMost> weight{};  ///< omega_b(s), sum 1; some are a little below 0
-  std::array<Vec3, kMost> slope;       ///< d omega_b / d lambda, the triangle's barycentric weights, 1
+  std::size_t count{0};                      ///< 0: no answer at s
+  std::array<std::int32_t, kMost> position;  // the first `count` of each
+  std::array<double, kMost> weight;          ///< omega_b(s), sum 1; some are a little below 0
+  std::array<Vec3, kMost> slope;             ///< d omega_b / d lambda, the triangle's barycentric weights, 1
 };
 
 /// Interpolation between contact positions that has no kinks worth feeling.                       DESIGN 2.3
@@ -44,13 +44,21 @@ class SmoothMixing {
     std::int32_t position;  // whose value,
     Vec3 gradient;          // times this, 1/m
   };
+  /// Where a triangle's positions and slots begin.
+  struct Place {
+    std::size_t position, slot;
+  };
   void addTriangle(const ModelView& view, std::size_t triangle, std::vector<std::vector<Part>>& parts,
                    std::vector<double>& area) const;
+  void addStencil(const SurfaceMesh& surface, std::size_t triangle);
 
   std::span<const std::int32_t> triangles_;
   std::span<const std::int32_t> position_of_node_;
-  std::vector<std::size_t> first_;  // [Ns + 1] of each node in parts_
-  std::vector<Part> parts_;         // the gradient at the node is the sum of its parts
+  std::vector<std::size_t> first_;       // [Ns + 1] of each node in parts_
+  std::vector<Part> parts_;              // the gradient at the node is the sum of its parts
+  std::vector<Place> places_;            // [T]
+  std::vector<std::int32_t> positions_;  // of each triangle; none where it is not complete
+  std::vector<std::uint8_t> slots_;  // of a triangle's nodes, each before its parts: which of the positions
 };
 
 }  // namespace palpate
