@@ -19,11 +19,21 @@ TriangleHit hitAt(const Vec3& p, const Corners& corner, const std::array<double,
   return hit;
 }
 
-/// Nearest point on the edge opposite to corner k.
-TriangleHit closestOnEdge(const Vec3& p, const Corners& corner, std::size_t k) noexcept {
+/// Nearest point on the edge opposite to corner k: how far along it, 0 to 1, and how far from p.
+struct EdgePoint {
+  double t;
+  double squared_distance;
+};
+
+EdgePoint closestOnEdge(const Vec3& p, const Corners& corner, std::size_t k) noexcept {
+  const Vec3& from = corner[(k + 1) % 3];
+  const Vec3 edge = corner[(k + 2) % 3] - from, gap = p - from;
+  const double t = std::clamp(gap.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+  return {t, (gap - t * edge).squaredNorm()};
+}
+
+TriangleHit hitOnEdge(const Vec3& p, const Corners& corner, std::size_t k, double t) noexcept {
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  const Vec3 edge = corner[j] - corner[i];
-  const double t = std::clamp((p - corner[i]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
   std::array<double, 3> barycentric{};
   barycentric[i] = 1.0 - t;
   barycentric[j] = t;
@@ -49,12 +59,15 @@ TriangleHit closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b,
     return hitAt(p, corner, weight, TriangleFeature::kFace);
   // Outside the prism over the triangle the nearest point lies on an edge, not always on one whose weight is
   // negative alone (obtuse corners): the nearest of all three is right in every case.
-  TriangleHit best = closestOnEdge(p, corner, 0);
+  EdgePoint best = closestOnEdge(p, corner, 0);
+  std::size_t on = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    const TriangleHit hit = closestOnEdge(p, corner, k);
-    if (hit.squared_distance < best.squared_distance) best = hit;
+    const EdgePoint other = closestOnEdge(p, corner, k);
+    if (!(other.squared_distance < best.squared_distance)) continue;
+    best = other;
+    on = k;
   }
-  return best;
+  return hitOnEdge(p, corner, on, best.t);
 }
 
 }  // namespace palpate

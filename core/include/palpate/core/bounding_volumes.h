@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,8 +26,8 @@ struct TriangleHit {
 [[nodiscard]] TriangleHit closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b,
                                             const Vec3& c) noexcept PALPATE_NONBLOCKING;
 
-/// A binary tree of boxes over triangles, in one flat array: children halve the number of triangles, so that
-/// the depth is at most 32 and the traversal's stack has a fixed size.
+/// A tree of boxes over triangles, four children to a node, in one flat array. Children hold a quarter of the
+/// triangles, so that the depth is at most 16 and the traversal's stack has a fixed size.
 class BoundingVolumes {
  public:
   BoundingVolumes() = default;
@@ -37,27 +38,32 @@ class BoundingVolumes {
     std::int32_t triangle{-1};
     TriangleHit where;
   };
-  /// Nearest triangle to a finite p. Allocates nothing. Real-time: yes.
+  /// Nearest triangle to a finite p; -1 when there is none at all. Allocates nothing. Real-time: yes.
   [[nodiscard]] Hit closest(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  struct Box {
-    std::array<double, 3> low{};
-    std::array<double, 3> high{};
-    std::int32_t first{0};  ///< leaf: first in order_; inner: index of the right child (the left one follows)
-    std::int32_t count{0};  ///< leaf: triangles; inner: 0
+  static constexpr std::size_t kChildren = 4;
+  /// The boxes of its children side by side, so that all four are compared with a point at once; as floats, rounded
+  /// outwards: half the memory to wait for.
+  struct Node {
+    std::array<std::array<float, kChildren>, 3> low;
+    std::array<std::array<float, kChildren>, 3> high;
+    std::array<std::int32_t, kChildren>
+        child;  ///< >= 0: a node; else ~triangle. Of none: an infinitely far box
   };
+  using Distances = std::array<double, kChildren>;
 
-  void build(std::int32_t begin, std::int32_t end, std::span<const Vec3> centres);
-  [[nodiscard]] Box boxOf(std::int32_t begin, std::int32_t end) const;
-  [[nodiscard]] double squaredDistance(const Box& box, const Vec3& p) const noexcept;
-  void visitLeaf(const Box& box, const Vec3& p, Hit& best) const noexcept;
+  std::int32_t build(std::span<std::int32_t> triangles, std::span<const Vec3> centres);
+  [[nodiscard]] std::array<std::span<std::int32_t>, kChildren> divided(std::span<std::int32_t> triangles,
+                                                                       std::span<const Vec3> centres) const;
+  void setBox(Node& node, std::size_t k, std::span<const std::int32_t> triangles) const;
+  [[nodiscard]] static Distances squaredDistances(const Node& node, const Vec3& p) noexcept;
+  [[nodiscard]] TriangleHit hit(std::int32_t triangle, const Vec3& p) const noexcept;
   [[nodiscard]] Vec3 corner(std::int32_t triangle, int k) const noexcept;
 
   std::span<const double> positions_;
   std::span<const std::int32_t> triangles_;
-  std::vector<std::int32_t> order_;
-  std::vector<Box> boxes_;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace palpate
