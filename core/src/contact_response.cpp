@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/contact_response.h"
 
+#include <utility>
+
 #include "kernels.h"
 #include "palpate/core/length.h"
 
@@ -77,7 +79,28 @@ ContactResponse::ContactResponse(const ModelView& view, const ModelAttributes& a
       coefficient_(attributes.parameters == Parameters::kDisplacement ? view.contact_force
                                                                       : view.contact_displacement),
       limit_(view.contact_domain_radius),
-      harmonic_(attributes.parameters != Parameters::kDisplacement) {}
+      harmonic_(attributes.parameters != Parameters::kDisplacement) {
+  if (attributes.parameters == Parameters::kDisplacement) integrate();
+}
+
+/// int_0^1 f_b(tau d) . d dtau, term by term: d_axis (d / d_ref)^alpha has the degree |alpha| + 1, and some terms meet.
+void ContactResponse::integrate() {
+  const MonomialBasis& basis = functions_.basis();
+  const auto C = static_cast<std::size_t>(basis.size());
+  energy_width_ = static_cast<std::size_t>(MonomialBasis::size(basis.order() + 1) - 3);
+  energy_.resize(limit_.size() * energy_width_);
+  std::vector<std::pair<std::size_t, double>> goes(3 * C);  // where to, and divided by what
+  for (std::size_t entry = 0; entry < goes.size(); ++entry) {
+    MultiIndex alpha = basis[static_cast<int>(entry / 3)];
+    ++alpha[entry % 3];
+    goes[entry] = {static_cast<std::size_t>(MonomialBasis::positionOf(alpha) - 3),
+                   double(alpha[0] + alpha[1] + alpha[2])};
+  }
+  for (std::size_t b = 0; b < limit_.size(); ++b)
+    for (std::size_t entry = 0; entry < goes.size(); ++entry)
+      energy_[b * energy_width_ + goes[entry].first] +=
+          coefficient_[b * goes.size() + entry] / goes[entry].second;
+}
 
 ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
   ContactSeries series(functions_);
@@ -105,18 +128,17 @@ ContactSeries ContactResponse::at(const Stencil& stencil, double limit) const no
 
 Vec3 ContactResponse::energySlope(const Stencil& stencil, const Vec3& d,
                                   double limit) const noexcept PALPATE_NONBLOCKING {
-  const auto C = static_cast<std::size_t>(functions_.size());
   const double length = lengthOf(d), beyond = length > limit ? length / limit : 1.0;
-  const Vec3 inside = d / beyond;
-  std::array<double, MonomialBasis::kMaxCoefficients> share;
-  functions_.energyShares(inside, share);
-  std::array<double, std::size_t{3} * MonomialBasis::kMaxCoefficients> weight;  // W_b = weight . c_b
-  for (std::size_t k = 0; k < C; ++k) Eigen::Map<Vec3>(weight.data() + 3 * k) = share[k] * inside;
-  std::array<double, Stencil::kMost> W;
-  dotRows(coefficient_.data(), 3 * C, stencil.position.data(), weight.data(), stencil.count, W.data());
+  const Vec3 x = d / (beyond * functions_.reference());
+  std::array<double, MonomialBasis::kMaxCoefficients> phi;
+  std::array<double, MonomialBasis::size(MonomialBasis::kMaxOrder + 1)> products;
+  functions_.basis().evaluate(x, phi);
+  functions_.basis().products(x, phi, products);
+  std::array<double, Stencil::kMost> W;  // over d_ref
+  dotRows(energy_.data(), energy_width_, stencil.position.data(), products.data(), stencil.count, W.data());
   Vec3 slope = Vec3::Zero();
   for (std::size_t b = 0; b < stencil.count; ++b) slope += W[b] * stencil.slope[b];
-  return beyond * beyond * slope;
+  return functions_.reference() * beyond * beyond * slope;
 }
 
 double ContactResponse::limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {

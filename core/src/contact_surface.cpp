@@ -200,11 +200,11 @@ SurfaceFrame ContactSurface::frame(const SurfaceMesh& rest,
     normal += fine.barycentric[k] * slope.normal.cast<double>();
     to_rest += fine.barycentric[k] * slope.rest.cast<double>();
   }
-  const std::int32_t rest_triangle = this->rest(fine).triangle;
+  const Mat3 weights = rest.slopes(this->rest(fine).triangle);
   for (Eigen::Index i = 0; i < 2; ++i) {
     const Vec3 turning = normal * frame.tangent.col(i);
     frame.turning.col(i) = turning - frame.normal * frame.normal.dot(turning);
-    frame.rates.col(i) = rest.rates(rest_triangle, to_rest * frame.tangent.col(i));
+    frame.rates.col(i) = weights * to_rest * frame.tangent.col(i);
   }
   return frame;
 }

@@ -38,8 +38,12 @@ MonomialBasis::MonomialBasis(int order) : order_(order) {
 int MonomialBasis::find(const MultiIndex& alpha) const noexcept {
   const int degree = alpha[0] + alpha[1] + alpha[2];
   if (alpha[0] < 0 || alpha[1] < 0 || alpha[2] < 0 || degree < 1 || degree > order_) return -1;
-  const int rest = degree - alpha[0];  // the indices before those with this a_x: 1 + 2 + ... + rest
-  return begin(degree) + rest * (rest + 1) / 2 + (rest - alpha[1]);
+  return positionOf(alpha);
+}
+
+int MonomialBasis::positionOf(const MultiIndex& alpha) noexcept {
+  const int rest = alpha[1] + alpha[2];  // the indices before those with this a_x: 1 + 2 + ... + rest
+  return begin(alpha[0] + rest) + rest * (rest + 1) / 2 + alpha[2];
 }
 
 void MonomialBasis::evaluate(const Vec3& x, std::span<double> values) const noexcept PALPATE_NONBLOCKING {
@@ -47,6 +51,14 @@ void MonomialBasis::evaluate(const Vec3& x, std::span<double> values) const noex
   std::copy(factor.begin(), factor.end(), values.begin());
   forEachProduct(order_, [&](std::size_t k, std::size_t from, std::size_t axis) {
     values[k] = factor[axis] * values[from];
+  });
+}
+
+void MonomialBasis::products(const Vec3& x, std::span<const double> values,
+                             std::span<double> products) const noexcept PALPATE_NONBLOCKING {
+  const std::array<double, 3> factor{x.x(), x.y(), x.z()};
+  forEachProduct(order_ + 1, [&](std::size_t k, std::size_t from, std::size_t axis) {
+    products[k - 3] = factor[axis] * values[from];
   });
 }
 

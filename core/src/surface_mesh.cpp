@@ -156,13 +156,17 @@ Vec3 SurfaceMesh::position(const ContactPoint& s) const noexcept PALPATE_NONBLOC
   return sum;
 }
 
-Vec3 SurfaceMesh::normal(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+Vec3 SurfaceMesh::mixedNormal(const ContactPoint& s) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k)
     sum += s.barycentric[k] * node_normals_[index(triangles_[3 * index(s.triangle) + k])];
+  return sum;
+}
+
+Vec3 SurfaceMesh::normal(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+  const Vec3 sum = mixedNormal(s);
   const double length = sum.norm();
-  return length > 1e-6 ? Vec3(sum / length)
-                       : face_normals_[index(s.triangle)];  // a blade's edge: normals cancel
+  return length > kLeastNormal ? Vec3(sum / length) : face_normals_[index(s.triangle)];
 }
 
 ContactPoint SurfaceMesh::atNode(int node) const noexcept PALPATE_NONBLOCKING {

@@ -59,27 +59,27 @@ std::array<Vec3, 3> SurfaceMesh::corners(std::int32_t triangle) const noexcept P
   return {nodePosition(node[0]), nodePosition(node[1]), nodePosition(node[2])};
 }
 
-/// How the barycentric weights change along w, a vector in the triangle's plane.
-Vec3 SurfaceMesh::rates(std::int32_t triangle, const Vec3& w) const noexcept PALPATE_NONBLOCKING {
+Mat3 SurfaceMesh::slopes(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING {
   const std::array<Vec3, 3> X = corners(triangle);
-  const Vec3 area = (X[1] - X[0]).cross(X[2] - X[0]);
-  const double square = area.squaredNorm();
-  return {area.dot((X[2] - X[1]).cross(w)) / square, area.dot((X[0] - X[2]).cross(w)) / square,
-          area.dot((X[1] - X[0]).cross(w)) / square};
+  const Vec3 area = (X[1] - X[0]).cross(X[2] - X[0]), over = area / area.squaredNorm();
+  Mat3 slopes;
+  slopes << over.cross(X[2] - X[1]).transpose(), over.cross(X[0] - X[2]).transpose(),
+      over.cross(X[1] - X[0]).transpose();
+  return slopes;
 }
 
 SurfaceFrame SurfaceMesh::frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
   SurfaceFrame frame;
   frame.position = position(s);
-  frame.normal = normal(s);
+  const Vec3 mixed = mixedNormal(s);
+  const double length = std::max(mixed.norm(), kLeastNormal);
+  frame.normal = length > kLeastNormal ? Vec3(mixed / length) : face_normals_[index(s.triangle)];
   frame.tangent = tangentsOf(frame.normal);
   const std::int32_t* const node = triangles_.data() + 3 * index(s.triangle);
-  Vec3 mixed = Vec3::Zero();
-  for (std::size_t k = 0; k < 3; ++k) mixed += s.barycentric[k] * node_normals_[index(node[k])];
-  const double length = std::max(mixed.norm(), 1e-6);
+  const Mat3 slope = slopes(s.triangle);
   for (Eigen::Index i = 0; i < 2; ++i) {
     const Vec3 w = intoPlane(frame.tangent.col(i), face_normals_[index(s.triangle)], frame.normal);
-    const Vec3 rate = rates(s.triangle, w);
+    const Vec3 rate = slope * w;
     Vec3 turning = Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k)
       turning += rate[static_cast<Eigen::Index>(k)] * node_normals_[index(node[k])];
@@ -119,7 +119,7 @@ void SurfaceMesh::crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to, 
 bool SurfaceMesh::move(ContactPoint& s, const Vec3& v, Reach reach) const noexcept PALPATE_NONBLOCKING {
   Vec3 w = intoPlane(v, face_normals_[index(s.triangle)], normal(s));
   for (int crossing = 0; crossing <= kMaxCrossings; ++crossing) {
-    const Vec3 rate = rates(s.triangle, w);
+    const Vec3 rate = slopes(s.triangle) * w;
     const Exit exit = exitOf(s, rate);
     for (std::size_t k = 0; k < 3; ++k)
       s.barycentric[k] = std::max(0.0, s.barycentric[k] + exit.t * rate[static_cast<Eigen::Index>(k)]);

@@ -37,11 +37,17 @@ class MonomialBasis {
   }
   /// Position of alpha in the list, -1 when its degree is 0 or above the order.
   [[nodiscard]] int find(const MultiIndex& alpha) const noexcept;
+  /// Position of alpha in the list of any order that has its degree, 1 or more.
+  [[nodiscard]] static int positionOf(const MultiIndex& alpha) noexcept;
   /// First position of degree n (1 <= n <= order); begin(order + 1) is size().
-  [[nodiscard]] int begin(int degree) const noexcept { return size(degree - 1); }
+  [[nodiscard]] static constexpr int begin(int degree) noexcept { return size(degree - 1); }
 
   /// values[k] = x^alpha_k. @param[out] values  size() numbers. Real-time: yes.
   void evaluate(const Vec3& x, std::span<double> values) const noexcept PALPATE_NONBLOCKING;
+  /// products[k] = x^alpha_{k+3}, 2 <= |alpha| <= order() + 1. @param  values  evaluate() at x
+  /// @param[out] products  size(order() + 1) - 3 numbers. Real-time: yes.
+  void products(const Vec3& x, std::span<const double> values,
+                std::span<double> products) const noexcept PALPATE_NONBLOCKING;
   /// gradient[k] = d(x^alpha_k)/dx. @param[out] gradient  size() vectors. Real-time: yes.
   void gradient(const Vec3& x, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING;
   /// jets[k] = x^alpha_k, d/dx, d/dy, d/dz of it. @param[out] jets  size() of them. Real-time: yes.

@@ -28,6 +28,8 @@ class ParameterFunctions {
   /// shares[k] = int_0^1 phi_k(tau p) dtau = phi_k(p) / (|alpha| + 1); monomials only. @param[out] shares  size()
   /// numbers. Real-time: yes.
   void energyShares(const Vec3& p, std::span<double> shares) const noexcept PALPATE_NONBLOCKING;
+  /// The monomials, of a model that has no levels.
+  [[nodiscard]] const MonomialBasis& basis() const noexcept { return basis_; }
   /// d_ref in m, f_ref in N, or 1 of a level.
   [[nodiscard]] double reference() const noexcept { return reference_; }
   /// gradient[k] = reference() dphi_k/dp: the caller divides once, the sum. Of a level that of the segment which

@@ -87,9 +87,8 @@ class SurfaceMesh {
   /// edge or deep inside. Real-time: yes.
   [[nodiscard]] bool project(const Vec3& c, ContactPoint& s, double& h) const noexcept PALPATE_NONBLOCKING;
 
-  /// d lambda: how a triangle's barycentric weights change along w, as far as it lies in the triangle's plane.
-  /// @param w  m. Real-time: yes.
-  [[nodiscard]] Vec3 rates(std::int32_t triangle, const Vec3& w) const noexcept PALPATE_NONBLOCKING;
+  /// Row k: the gradient of a triangle's barycentric weight k in its plane, 1/m. Real-time: yes.
+  [[nodiscard]] Mat3 slopes(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// Rest positions of a triangle's nodes, m. Real-time: yes.
   [[nodiscard]] std::array<Vec3, 3> corners(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// Each of the triangle's nodes has a contact position. Real-time: yes.
@@ -100,6 +99,8 @@ class SurfaceMesh {
 
  private:
   [[nodiscard]] Vec3 nodePosition(std::int32_t node) const noexcept;
+  [[nodiscard]] Vec3 mixedNormal(const ContactPoint& s) const noexcept;
+  static constexpr double kLeastNormal = 1e-6;  // below, on a blade's edge, the nodes' normals cancel
   void crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to, Vec3& w) const noexcept;
   void buildFaceNormals();
   void buildNodeNormals();
