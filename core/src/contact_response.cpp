@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/contact_response.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "kernels.h"
@@ -80,26 +82,31 @@ ContactResponse::ContactResponse(const ModelView& view, const ModelAttributes& a
                                                                       : view.contact_displacement),
       limit_(view.contact_domain_radius),
       harmonic_(attributes.parameters != Parameters::kDisplacement) {
-  if (attributes.parameters == Parameters::kDisplacement) integrate();
+  if (attributes.parameters == Parameters::kDisplacement) copyRows();
 }
 
-/// int_0^1 f_b(tau d) . d dtau, term by term: d_axis (d / d_ref)^alpha has the degree |alpha| + 1, and some terms meet.
-void ContactResponse::integrate() {
+/// The energy int_0^1 f_b(tau d) . d dtau goes term by term: d_axis (d / d_ref)^alpha has the degree |alpha| + 1, and
+/// some terms meet.
+void ContactResponse::copyRows() {
   const MonomialBasis& basis = functions_.basis();
-  const auto C = static_cast<std::size_t>(basis.size());
-  energy_width_ = static_cast<std::size_t>(MonomialBasis::size(basis.order() + 1) - 3);
-  energy_.resize(limit_.size() * energy_width_);
-  std::vector<std::pair<std::size_t, double>> goes(3 * C);  // where to, and divided by what
-  for (std::size_t entry = 0; entry < goes.size(); ++entry) {
+  const std::size_t width = 3 * static_cast<std::size_t>(basis.size());
+  std::vector<std::pair<std::size_t, double>> goes(width);  // where to, and divided by what
+  for (std::size_t entry = 0; entry < width; ++entry) {
     MultiIndex alpha = basis[static_cast<int>(entry / 3)];
     ++alpha[entry % 3];
     goes[entry] = {static_cast<std::size_t>(MonomialBasis::positionOf(alpha) - 3),
                    double(alpha[0] + alpha[1] + alpha[2])};
   }
-  for (std::size_t b = 0; b < limit_.size(); ++b)
-    for (std::size_t entry = 0; entry < goes.size(); ++entry)
-      energy_[b * energy_width_ + goes[entry].first] +=
-          coefficient_[b * goes.size() + entry] / goes[entry].second;
+  force_lines_ = lines(width);
+  energy_lines_ = lines(static_cast<std::size_t>(MonomialBasis::size(basis.order() + 1) - 3));
+  rows_.resize(limit_.size() * (force_lines_ + energy_lines_));
+  for (std::size_t b = 0; b < limit_.size(); ++b) {
+    double* const row = rows_[b * (force_lines_ + energy_lines_)].number.data();
+    const std::span<const double> c = coefficient_.subspan(b * width, width);
+    std::copy(c.begin(), c.end(), row);
+    for (std::size_t entry = 0; entry < width; ++entry)
+      row[8 * force_lines_ + goes[entry].first] += c[entry] / goes[entry].second;
+  }
 }
 
 ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
@@ -119,9 +126,8 @@ ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE
 
 ContactSeries ContactResponse::at(const Stencil& stencil, double limit) const noexcept PALPATE_NONBLOCKING {
   ContactSeries series(functions_);
-  const std::size_t width = 3 * static_cast<std::size_t>(functions_.size());
-  mixRows(coefficient_.data(), width, stencil.position.data(), stencil.weight.data(), stencil.count,
-          series.coefficient_.front().data());
+  mixRows({rows(), 8 * (force_lines_ + energy_lines_), stencil.position.data(), stencil.count},
+          stencil.weight.data(), 8 * force_lines_, series.coefficient_.front().data());
   series.limit_ = limit;
   return series;
 }
@@ -131,11 +137,15 @@ Vec3 ContactResponse::energySlope(const Stencil& stencil, const Vec3& d,
   const double length = lengthOf(d), beyond = length > limit ? length / limit : 1.0;
   const Vec3 x = d / (beyond * functions_.reference());
   std::array<double, MonomialBasis::kMaxCoefficients> phi;
-  std::array<double, MonomialBasis::size(MonomialBasis::kMaxOrder + 1)> products;
+  constexpr std::size_t kMost = MonomialBasis::size(MonomialBasis::kMaxOrder + 1);
+  std::array<double, 8 * lines(kMost)> products;
+  std::fill_n(products.begin() + std::ptrdiff_t(8 * energy_lines_) - 8, 8, 0.0);
   functions_.basis().evaluate(x, phi);
   functions_.basis().products(x, phi, products);
   std::array<double, Stencil::kMost> W;  // over d_ref
-  dotRows(energy_.data(), energy_width_, stencil.position.data(), products.data(), stencil.count, W.data());
+  dotRows(
+      {rows() + 8 * force_lines_, 8 * (force_lines_ + energy_lines_), stencil.position.data(), stencil.count},
+      products.data(), 8 * energy_lines_, W.data());
   Vec3 slope = Vec3::Zero();
   for (std::size_t b = 0; b < stencil.count; ++b) slope += W[b] * stencil.slope[b];
   return functions_.reference() * beyond * beyond * slope;

@@ -53,14 +53,15 @@ PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const floa
   }
 }
 
-PALPATE_MULTIVERSION void mixRows(const double* A, std::size_t length, const std::int32_t* row,
-                                  const double* weight, std::size_t rows,
+PALPATE_MULTIVERSION void mixRows(const Rows& rows, const double* weight, std::size_t length,
                                   double* y) noexcept PALPATE_NONBLOCKING {
   double* __restrict__ const out = y;
-  const auto begin = [=](std::size_t r) { return A + length * static_cast<std::size_t>(row[r]); };
+  const auto begin = [&](std::size_t r) {
+    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
+  };
   for (std::size_t i = 0; i < length; ++i) out[i] = 0.0;
   std::size_t r = 0;
-  for (; r + 4 <= rows; r += 4) {  // as above
+  for (; r + 4 <= rows.count; r += 4) {  // as above
     const double* __restrict__ const a0 = begin(r);
     const double* __restrict__ const a1 = begin(r + 1);
     const double* __restrict__ const a2 = begin(r + 2);
@@ -68,32 +69,31 @@ PALPATE_MULTIVERSION void mixRows(const double* A, std::size_t length, const std
     const double w0 = weight[r], w1 = weight[r + 1], w2 = weight[r + 2], w3 = weight[r + 3];
     for (std::size_t i = 0; i < length; ++i) out[i] += (w0 * a0[i] + w1 * a1[i]) + (w2 * a2[i] + w3 * a3[i]);
   }
-  for (; r < rows; ++r) {
+  for (; r < rows.count; ++r) {
     const double* __restrict__ const a = begin(r);
-    for (std::size_t i = 0; i < length; ++i) out[i] += weight[r] * a[i];
+    const double w = weight[r];
+    for (std::size_t i = 0; i < length; ++i) out[i] += w * a[i];
   }
 }
 
-PALPATE_MULTIVERSION void dotRows(const double* A, std::size_t length, const std::int32_t* row,
-                                  const double* y, std::size_t rows,
+PALPATE_MULTIVERSION void dotRows(const Rows& rows, const double* y, std::size_t length,
                                   double* out) noexcept PALPATE_NONBLOCKING {
-  const auto begin = [=](std::size_t r) { return A + length * static_cast<std::size_t>(row[r]); };
-  for (std::size_t r = 0; r < rows; r += 4) {  // four rows at a time; the last ones may be the same row
-    const std::size_t last = rows - 1;
+  const auto begin = [&](std::size_t r) {
+    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
+  };
+  for (std::size_t r = 0; r < rows.count; r += 4) {  // four at a time; the last ones may be the same row
+    const std::size_t last = rows.count - 1;
     const double* const a[4] = {begin(r), begin(std::min(r + 1, last)), begin(std::min(r + 2, last)),
                                 begin(std::min(r + 3, last))};
     Lanes even[4] = {}, odd[4] = {};  // partial sums, so that the additions need not wait for each other
-    std::size_t i = 0;
-    for (; i + 8 <= length; i += 8)
+    for (std::size_t i = 0; i < length; i += 8)
       for (std::size_t k = 0; k < 4; ++k) {
         even[k] += lanesAt(a[k] + i) * lanesAt(y + i);
         odd[k] += lanesAt(a[k] + i + 4) * lanesAt(y + i + 4);
       }
-    for (std::size_t k = 0; k < 4 && r + k < rows; ++k) {
+    for (std::size_t k = 0; k < 4 && r + k < rows.count; ++k) {
       const Lanes sum = even[k] + odd[k];
-      double rest = 0.0;
-      for (std::size_t j = i; j < length; ++j) rest += a[k][j] * y[j];
-      out[r + k] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) + rest;
+      out[r + k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
   }
 }

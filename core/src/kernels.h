@@ -18,12 +18,19 @@ void addWeightedRows(const float* A, std::size_t stride, const float* weight, st
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
              float* out) noexcept PALPATE_NONBLOCKING;
 
-/// y = sum over `rows` rows of weight[r] * A[row[r]], each `length` long. Real-time: yes.
-void mixRows(const double* A, std::size_t length, const std::int32_t* row, const double* weight,
-             std::size_t rows, double* y) noexcept PALPATE_NONBLOCKING;
+/// Rows that lie here and there: number r begins at A + stride * row[r], r < count.
+struct Rows {
+  const double* A;
+  std::size_t stride;
+  const std::int32_t* row;
+  std::size_t count;
+};
 
-/// out[r] = A[row[r]] . y, r < rows, each `length` long. Real-time: yes.
-void dotRows(const double* A, std::size_t length, const std::int32_t* row, const double* y, std::size_t rows,
-             double* out) noexcept PALPATE_NONBLOCKING;
+/// y = sum_r weight[r] * row r. @param length  of each row and y. Real-time: yes.
+void mixRows(const Rows& rows, const double* weight, std::size_t length,
+             double* y) noexcept PALPATE_NONBLOCKING;
+
+/// out[r] = row r . y. @param length  of each row and y, a multiple of 8. Real-time: yes.
+void dotRows(const Rows& rows, const double* y, std::size_t length, double* out) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

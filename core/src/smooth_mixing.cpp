@@ -35,16 +35,13 @@ Cubic cubicAt(const std::array<double, 3>& l) noexcept {
   return cubic;
 }
 
-Stencil linear(const SurfaceMesh& surface, const ContactPoint& s) noexcept {
-  const PositionMix mix = surface.mix(s);
-  Stencil stencil;
+void mixLinearly(const PositionMix& mix, Stencil& stencil) noexcept {
   stencil.count = index(mix.count);
   for (std::size_t b = 0; b < stencil.count; ++b) {
     stencil.position[b] = mix.position[b];
     stencil.weight[b] = mix.weight[b];
     stencil.slope[b].setZero();
   }
-  return stencil;
 }
 
 }  // namespace
@@ -55,29 +52,31 @@ SmoothMixing::SmoothMixing(const ModelView& view, const SurfaceMesh& surface)
   std::vector<std::vector<Part>> parts(index(surface.nodes()));
   std::vector<double> area(parts.size(), 0.0);
   for (std::size_t t = 0; t < triangles_.size() / 3; ++t) addTriangle(view, t, parts, area);
-  first_.push_back(0);
   for (std::size_t node = 0; node < parts.size(); ++node) {
-    if (parts[node].size() <= kMostParts)
-      for (const Part& part : parts[node]) parts_.push_back({part.position, part.gradient / area[node]});
-    first_.push_back(parts_.size());
+    if (parts[node].size() > kMostParts) parts[node].clear();
+    for (Part& part : parts[node]) part.gradient /= area[node];
   }
-  for (std::size_t t = 0; t < triangles_.size() / 3; ++t) addStencil(surface, t);
+  first_.push_back({0, 0});
+  for (std::int32_t t = 0; t < surface.triangles(); ++t) {
+    if (surface.complete(t)) addStencil(surface, t, parts);
+    first_.push_back({positions_.size(), shares_.size()});
+  }
 }
 
-/// Which positions answer in a triangle, each once, and for each part of each of its nodes which of them it is.
-void SmoothMixing::addStencil(const SurfaceMesh& surface, std::size_t triangle) {
+/// Which positions answer in a triangle, each once, those of its nodes first; and what they get of its nodes' gradients.
+void SmoothMixing::addStencil(const SurfaceMesh& surface, std::int32_t triangle,
+                              const std::vector<std::vector<Part>>& parts) {
+  const std::span<const std::int32_t> node = triangles_.subspan(3 * index(triangle), 3);
+  const std::array<Vec3, 3> X = surface.corners(triangle);
   std::vector<std::int32_t> known;
-  const auto meet = [&](std::int32_t position) {
-    const auto found = std::find(known.begin(), known.end(), position);
-    slots_.push_back(static_cast<std::uint8_t>(found - known.begin()));
-    if (found == known.end()) known.push_back(position);
-  };
-  places_.push_back({positions_.size(), slots_.size()});
-  if (!surface.complete(static_cast<std::int32_t>(triangle))) return;
-  for (const std::int32_t node : triangles_.subspan(3 * triangle, 3)) {
-    meet(position_of_node_[index(node)]);
-    for (std::size_t i = first_[index(node)]; i < first_[index(node) + 1]; ++i) meet(parts_[i].position);
-  }
+  for (const std::int32_t corner : node) known.push_back(position_of_node_[index(corner)]);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (const Part& part : parts[index(node[a])]) {
+      auto found = std::find(known.begin(), known.end(), part.position);
+      if (found == known.end()) found = known.insert(found, part.position);
+      shares_.push_back({part.gradient.dot(X[(a + 1) % 3] - X[a]), part.gradient.dot(X[(a + 2) % 3] - X[a]),
+                         static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(found - known.begin())});
+    }
   positions_.insert(positions_.end(), known.begin(), known.end());
 }
 
@@ -111,29 +110,24 @@ void SmoothMixing::addTriangle(const ModelView& view, std::size_t triangle,
 
 Stencil SmoothMixing::at(const SurfaceMesh& surface,
                          const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
-  if (s.triangle < 0 || s.triangle >= surface.triangles() || !surface.complete(s.triangle))
-    return linear(surface, s);
-  const Cubic cubic = cubicAt(s.barycentric);
-  const std::array<Vec3, 3> X = surface.corners(s.triangle);
-  const auto [first, first_slot] = places_[index(s.triangle)];
-  const std::size_t end =
-      index(s.triangle) + 1 < places_.size() ? places_[index(s.triangle) + 1].position : positions_.size();
-  std::array<Vec4, Stencil::kMost> sum;  // weight and slope
-  std::fill_n(sum.begin(), end - first, Vec4::Zero());
-  const std::uint8_t* slot = slots_.data() + first_slot;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const std::size_t node = index(triangles_[3 * index(s.triangle) + a]);
-    const Vec3 one = X[(a + 1) % 3] - X[a], other = X[(a + 2) % 3] - X[a];
-    sum[*slot++] += cubic.A[a];
-    for (std::size_t i = first_[node]; i < first_[node + 1]; ++i) {
-      const Vec3& G = parts_[i].gradient;
-      sum[*slot++] += one.dot(G) * cubic.B[a][0] + other.dot(G) * cubic.B[a][1];
-    }
+  Stencil stencil;  // the one that is returned on every way out, so that it is not copied
+  if (s.triangle < 0 || s.triangle >= surface.triangles() || !surface.complete(s.triangle)) {
+    mixLinearly(surface.mix(s), stencil);
+    return stencil;
   }
-  Stencil stencil;
-  stencil.count = end - first;
+  const Cubic cubic = cubicAt(s.barycentric);
+  const First& first = first_[index(s.triangle)];
+  const First& end = first_[index(s.triangle) + 1];
+  std::array<Vec4, Stencil::kMost> sum;  // weight and slope
+  std::copy(cubic.A.begin(), cubic.A.end(), sum.begin());
+  std::fill(sum.begin() + 3, sum.begin() + std::ptrdiff_t(end.position - first.position), Vec4::Zero());
+  for (std::size_t i = first.share; i < end.share; ++i) {
+    const Share& share = shares_[i];
+    sum[share.of] += share.one * cubic.B[share.corner][0] + share.other * cubic.B[share.corner][1];
+  }
+  stencil.count = end.position - first.position;
   for (std::size_t b = 0; b < stencil.count; ++b) {
-    stencil.position[b] = positions_[first + b];
+    stencil.position[b] = positions_[first.position + b];
     stencil.weight[b] = sum[b][0];
     stencil.slope[b] = sum[b].tail<3>();
   }

@@ -63,6 +63,37 @@ TEST(MonomialBasis, GradientIsTheDerivative) {
   }
 }
 
+TEST(MonomialBasis, BendsAreTheDerivativesOfTheGradient) {
+  const MonomialBasis basis(MonomialBasis::kMaxOrder);
+  const auto size = static_cast<std::size_t>(basis.size());
+  const Vec3 x(0.4, -0.9, 0.7);
+  std::vector<Vec4> jets(size);
+  std::vector<Vec6> bends(size);
+  std::vector<Vec3> plus(size), minus(size);
+  basis.jets(x, jets);
+  basis.bends(x, jets, bends);
+  const double h = 1e-6;
+  constexpr Eigen::Index kEntry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    basis.gradient(x + h * Vec3::Unit(axis), plus);
+    basis.gradient(x - h * Vec3::Unit(axis), minus);
+    for (std::size_t k = 0; k < size; ++k)
+      for (Eigen::Index i = 0; i < 3; ++i)
+        EXPECT_NEAR(bends[k][kEntry[axis][i]], (plus[k][i] - minus[k][i]) / (2.0 * h), 1e-8);
+  }
+}
+
+TEST(MonomialBasis, ProductsAreTheMonomialsUpToTheNextDegree) {
+  const MonomialBasis basis(4), next(5);
+  const Vec3 x(0.3, -1.2, 0.7);
+  std::vector<double> values(static_cast<std::size_t>(basis.size()));
+  std::vector<double> expected(static_cast<std::size_t>(next.size())), products(expected.size() - 3);
+  basis.evaluate(x, values);
+  basis.products(x, values, products);
+  next.evaluate(x, expected);
+  for (std::size_t k = 0; k < products.size(); ++k) EXPECT_DOUBLE_EQ(products[k], expected[k + 3]);
+}
+
 TEST(MonomialBasis, RefusesOrdersOutOfRange) {
   for (const int order : {0, 8, -1}) {
     try {

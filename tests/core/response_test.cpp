@@ -129,6 +129,30 @@ TEST(Response, ForceIsGradientOfEnergy) {
   }
 }
 
+TEST(Response, EnergySlopeIsTheDerivativeOfTheEnergyAsTheAnchorMoves) {
+  Random random;
+  for (int trial = 0; trial < 50; ++trial) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 d = random.vector(0.004);
+    if (!organ().surface().complete(s.triangle)) continue;  // mixed linearly, and no anchor goes there
+    const PatchResponse here(organ(), s);
+    const double h = 1e-6;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ContactPoint plus = s, minus = s;
+      for (const double way : {1.0, -1.0}) {
+        ContactPoint& there = way > 0.0 ? plus : minus;
+        there.barycentric[k] += way * h;
+        there.barycentric[(k + 1) % 3] -= way * h;
+      }
+      const double slope =
+          (PatchResponse(organ(), plus).energy(d) - PatchResponse(organ(), minus).energy(d)) / (2.0 * h);
+      const Vec3 found = here.energySlope(d);
+      EXPECT_NEAR(found[Eigen::Index(k)] - found[Eigen::Index((k + 1) % 3)], slope,
+                  1e-8 * here.energy(d) + 1e-12);
+    }
+  }
+}
+
 TEST(Response, StiffnessIsTheDerivativeOfForceInsideAndBeyondTheDomain) {
   Random random;
   for (const double size : {0.004, 0.02}) {

@@ -43,7 +43,8 @@ class ContactSeries {
   void sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept;
 
   const ParameterFunctions* functions_;
-  std::array<Vec3, MonomialBasis::kMaxCoefficients> coefficient_;  // the first size() of them
+  std::array<Vec3, MonomialBasis::kMaxCoefficients + 1>
+      coefficient_;  // the first size(); room for whole lines
   double limit_{0.0};
 };
 
@@ -68,15 +69,22 @@ class ContactResponse {
   [[nodiscard]] double limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  void integrate();
+  /// Numbers that come into the processor's cache together.
+  struct alignas(64) Line {
+    std::array<double, 8> number{};
+  };
+  [[nodiscard]] static constexpr std::size_t lines(std::size_t numbers) noexcept { return (numbers + 7) / 8; }
+  void copyRows();
+  [[nodiscard]] const double* rows() const noexcept { return rows_.front().number.data(); }
 
   ParameterFunctions functions_;
   std::span<const double> coefficient_;  // [M][size][3]
   std::span<const double> limit_;        // [M]
   bool harmonic_;                        // the mean of the limits
-  std::size_t energy_width_{0};
-  std::vector<double>
-      energy_;  // [M][energy_width_] W_b(d) = d_ref sum_k energy_bk x^alpha_{k+3}, x = d / d_ref, N
+  std::size_t force_lines_{0}, energy_lines_{0};
+  // [M] of a "displacement" model, filled up with zeros: lines with its coefficient_, then lines with energy_k,
+  // W_b(d) = d_ref sum_k energy_k x^alpha_{k+3}, x = d / d_ref, N
+  std::vector<Line> rows_;
 };
 
 }  // namespace palpate

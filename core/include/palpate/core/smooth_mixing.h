@@ -44,21 +44,26 @@ class SmoothMixing {
     std::int32_t position;  // whose value,
     Vec3 gradient;          // times this, 1/m
   };
-  /// Where a triangle's positions and slots begin.
-  struct Place {
-    std::size_t position, slot;
+  /// What a position gets of the gradient G at a triangle's corner: its part of G along the edges to the next corner
+  /// and the one after.
+  struct Share {
+    double one, other;
+    std::uint8_t corner, of;  // of which of the triangle's positions
+  };
+  /// Where a triangle's positions and shares begin.
+  struct First {
+    std::size_t position, share;
   };
   void addTriangle(const ModelView& view, std::size_t triangle, std::vector<std::vector<Part>>& parts,
                    std::vector<double>& area) const;
-  void addStencil(const SurfaceMesh& surface, std::size_t triangle);
+  void addStencil(const SurfaceMesh& surface, std::int32_t triangle,
+                  const std::vector<std::vector<Part>>& parts);
 
   std::span<const std::int32_t> triangles_;
   std::span<const std::int32_t> position_of_node_;
-  std::vector<std::size_t> first_;       // [Ns + 1] of each node in parts_
-  std::vector<Part> parts_;              // the gradient at the node is the sum of its parts
-  std::vector<Place> places_;            // [T]
-  std::vector<std::int32_t> positions_;  // of each triangle; none where it is not complete
-  std::vector<std::uint8_t> slots_;  // of a triangle's nodes, each before its parts: which of the positions
+  std::vector<First> first_;             // [T + 1]
+  std::vector<std::int32_t> positions_;  // of each triangle, its nodes' first; none where it is not complete
+  std::vector<Share> shares_;
 };
 
 }  // namespace palpate
