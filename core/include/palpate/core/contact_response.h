@@ -49,7 +49,7 @@ class ContactSeries {
 };
 
 /// The contact's own answer. Of a "displacement" model it is not truncated to the modes (DESIGN 2.2, 2.3), of
-/// the load-driven kinds it is what the modes give (DESIGN 2.1). Borrows the model's arrays.
+/// the load-driven kinds it is what the modes give (DESIGN 2.1). Borrows the model's arrays, or copies them.
 /// Differs from the paper: exact in its order, displacement-driven (the first kind).
 class ContactResponse {
  public:
