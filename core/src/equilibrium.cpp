@@ -129,9 +129,22 @@ bool Equilibrium::slide() noexcept {
     const Vec2 step = stepOf(now);
     const Start start{contact_, frame_, energy_slope_};
     if (!slideBy(step) && ++stopped == 2) break;  // at the border: the first step may have gone too far
-    now = landed(start, now, step);
+    const Slip next = landed(start, now, step);
+    now = learned(next, start, now);
   }
   return true;
+}
+
+/// J does not know how dW/ds changes along the way; the step that was made shows it (Broyden's update, C. G. Broyden,
+/// Math. Comp. 19 (1965) 577-593).
+Equilibrium::Slip Equilibrium::learned(Slip next, const Start& start, const Slip& from) const noexcept {
+  const Mat2 turn = frame_.tangent.transpose() * start.frame.tangent;
+  const Vec2 way = frame_.tangent.transpose() * (frame_.position - start.frame.position);
+  const auto goal = [](const Slip& slip) { return Vec2(slip.T * (slip.excess / slip.T.norm())); };
+  const Vec2 missed = goal(next) - turn * goal(from) - next.J * way;
+  const Mat2 J = next.J + missed * way.transpose() / way.squaredNorm();
+  if (J.allFinite() && isNegativeDefinite(J)) next.J = J;
+  return next;
 }
 
 /// A step that went past the cone, where friction would hold what did not move so far, is cut short: by the rule of

@@ -50,6 +50,7 @@ class Equilibrium {
   [[nodiscard]] static Vec2 stepOf(const Slip& slip) noexcept;
   bool slideBy(const Vec2& step) noexcept;
   Slip landed(const Start& start, const Slip& from, const Vec2& step) noexcept;
+  [[nodiscard]] Slip learned(Slip next, const Start& start, const Slip& from) const noexcept;
   void giveWay(const Slip& now) noexcept;
 
   const MetaModel& model_;
