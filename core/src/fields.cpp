@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "index.h"
 #include "kernels.h"
 #include "palpate/core/multi_index.h"
 
@@ -12,10 +13,6 @@ namespace palpate {
 namespace {
 
 using Weights = std::array<float, MonomialBasis::kMaxCoefficients>;
-
-std::size_t index(std::int64_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
 
 /// Coefficients up to the last that is not zero: a linear field costs no more.
 std::size_t used(std::span<const double> phi) noexcept {

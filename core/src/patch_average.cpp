@@ -7,16 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "index.h"
 #include "kernels.h"
 #include "palpate/core/surface_distance.h"
 
 namespace palpate {
 
 namespace {
-
-std::size_t index(std::int64_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
 
 /// By surface node: whether it may carry load.
 std::vector<bool> freeNodes(const ModelView& view) {

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 
+#include "index.h"
+
 namespace palpate {
 
 namespace {
-
-std::size_t index(std::int64_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
 
 /// The cubic over one triangle, sum_a A_a c_a + sum_a sum_c B_ac (X_c - X_a) . G_a, of nodal values c, gradients G:
 ///   A_a = l_a^3 + 3 l_a^2 (l_b + l_c) + 2 l_0 l_1 l_2,   B_ac = l_a^2 l_c + l_0 l_1 l_2 / 2

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "index.h"
+
 namespace palpate {
 
 namespace {
@@ -19,10 +21,6 @@ struct Edge {
     return std::pair(a.from, a.to) < std::pair(b.from, b.to);
   }
 };
-
-std::size_t index(std::int32_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
 
 [[noreturn]] void refuse(std::int32_t triangle, const std::string& what) {
   throw std::invalid_argument("/surface/triangles number " + std::to_string(triangle) + " " + what);

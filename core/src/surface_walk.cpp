@@ -2,15 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "index.h"
 #include "palpate/core/surface_mesh.h"
 
 namespace palpate {
 
 namespace {
-
-std::size_t index(std::int32_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
 
 /// Two unit vectors normal to n and to each other.
 Mat32 tangentsOf(const Vec3& n) noexcept {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "index.h"
 #include "load_driven.h"
 
 namespace palpate {
@@ -15,10 +16,6 @@ constexpr int kMost = 3 * kMaxTools;
 /// Unknowns of all tools, and the matrix between them; no allocation.
 using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
 using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
-
-std::size_t index(std::int64_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
 
 /// P_to of the near field. Where no near node lies in the patch no block is evaluated.
 Vec3 averagedNear(const MetaModel& model, const PositionMix& from, std::span<const double> phi, double gain,

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace palpate {
+
+/// A count or number of the model file (i32, i64; never negative) as an index of a span.
+[[nodiscard]] constexpr std::size_t index(std::int64_t i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace palpate
