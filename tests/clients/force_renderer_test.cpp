@@ -163,6 +163,16 @@ TEST_F(Pressed, ComesBackWithin30MsAndNeverAtOnce) {
   EXPECT_EQ(before, 1.0);
 }
 
+TEST_F(Pressed, ComesBackByARampToADriverThatPausedToo) {
+  now += 100 * kMs;
+  (void)renderer.at(nullptr, now, kNoLimit);
+  ASSERT_EQ(renderer.at(nullptr, now, kNoLimit).gain, 0.0);
+  answer.arrived_ns = now +=
+      60 * kMs;  // the server is back, and the driver reads for the first time in 60 ms
+  ASSERT_TRUE(renderer.answered(answer));
+  EXPECT_LE(renderer.at(nullptr, now, kNoLimit).gain, 5.0 / 30.0 + 1e-9);
+}
+
 TEST(ForceRenderer, IsZeroBeforeTheFirstAnswer) {
   ForceRenderer renderer(0.002);
   renderer.sent(1, {0, 0, 0});

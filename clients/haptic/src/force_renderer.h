@@ -27,9 +27,10 @@ struct Answer {
 /// caller tells the time. Threads: one. Real-time: yes, all of it.
 class ForceRenderer {
  public:
-  static constexpr double kStaleAfter = 0.020;  ///< s without an answer until the force falls
-  static constexpr double kRamp = 0.030;        ///< s from full force to none, and back
-  static constexpr std::size_t kPoses = 1024;   ///< that are remembered; a quarter of a second at 4 kHz
+  static constexpr double kStaleAfter = 0.020;   ///< s without an answer until the force falls
+  static constexpr double kRamp = 0.030;         ///< s from full force to none, and back
+  static constexpr double kLongestRead = 0.005;  ///< s by which one read brings the force back at most
+  static constexpr std::size_t kPoses = 1024;    ///< that are remembered; a quarter of a second at 4 kHz
 
   /// @param[in] max_extrapolation  m
   explicit ForceRenderer(double max_extrapolation) noexcept : max_extrapolation_(max_extrapolation) {}
