@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "palpate/record/record_writer.h"
@@ -107,6 +108,19 @@ TEST_F(Replay, RefusesMissingTicksUnlessToldThatTheyMayBe) {
 TEST_F(Replay, RefusesTicksMissingAtTheEnd) {
   EXPECT_THROW((void)replayed(Demand::kWhole, 3), record::RecordError);
   EXPECT_EQ(replayed(Demand::kPartial, 3).missing, 3U);
+}
+
+TEST_F(Replay, RefusesARecordingWithoutTicks) {
+  session_.clear();
+  for (const Demand demand : {Demand::kWhole, Demand::kPartial})
+    for (const bool end : {true, false}) try {
+        (void)replayed(demand, 0, end);
+        ADD_FAILURE() << "nothing was compared, and nobody complains";
+      } catch (const record::TruncatedError&) {
+        EXPECT_TRUE(demand == Demand::kWhole && !end);
+      } catch (const record::RecordError& error) {
+        EXPECT_NE(std::string(error.what()).find("holds no ticks"), std::string::npos) << error.what();
+      }
 }
 
 TEST_F(Replay, RefusesAMissingEndUnlessToldThatItMayBe) {

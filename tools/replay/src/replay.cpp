@@ -120,6 +120,7 @@ Findings replay(record::RecordReader& recording, const MetaModel& model, Demand 
     ++findings.ticks;
     findings.seconds += 1e-9 * static_cast<double>(tick.input.dt_ns);
   }
+  if (findings.ticks == 0) throw RecordError("the recording holds no ticks: there is nothing to compare");
   // 3. Ticks missing at the end show in nothing else.
   if (!findings.truncated && recording.end().missing > findings.missing) {
     if (demand == Demand::kWhole)
