@@ -20,9 +20,11 @@ class Safety : public ServerEndToEnd {
     return client_->waitFor([&](const auto& f) { return (f.flags & flag) != 0; }).has_value();
   }
 
-  // No answer so far was above the limit, or no number.
+  // There were answers, and none so far was above the limit, or no number.
   void expectBounded(double limit = kForceLimit) const {
-    for (const dds::ToolForce& force : client_->forces()) {
+    const auto forces = client_->forces();
+    ASSERT_FALSE(forces.empty());
+    for (const dds::ToolForce& force : forces) {
       ASSERT_TRUE(isFinite(force));
       ASSERT_LE(sizeOf(force.force), limit * (1.0 + 1e-9));
     }
