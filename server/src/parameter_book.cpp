@@ -2,7 +2,6 @@
 #include "palpate/server/parameter_book.h"
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 #include "palpate/server/config.h"
@@ -10,10 +9,14 @@
 namespace palpate::server {
 namespace {
 
-double forceCeiling(const Facts& facts) {
-  const auto preset = findDevicePreset(facts.device);
-  return preset ? std::max(preset->force_limit, facts.step.force_limit)
-                : std::numeric_limits<double>::infinity();
+// What the operator started the server with is the ceiling, and a device's own limits where they are higher.
+LiveParameters ceilings(const Facts& facts) {
+  LiveParameters most = liveParameters(facts.step);
+  if (const auto preset = findDevicePreset(facts.device)) {
+    most.force_limit = std::max(preset->force_limit, most.force_limit);
+    most.coupling_stiffness = preset->stiffness_limit;
+  }
+  return most;
 }
 
 LiveParameters overlaid(LiveParameters live, const dds::ParameterRequest& request) {
@@ -29,13 +32,8 @@ LiveParameters overlaid(LiveParameters live, const dds::ParameterRequest& reques
   return live;
 }
 
-bool same(const LiveParameters& a, const LiveParameters& b) {
-  return a.youngs_modulus == b.youngs_modulus && a.friction == b.friction &&
-         a.coupling_stiffness == b.coupling_stiffness && a.coupling_damping == b.coupling_damping &&
-         a.force_limit == b.force_limit && a.force_rate_limit == b.force_rate_limit;
-}
-
 std::string tooLarge(const char* field, double value, double limit, const std::string& why) {
+  if (value <= limit) return {};
   std::ostringstream text;
   text << field << " is " << value << ", expected at most " << limit << why;
   return text.str();
@@ -47,8 +45,7 @@ ParameterBook::ParameterBook(const Facts& facts)
     : server_id_(facts.server_id),
       device_(facts.device),
       model_youngs_modulus_(facts.youngs_modulus),
-      stiffness_limit_(stiffnessLimit(facts.device)),
-      force_ceiling_(forceCeiling(facts)),
+      most_(ceilings(facts)),
       live_(liveParameters(facts.step)) {}
 
 std::string ParameterBook::complaintAbout(const dds::ParameterRequest& request,
@@ -56,19 +53,20 @@ std::string ParameterBook::complaintAbout(const dds::ParameterRequest& request,
   const std::uint32_t unknown = request.fields & ~dds::parameter::kAll;
   if (unknown != 0) return "fields has bits " + std::to_string(unknown) + " that this server does not know";
   if (std::string complaint = firstComplaint(wanted); !complaint.empty()) return complaint;
-  if (wanted.coupling_stiffness > stiffness_limit_)
-    return tooLarge("coupling_stiffness", wanted.coupling_stiffness, stiffness_limit_,
-                    " N/m, what device " + device_ + " renders stably");
-  if (wanted.force_limit > force_ceiling_)
-    return tooLarge("force_limit", wanted.force_limit, force_ceiling_,
-                    " N, what device " + device_ + " and the start of the server allow");
-  return {};
+  const std::string why = "what device " + device_ + " and the start of the server allow";
+  std::string complaint =
+      tooLarge("coupling_stiffness", wanted.coupling_stiffness, most_.coupling_stiffness, " N/m, " + why);
+  if (complaint.empty())
+    complaint = tooLarge("force_limit", wanted.force_limit, most_.force_limit, " N, " + why);
+  if (complaint.empty())
+    complaint = tooLarge("force_rate_limit", wanted.force_rate_limit, most_.force_rate_limit, " N/s, " + why);
+  return complaint;
 }
 
 dds::ServerParameters ParameterBook::decide(const dds::ParameterRequest& request) {
   const LiveParameters wanted = overlaid(live_, request);
   const std::string complaint = complaintAbout(request, wanted);
-  if (complaint.empty() && !same(wanted, live_)) {
+  if (complaint.empty() && !(wanted == live_)) {
     live_ = wanted;
     ++revision_;
   }

@@ -107,6 +107,7 @@ TEST(ParameterBook, RefusesWhatIsOutOfRangeByFieldNumberAndRange) {
       {dds::parameter::kCouplingStiffness, 401.0, "coupling_stiffness is 401, expected at most 400 N/m"},
       {dds::parameter::kCouplingStiffness, kInfinity, "coupling_stiffness is inf, expected at most 400 N/m"},
       {dds::parameter::kCouplingDamping, 101.0, "coupling_damping is 101, expected 0 to 100"},
+      {dds::parameter::kCouplingDamping, 100.0, "coupling_damping is 100, expected at most 1.5 N s/m"},
       {dds::parameter::kForceLimit, 0.0, "force_limit is 0, expected 0.01 to 50"},
       {dds::parameter::kForceLimit, 3.4, "force_limit is 3.4, expected at most 3.3 N"},
       {dds::parameter::kForceRateLimit, 1.0, "force_rate_limit is 1, expected 10 to"},
@@ -127,11 +128,43 @@ TEST(ParameterBook, RefusesWhatIsOutOfRangeByFieldNumberAndRange) {
   }
 }
 
-TEST(ParameterBook, ACustomDeviceHasOnlyTheEnginesRanges) {
+TEST(ParameterBook, ACustomDeviceAllowsNoMoreThanItsStart) {
+  Facts facts = factsOf("custom");
+  facts.step.force_limit = 5.0;
+  facts.step.coupling_stiffness = 2000.0;
+  facts.step.force_rate_limit = 100.0;
+  const Refusal refusals[] = {
+      {dds::parameter::kCouplingStiffness, 2001.0, "coupling_stiffness is 2001, expected at most 2000 N/m"},
+      {dds::parameter::kCouplingStiffness, kInfinity, "coupling_stiffness is inf, expected at most 2000 N/m"},
+      {dds::parameter::kForceLimit, 5.1, "force_limit is 5.1, expected at most 5 N"},
+      {dds::parameter::kForceLimit, kInfinity, "force_limit is inf, expected at most 5 N"},
+      {dds::parameter::kForceRateLimit, 101.0, "force_rate_limit is 101, expected at most 100 N/s"},
+      {dds::parameter::kForceRateLimit, kInfinity, "force_rate_limit is inf, expected at most 100 N/s"},
+  };
+  for (const Refusal& refusal : refusals) {
+    ParameterBook book(facts);
+    const dds::ServerParameters answer = book.decide(request(refusal.field, refusal.value));
+    EXPECT_FALSE(answer.accepted) << refusal.message;
+    EXPECT_EQ(std::string(answer.message).find(refusal.message), 0U) << answer.message;
+  }
+  ParameterBook book(facts);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kForceLimit, 1.0)).accepted);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kForceLimit, 5.0)).accepted) << "back to the start's";
+  EXPECT_TRUE(book.decide(request(dds::parameter::kCouplingStiffness, 2000.0)).accepted);
+}
+
+TEST(ParameterBook, WhatTheOperatorSwitchedOffAClientMaySwitchOnAndOff) {
   ParameterBook book(factsOf("custom"));
-  EXPECT_TRUE(book.decide(request(dds::parameter::kCouplingStiffness, 5e4)).accepted);
-  EXPECT_TRUE(book.decide(request(dds::parameter::kForceLimit, 40.0)).accepted);
-  EXPECT_FALSE(book.decide(request(dds::parameter::kForceLimit, 51.0)).accepted);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kCouplingStiffness, 500.0)).accepted);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kCouplingStiffness, kInfinity)).accepted);
+}
+
+TEST(ParameterBook, TheRateLimitOfTheStartIsTheCeilingOnEveryDevice) {
+  Facts facts = factsOf("touch");
+  facts.step.force_rate_limit = 100.0;
+  ParameterBook book(facts);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kForceRateLimit, 50.0)).accepted);
+  EXPECT_FALSE(book.decide(request(dds::parameter::kForceRateLimit, 101.0)).accepted);
 }
 
 }  // namespace

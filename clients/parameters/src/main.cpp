@@ -30,11 +30,12 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--friction", options.friction, "Coulomb coefficient, 0 to 2 or inf");
   app.add_option("--coupling", options.coupling_stiffness,
                  "stiffness of the virtual coupling, N/m, 1 to what the server's device stands");
-  app.add_option("--coupling-damping", options.coupling_damping, "its damping, N s/m, 0 to 100");
+  app.add_option("--coupling-damping", options.coupling_damping,
+                 "its damping, N s/m, 0 to 100 and at most 5 ms of its stiffness");
   app.add_option("--force-limit", options.force_limit,
                  "largest force, N, 0.01 to what the server's device allows");
   app.add_option("--force-rate-limit", options.force_rate_limit,
-                 "largest change of the force, N/s, 10 to 1e6 or inf");
+                 "largest change of the force, N/s, 10 to what the server started with");
   app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
   app.add_option("--server-id", options.server_id, "which server of the domain")->capture_default_str();
   app.add_option("--wait", options.wait_s, "how long to wait for an answer, s")

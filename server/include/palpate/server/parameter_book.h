@@ -13,8 +13,9 @@ namespace palpate::server {
 /// entity. Threads: one. Real-time: no.
 class ParameterBook {
  public:
-  /// What is in force at the start, and the limits that stay: the device's stiffness limit for the coupling, and for the
-  /// force the device's limit or that of the start, whichever is higher. "custom" has only the engine's own ranges.
+  /// What is in force at the start, and the ceilings that stay: what coupling stiffness, force limit and rate limit were at
+  /// the start, but the device's stiffness limit for the coupling of a device that has one, and the device's force limit
+  /// where it is higher. So nobody switches off what the operator switched on; "custom" allows no more than its start.
   explicit ParameterBook(const Facts& facts);
 
   /// Takes a request whole or not at all.
@@ -34,8 +35,7 @@ class ParameterBook {
   std::uint32_t server_id_;
   std::string device_;
   double model_youngs_modulus_;  // Pa
-  double stiffness_limit_;       // N/m
-  double force_ceiling_;         // N
+  LiveParameters most_;          // stiffness, limits of force and of its rate: never above
   LiveParameters live_;
   std::uint64_t revision_{0};
 };
