@@ -10,10 +10,10 @@ namespace {
 
 // Limits: DESIGN 3.2, the makers' data sheets.
 constexpr std::array<DevicePreset, 5> kPresets{{
-    {"touch", 3.3, 400.0, 300.0, 0.9},
-    {"omni", 3.3, 700.0, 400.0, 1.2},
+    {"touch", 3.3, 400.0, 300.0, 0.3},
+    {"omni", 3.3, 700.0, 400.0, 0.9},
     {"desktop", 7.9, 1000.0, 500.0, 1.5},
-    {"premium15", 8.5, 800.0, 500.0, 1.5},
+    {"premium15", 8.5, 800.0, 500.0, 0.9},
     {"premium30", 22.0, 1000.0, 500.0, 1.5},
 }};
 

@@ -34,6 +34,17 @@ std::string complaintOf(const Range& range) {
   return text.str();
 }
 
+std::string dampingComplaint(const LiveParameters& parameters) {
+  const double most = kLongestCouplingTime * parameters.coupling_stiffness;
+  if (parameters.coupling_damping <= most * (1.0 + 1e-9))
+    return {};  // 1.5 of 300 is 5 ms, whatever is rounded
+  std::ostringstream text;
+  text << "coupling_damping is " << parameters.coupling_damping << ", expected at most " << most
+       << " N s/m with coupling_stiffness " << parameters.coupling_stiffness
+       << " N/m: " << 1e3 * kLongestCouplingTime << " ms of it";
+  return text.str();
+}
+
 void refuse(const std::string& complaint) {
   if (!complaint.empty()) throw std::invalid_argument("StepConfig." + complaint);
 }
@@ -60,7 +71,7 @@ std::string firstComplaint(const LiveParameters& parameters) {
   };
   for (const Range& range : ranges)
     if (std::string complaint = complaintOf(range); !complaint.empty()) return complaint;
-  return {};
+  return dampingComplaint(parameters);
 }
 
 LiveParameters liveParameters(const StepConfig& config) noexcept {

@@ -40,7 +40,8 @@ void declareContact(CLI::App& app, Given& given) {
   app.add_option("--coupling", over_device.coupling_stiffness,
                  "Stiffness of the virtual coupling, N/m, 1 to 1e5 or inf (none), default the device's");
   app.add_option("--coupling-damping", over_device.coupling_damping,
-                 "Damping of the virtual coupling, N s/m, 0 to 100, default the device's");
+                 "Damping of the virtual coupling, N s/m, 0 to 100 and at most 5 ms of its stiffness, "
+                 "default the device's");
   app.add_option("--friction", given.friction,
                  "Coulomb coefficient, 0 to 2 or inf (never slides), default 0.3");
   app.add_option("--force-rate-limit", given.force_rate_limit,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/server/config.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <sstream>
@@ -73,7 +74,8 @@ StepConfig withDevice(StepConfig step, const std::string& device, const DeviceOv
   if (const auto preset = findDevicePreset(device)) apply(*preset, step);
   step.force_limit = said.force_limit.value_or(step.force_limit);
   step.coupling_stiffness = said.coupling_stiffness.value_or(step.coupling_stiffness);
-  step.coupling_damping = said.coupling_damping.value_or(step.coupling_damping);
+  step.coupling_damping = said.coupling_damping.value_or(
+      std::min(step.coupling_damping, kLongestCouplingTime * step.coupling_stiffness));
   return step;
 }
 

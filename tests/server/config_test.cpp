@@ -133,6 +133,7 @@ TEST_F(ConfigFile, ADeviceBringsItsLimitsAndWhatIsNamedWinsInAnyOrder) {
   EXPECT_EQ(omni.step.coupling_damping, preset->coupling_damping);
   const ServerConfig mixed = read("device = \"premium30\"\n[tool]\ncoupling_stiffness = 123");
   EXPECT_EQ(mixed.step.coupling_stiffness, 123.0);
+  EXPECT_NEAR(mixed.step.coupling_damping, 0.615, 1e-12) << "the device's 1.5 would be too much for it";
   EXPECT_EQ(mixed.step.force_limit, findDevicePreset("premium30")->force_limit);
   const ServerConfig custom = read("device = \"custom\"");
   EXPECT_EQ(custom.step.force_limit, StepConfig{}.force_limit);
@@ -146,6 +147,9 @@ TEST_F(ConfigFile, TakesInfinityWhereItSwitchesOff) {
   for (const double value : {config.step.friction, config.step.coupling_stiffness, config.step.force_limit,
                              config.step.force_rate_limit, config.step.speed_limit})
     EXPECT_TRUE(std::isinf(value) && value > 0.0);
+  EXPECT_EQ(
+      refusal("[tool]\ncoupling_damping = 3").find(":2: tool.coupling_damping is 3, expected at most 1.5"),
+      0U);
   EXPECT_EQ(refusal("[tool]\ncoupling_damping = inf").find(":2: tool.coupling_damping is inf"), 0U);
   EXPECT_EQ(refusal("[organ]\nyoungs_modulus = inf").find(":2: organ.youngs_modulus is inf"), 0U);
 }

@@ -10,10 +10,13 @@
 namespace palpate {
 
 /// What a haptic device stands, and the coupling that keeps it stable.                     DESIGN 3.2
+/// The damping keeps what a step of the pose is answered with in one tick, at 1 kHz from rest, within the limit too:
+///   K_vc (1 + (b / K_vc) / 3 ms) <= stiffness_limit                                      coupling_damper.h
 struct DevicePreset {
   std::string_view name;
-  double force_limit;      ///< largest force, N
-  double stiffness_limit;  ///< largest stiffness that it renders stably, N/m: the coupling never exceeds it
+  double force_limit;  ///< largest force, N
+  double
+      stiffness_limit;  ///< largest stiffness that it renders stably, N/m: the coupling with its damper never exceeds it
   double coupling_stiffness;  ///< K_vc, N/m
   double coupling_damping;    ///< N s/m
 };

@@ -9,6 +9,10 @@ namespace palpate {
 
 inline constexpr int kMaxTools = 4;
 
+/// Largest coupling_damping / coupling_stiffness, s: the damper answers a change of the force of one tick, noise of the
+/// pose included, with this over 3 ms times the spring's own answer. Longer is a buzzer.
+inline constexpr double kLongestCouplingTime = 0.005;
+
 /// Parameters of the tick. Checked once, before the loop. Infinity switches off what it bounds.
 struct StepConfig {
   double tip_radius{0.005};     ///< R, m, in [0, 0.05]
@@ -23,7 +27,8 @@ struct StepConfig {
       0.3};  ///< Coulomb coefficient mu, in [0, 2], or infinity: an anchor that sticks never slides
   /// K_vc of the virtual coupling, N/m, in [1, 1e5], or infinity: the tool holds the patch itself
   double coupling_stiffness{std::numeric_limits<double>::infinity()};
-  double coupling_damping{0.0};  ///< of the coupling's stretch, N s/m, in [0, 100]; unused without a coupling
+  /// of the coupling's stretch, N s/m, in [0, 100], at most kLongestCouplingTime K_vc; unused without a coupling
+  double coupling_damping{0.0};
   double force_rate_limit{std::numeric_limits<double>::infinity()};  ///< N/s, in [10, 1e6] or infinity
   double speed_limit{2.0};  ///< of a tool; faster is a jump, m/s, in [0.01, 100] or infinity
   double youngs_modulus{
@@ -31,7 +36,8 @@ struct StepConfig {
   int tools{4};  ///< tools that are answered, in [1, kMaxTools]
 };
 
-/// @throw std::invalid_argument naming the first field out of its range, its value and the range
+/// @throw std::invalid_argument naming the first field out of its range, its value and the range; a damping that is
+/// too much for the coupling with both numbers
 void check(const StepConfig& config);
 
 /// What of it may change while the loop runs.

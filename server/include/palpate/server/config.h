@@ -27,7 +27,8 @@ struct DeviceOverrides {
 };
 
 /// `step` with the force limit and the coupling of a device, and what was said explicitly over both.
-/// "custom" (or an unknown device) leaves StepConfig's own defaults under what was said.
+/// "custom" (or an unknown device) leaves StepConfig's own defaults under what was said. A device's damping is cut to
+/// what a softer coupling that was said allows (kLongestCouplingTime).
 [[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const DeviceOverrides& said);
 
 /// What the server is told, by defaults, a file and the command line, in this order.
