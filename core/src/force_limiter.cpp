@@ -7,6 +7,8 @@ namespace palpate {
 
 namespace {
 
+constexpr double kRounding = 1.0 + 1e-12;  // what was cut to the limit is not longer than it
+
 /// f cut to the length `limit`, K with it: d(limit f/|f|)/df = limit/|f| (I - f f^T / f.f). @return true when
 /// cut
 bool cut(double limit, Vec3& f, Mat3& K) noexcept {
@@ -55,6 +57,7 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
   memory.gain = memory.fade * freshness(in.age + in.period);
   Vec3 mixed = (1.0 - memory.blend) * memory.target + memory.blend * memory.from;
   if (follow(memory.mixed, in.force_rate_limit * in.dt, mixed, K)) out.flags |= kForceRateLimited;
+  if (mixed.norm() > kRounding * in.force_limit && cut(in.force_limit, mixed, K)) out.flags |= kForceLimited;
   memory.mixed = mixed;
   out.force = memory.gain * mixed;
   out.stiffness = memory.gain * (1.0 - memory.blend) * K;

@@ -4,21 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/core/step_config.h"
+
 namespace palpate {
 
 namespace {
 
-bool same(const LiveParameters& a, const LiveParameters& b) noexcept {
-  return a.youngs_modulus == b.youngs_modulus && a.friction == b.friction &&
-         a.coupling_stiffness == b.coupling_stiffness && a.coupling_damping == b.coupling_damping &&
-         a.force_limit == b.force_limit && a.force_rate_limit == b.force_rate_limit;
+constexpr double kMostFriction = 2.0;  // the end of StepConfig's range
+
+/// From a to b; at once when only one of them is a number.
+double mix(double a, double b, double weight) noexcept {
+  if (a == b || weight >= 1.0 || std::isinf(a) || std::isinf(b)) return b;
+  return (1.0 - weight) * a + weight * b;
 }
 
-/// From a to b; one that is infinite counts as `most` on the way.
-double mix(double a, double b, double weight, double most) noexcept {
-  if (weight >= 1.0) return b;
-  if (a == b) return a;
-  return (1.0 - weight) * std::min(a, most) + weight * std::min(b, most);
+bool switched(double a, double b) noexcept {
+  return std::isinf(a) != std::isinf(b);
 }
 
 }  // namespace
@@ -32,26 +33,35 @@ LiveParameters LiveBlend::resolved(const LiveParameters& parameters) const noexc
   return out;
 }
 
-void LiveBlend::advance(const LiveParameters& target, double dt) noexcept PALPATE_NONBLOCKING {
-  constexpr double kMostFriction = 2.0, kMostForce = 50.0,
-                   kMostRate = 1e6;  // the ends of StepConfig's ranges
+void LiveBlend::start(const LiveParameters& wanted, double largest_force) noexcept {
+  jumped_ = switched(now_.friction, wanted.friction) || switched(now_.force_limit, wanted.force_limit) ||
+            switched(now_.coupling_stiffness, wanted.coupling_stiffness) ||
+            wanted.force_rate_limit > now_.force_rate_limit;
+  from_ = now_;
+  if (std::isinf(from_.friction)) from_.friction = std::max(kMostFriction, wanted.friction);
+  if (std::isinf(from_.force_limit)) from_.force_limit = std::max(largest_force, wanted.force_limit);
+  target_ = wanted;
+  left_ = kSeconds;
+}
+
+void LiveBlend::advance(const LiveParameters& target, double dt,
+                        double largest_force) noexcept PALPATE_NONBLOCKING {
+  jumped_ = false;
   const LiveParameters wanted = resolved(target);
-  if (!same(wanted, target_)) {
-    from_ = now_;
-    target_ = wanted;
-    left_ = kSeconds;
-  }
+  if (!(wanted == target_)) start(wanted, largest_force);
   if (left_ <= 0.0) return;
   left_ = std::max(0.0, left_ - dt);
   const double weight = 1.0 - left_ / kSeconds;
-  const double compliance = (1.0 - weight) / from_.coupling_stiffness +
-                            weight / target_.coupling_stiffness;  // 0 of an infinite one
-  now_.youngs_modulus = mix(from_.youngs_modulus, target_.youngs_modulus, weight, INFINITY);
-  now_.friction = mix(from_.friction, target_.friction, weight, kMostFriction);
-  now_.coupling_stiffness = weight >= 1.0 ? target_.coupling_stiffness : 1.0 / compliance;
-  now_.coupling_damping = mix(from_.coupling_damping, target_.coupling_damping, weight, INFINITY);
-  now_.force_limit = mix(from_.force_limit, target_.force_limit, weight, kMostForce);
-  now_.force_rate_limit = mix(from_.force_rate_limit, target_.force_rate_limit, weight, kMostRate);
+  now_.youngs_modulus = mix(from_.youngs_modulus, target_.youngs_modulus, weight);
+  now_.friction = mix(from_.friction, target_.friction, weight);
+  now_.coupling_stiffness =
+      switched(from_.coupling_stiffness, target_.coupling_stiffness) || weight >= 1.0
+          ? target_.coupling_stiffness
+          : 1.0 / mix(1.0 / from_.coupling_stiffness, 1.0 / target_.coupling_stiffness, weight);
+  now_.coupling_damping = std::min(mix(from_.coupling_damping, target_.coupling_damping, weight),
+                                   kLongestCouplingTime * now_.coupling_stiffness);
+  now_.force_limit = mix(from_.force_limit, target_.force_limit, weight);
+  now_.force_rate_limit = mix(from_.force_rate_limit, target_.force_rate_limit, weight);
 }
 
 }  // namespace palpate

@@ -20,6 +20,9 @@ class Tick {
         work_(work),
         input_(input),
         dt_(std::clamp(1e-9 * double(input.dt_ns), 0.0, 0.1)),
+        period_(input.period_ns > 0 ? std::min(1e-9 * double(input.period_ns), 0.1) : 1e-3),
+        ramp_dt_(std::min(dt_, 2.0 * period_)),
+        disturbed_(1e-9 * double(input.dt_ns) > 10.0 * period_),
         shaken_(std::exchange(work.shaken_, false)) {}
 
   [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
@@ -28,6 +31,7 @@ class Tick {
   [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept;
   [[nodiscard]] bool leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept;
   [[nodiscard]] ContactLaw law() const noexcept;
+  void changeLive() noexcept;
   void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
@@ -41,6 +45,9 @@ class Tick {
   Workspace& work_;
   const StepInput& input_;
   double dt_;
+  double period_;   // s; 1 ms when the caller's is none
+  double ramp_dt_;  // s that ramps go on by: what a loop that stood still missed is no time to ramp in
+  bool disturbed_;  // the loop stood still, or a parameter changed at once: no force follows from the last
   bool jumped_{false};  // some tool's contact did, in this tick
   bool shaken_;         // some tool's contact did in the tick before: what the others feel of it jumps now
 };
@@ -90,6 +97,15 @@ ContactLaw Tick::law() const noexcept {
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
 }
 
+/// Live parameters go on; a change at once disturbs the contacts.
+void Tick::changeLive() noexcept {
+  double largest = 0.0;
+  for (const ToolMemory& memory : work_.tools_) largest = std::max(largest, memory.rendering.rendered.norm());
+  LiveBlend& live = work_.live_;
+  live.advance(input_.has_live != 0 ? input_.live : live.target(), ramp_dt_, largest);
+  disturbed_ = disturbed_ || live.jumped();
+}
+
 /// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
 bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
   const Contact before = memory.contact;
@@ -117,6 +133,7 @@ void Tick::grow(const ToolInput& tool, ToolMemory& memory) const noexcept {
 
 void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
   if (tool.present == 0 && !memory.known) return;
+  if (disturbed_ && memory.contact.state != ContactState::kFree) memory.leapt = true;
   if (tool.present != 0) out.flags |= judge(tool);
   const bool fresh = tool.present != 0 && 1e-9 * double(tool.age_ns) <= work_.config_.stale_timeout;
   const bool usable = fresh && out.flags == 0;
@@ -148,8 +165,8 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
   in.force_limit = live.force_limit;
   in.force_rate_limit = live.force_rate_limit;
   in.age = memory.age;
-  in.dt = dt_;
-  in.period = 1e-9 * double(input_.period_ns);
+  in.dt = ramp_dt_;
+  in.period = period_;
   in.held = held;
   in.jumped = jumped;
   in.shutting_down = input_.shutting_down != 0;
@@ -179,7 +196,7 @@ void Tick::deform(StepResult& result) noexcept {
 void Tick::blendField() noexcept {
   double& blend = work_.displacement_blend_;
   const double ramp_time = work_.config_.ramp_time;
-  blend = ramp_time > 0.0 ? std::max(0.0, blend - dt_ / ramp_time) : 0.0;
+  blend = ramp_time > 0.0 ? std::max(0.0, blend - ramp_dt_ / ramp_time) : 0.0;
   if (blend == 0.0) return;
   const auto weight = static_cast<float>(blend);
   for (std::size_t i = 0; i < work_.displacement_.size(); ++i)
@@ -227,7 +244,7 @@ void Tick::report(const ToolMemory& memory, ToolResult& out) const noexcept {
 
 StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   result = StepResult{};
-  work_.live_.advance(input_.has_live != 0 ? input_.live : work_.live_.target(), dt_);
+  changeLive();
   ToolGroup group(model_, work_.tools_, work_.scratch_);
   group.feelEachOther();
   for (std::size_t i = 0; i < kMaxTools; ++i) {

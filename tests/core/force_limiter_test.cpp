@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -87,6 +88,22 @@ TEST(ForceLimiter, BlendsAJumpConvexly) {
   EXPECT_EQ(last, 0.5);
 }
 
+TEST(ForceLimiter, AFallingForceLimitIsKeptWhateverTheRateLimit) {
+  const ForceLimiter limiter(StepConfig{});
+  Rendering memory;
+  (void)limiter.limit(pushing(Vec3(0.0, 0.0, 3.3)), memory);
+  LimiterInput in = pushing(Vec3(0.0, 0.0, 3.3));
+  in.force_rate_limit = 10.0;
+  for (int ms = 1; ms <= 100; ++ms) {
+    in.force_limit = 3.3 - 0.028 * ms;
+    in.held = ms > 50;  // a force that stands in for a new one is cut as well
+    const LimitedForce out = limiter.limit(in, memory);
+    ASSERT_LE(out.force.norm(), in.force_limit * (1.0 + 1e-9)) << ms << " ms";
+    ASSERT_NE(out.flags & kForceLimited, 0U);
+  }
+  EXPECT_NEAR(memory.rendered.norm(), 0.5, 1e-9);
+}
+
 TEST(ForceLimiter, HeldForceHasNoStiffness) {
   const ForceLimiter limiter(StepConfig{});
   Rendering memory;
@@ -115,6 +132,19 @@ TEST(StepConfig, NamesTheFirstBadField) {
   EXPECT_EQ(complaint({.ramp_time = -0.1}), "StepConfig.ramp_time is -0.1, expected 0 to 1 s");
   EXPECT_EQ(complaint({.quaternion_tolerance = 1.0}),
             "StepConfig.quaternion_tolerance is 1, expected 1e-09 to 0.1 (no unit)");
+  EXPECT_EQ(
+      complaint({.coupling_stiffness = 300.0, .coupling_damping = 100.0}),
+      "StepConfig.coupling_damping is 100, expected at most 1.5 N s/m with coupling_stiffness 300 N/m: 5 "
+      "ms of it");
+}
+
+TEST(StepConfig, DampingIsBoundedByTheCouplingsStiffness) {
+  for (const double stiffness : {1.0, 300.0, 1000.0, 12345.6}) {
+    const double most = stiffness / 200.0;
+    EXPECT_EQ(complaint({.coupling_stiffness = stiffness, .coupling_damping = std::min(most, 100.0)}), "");
+    EXPECT_NE(complaint({.coupling_stiffness = stiffness, .coupling_damping = 1.01 * most}), "") << stiffness;
+  }
+  EXPECT_EQ(complaint({.coupling_damping = 100.0}), "") << "without a coupling there is none";
 }
 
 }  // namespace palpate

@@ -26,9 +26,10 @@ struct LimiterInput {
   Vec3 force = Vec3::Zero();      ///< of the organ on the tool, W, N (not looked at when held)
   Mat3 stiffness = Mat3::Zero();  ///< d force / d pose, N/m (not looked at when held)
   double age{0.0};                ///< s since the last good pose
-  double dt{0.0};                 ///< s since the last tick
-  double period{0.0};             ///< s until the next force replaces this one
-  double force_limit{3.3};        ///< F, N
+  double dt{
+      0.0};  ///< s that ramps and rate go on by: since the last tick, but not while the loop stood still
+  double period{0.0};       ///< s until the next force replaces this one
+  double force_limit{3.3};  ///< F, N
   double force_rate_limit{std::numeric_limits<double>::infinity()};  ///< N/s
   bool held{false};           ///< no good pose in this tick: the last good force stands in
   bool jumped{false};         ///< the model's force is not continuous in this tick: blend over
@@ -44,7 +45,8 @@ struct LimitedForce {
 
 /// Keeps what a device gets safe and continuous (DESIGN 3.2).
 ///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
-///   what stands behind the gain changes no faster than the rate limit allows; letting go is not held up by it
+///   what stands behind the gain changes no faster than the rate limit allows; letting go is not held up by it, and a
+///   force limit that falls is kept at once
 ///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
 ///   that the force will have when the next one replaces it, so that none but zero stands after zero_after,
 ///   whatever the rate of the loop. A jump keeps the force of the tick before as `from`

@@ -23,9 +23,12 @@ struct ToolInput {
 /// Input of one tick. Plain: it crosses threads.
 struct StepInput {
   std::array<ToolInput, kMaxTools> tools{};
-  std::int64_t dt_ns{1'000'000};      ///< since the last tick, ns; taken as 0 to 0.1 s
-  std::int64_t period_ns{1'000'000};  ///< of the loop: what is sent now stands until it is replaced, ns
-  std::uint32_t shutting_down{0};     ///< not 0: ramp every force to zero within ramp_time and stay there
+  /// since the last tick, ns; taken as 0 to 0.1 s. Ramps go on by two periods at most, and after ten the contacts' forces
+  /// are blended over: no ramp is over when a loop that stood still goes on
+  std::int64_t dt_ns{1'000'000};
+  /// of the loop: what is sent now stands until it is replaced, ns; not above 0: 1 ms, at most 0.1 s
+  std::int64_t period_ns{1'000'000};
+  std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
   /// not 0: go over to `live`, within LiveBlend::kSeconds. 0: the parameters stay as they are (at first StepConfig's)
   std::uint32_t has_live{0};
   LiveParameters live;  ///< checked by the caller: firstComplaint() is empty

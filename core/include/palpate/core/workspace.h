@@ -21,7 +21,7 @@ struct ToolMemory {
   Rendering rendering;
   bool known{false};             ///< a good pose was seen
   bool was_stale{false};         ///< the force was fading in the last tick: blend over when a pose comes back
-  bool leapt{false};             ///< the pose jumped, and no force was given since
+  bool leapt{false};             ///< pose, time or a parameter jumped, and no force was given since
   double age{0.0};               ///< s since the last good pose
   Vec3 position = Vec3::Zero();  ///< of the last good pose, m
   CouplingDamper damper;
