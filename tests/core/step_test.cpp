@@ -265,28 +265,6 @@ TEST(Step, FieldIsContinuousWhenAContactJumps) {
   ASSERT_NO_FATAL_FAILURE(play(above(0.004), 50, 0, "comes back"));
 }
 
-TEST(Step, ForceNeverPulls) {
-  Driver driver(organ());
-  unsigned seed = 1;
-  const auto random = [&] { return (seed = seed * 1664525U + 1013904223U) / 4294967296.0 - 0.5; };
-  Vec3 c = above(-0.003), velocity = Vec3::Zero();
-  int contacts = 0;
-  for (int ms = 0; ms < 20000; ++ms) {
-    velocity = 0.98 * velocity + 0.02 * Vec3(random(), random(), random());
-    c += 0.004 * velocity + 0.002 * (above(0.001) - c);
-    const Vec3 before = vec(driver.result().tools[0].anchor);
-    const bool was_stuck = driver.result().tools[0].state == 1;
-    const ToolResult& r = driver.at(c);
-    if (r.state == 1 && was_stuck && (r.flags & kRamping) == 0) {
-      const NearestPoint anchor = organ().surface().closestPoint(vec(r.anchor));
-      ASSERT_GE(vec(r.force).dot(organ().surface().normal(anchor.s)), -1e-9) << ms;
-      ASSERT_EQ(before, vec(r.anchor)) << "a stuck anchor does not move";
-      ++contacts;
-    }
-  }
-  EXPECT_GT(contacts, 1000);
-}
-
 TEST(Step, LiftedToolIsReleasedAndCapturedAgainElsewhere) {
   Driver driver(organ());
   press(driver, 0.003);

@@ -34,7 +34,7 @@ Scale scaleOf(const SyntheticOptions& o) {
 /// energy.
 double energyCoefficient(const SyntheticOptions& o, const Vec3& X, const MultiIndex& beta) {
   const Vec3 n = X.normalized();
-  const double scale = scaleOf(o).energy;
+  const double scale = scaleOf(o).energy * (1.0 + o.contrast * std::sin(3.0 * n.x() + 2.0 * n.y() + n.z()));
   const int degree = beta[0] + beta[1] + beta[2];
   if (degree == 1) return 0.0;
   if (degree > 2) {

@@ -20,6 +20,7 @@ struct SyntheticOptions {
   double domain_radius{0.008};           ///< d_max, m
   double stiffness{300.0};               ///< N/m, tangential; the normal one is 1.5 times as large
   double nonlinearity{0.1};              ///< size of the higher terms at d_ref
+  double contrast{0.0};        ///< stiffness from place to place: 1 - contrast to 1 + contrast times as large
   double fixed_below{-0.7};    ///< z / radius below which nodes are fixed and have no contact position
   double helper_below{-0.55};  ///< z / radius below which contact positions are helpers, not accessible
   Parameters parameters{Parameters::kDisplacement};  ///< the other kinds have no near field

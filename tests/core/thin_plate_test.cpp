@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// A part so thin that the nearest point of its surface flips to the other side under a tool that presses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "palpate/core/multi_index.h"
+#include "palpate/modelfile/model_file.h"
+#include "round_organ.h"
+
+namespace palpate::testing {
+
+namespace {
+
+constexpr double kHalf = 0.001;       // of the thickness, m
+constexpr double kStiffness = 300.0;  // N/m, in each direction
+
+/// A round plate, 2 mm thick and 0.1 m wide, accessible from both sides: the synthetic organ's nodes laid flat, f = k d.
+MetaModel thinPlate() {
+  constexpr double kRim = 0.3;  // |z| / radius of the ball's nodes below which they are the plate's rim
+  SyntheticOptions options;
+  options.fixed_below = options.helper_below = -2.0;
+  modelfile::ModelData data = syntheticModel(options);
+  for (std::size_t i = 2; i < data.surface_positions.size(); i += 3)
+    data.surface_positions[i] =
+        kHalf * std::clamp(data.surface_positions[i] / (kRim * options.radius), -1.0, 1.0);
+  std::copy(data.surface_positions.begin(), data.surface_positions.end(), data.mesh_nodes.begin());
+  const MonomialBasis basis(options.order);
+  const auto size = static_cast<std::size_t>(basis.size());
+  for (std::size_t i = 0; i < data.contact_force.size(); ++i) {
+    const MultiIndex alpha = basis[static_cast<int>(i / 3 % size)];
+    const bool linear = alpha[0] + alpha[1] + alpha[2] == 1 && alpha[i % 3] == 1;
+    data.contact_force[i] = linear ? kStiffness * options.reference_displacement : 0.0;
+  }
+  const TemporaryFile file("plate.h5");
+  modelfile::writeModel(file.path(), data);
+  return MetaModel::load(file.path());
+}
+
+const MetaModel& plate() {
+  static const MetaModel model = thinPlate();
+  return model;
+}
+
+/// A tip over the plate, `depth` below where it touches the upper side.
+class Tip {
+ public:
+  Tip(double radius, double friction)
+      : radius_(radius), friction_(friction), driver_(plate(), configOf(radius, friction)) {
+    driver_.settle(at(-0.001));
+  }
+  /// Beyond it the other side is the nearest, m deep.
+  [[nodiscard]] double middle() const { return kHalf + radius_; }
+  [[nodiscard]] double friction() const { return friction_; }
+  /// Goes down from above, a tenth of a millimetre a tick.
+  void press(double deep) {
+    for (double depth = -0.001; depth < deep; depth += 1e-4) to(depth);
+  }
+  const ToolResult& to(double depth, double sideways = 0.0) { return driver_.at(at(depth, sideways)); }
+  const ToolResult& settle(double depth) { return driver_.settle(at(depth)); }
+
+ private:
+  static StepConfig configOf(double radius, double friction) {
+    StepConfig config;
+    config.tip_radius = radius;
+    config.friction = friction;
+    return config;
+  }
+  [[nodiscard]] Vec3 at(double depth, double sideways = 0.0) const {
+    return {0.003 + sideways, 0.002, kHalf + radius_ - depth};
+  }
+  double radius_, friction_;
+  Driver driver_;
+};
+
+/// Each tip with each friction, before it has touched.
+template <class Test>
+void forEachTip(Test&& test) {
+  for (const double radius : {0.0, 0.0005, 0.005})
+    for (const double friction : {0.0, 0.3, std::numeric_limits<double>::infinity()}) {
+      SCOPED_TRACE(::testing::Message() << "tip of " << radius << " m, friction " << friction);
+      Tip tip(radius, friction);
+      test(tip);
+    }
+}
+
+}  // namespace
+
+TEST(ThinPlate, PressedBeyondItsMiddleItPushesBackToTheSideOfEntry) {
+  forEachTip([](Tip& tip) {
+    double last = 0.0;
+    for (double depth = -0.001; depth < tip.middle() + 0.0008; depth += 1e-4) {
+      const ToolResult& r = tip.to(depth);
+      ASSERT_NEAR(r.force[2], std::min(3.3, std::max(0.0, kStiffness * depth)), 1e-6) << depth;
+      ASSERT_LE(std::abs(r.force[2] - last), 1.01e-4 * kStiffness) << depth << " m deep: a step";
+      ASSERT_NEAR(r.anchor[2], kHalf, 1e-9) << depth;
+      last = r.force[2];
+    }
+    EXPECT_LT(plate().surface().closestPoint(Vec3(0.003, 0.002, -1e-4)).position.z(), 0.0) << "it did flip";
+  });
+}
+
+TEST(ThinPlate, DraggedAlongBeyondItsMiddleTheAnchorStaysOnTheSideOfEntry) {
+  forEachTip([](Tip& tip) {
+    const double deep = tip.middle() + 0.0005;
+    tip.press(deep);
+    Vec3 last = vec(tip.to(deep).force);
+    for (double x = 0.0; x < 0.02; x += 5e-5) {
+      const ToolResult& r = tip.to(deep, x);
+      ASSERT_NEAR(r.anchor[2], kHalf, 1e-9) << x;
+      ASSERT_GT(r.force[2], 0.2 * kStiffness * deep) << x;
+      ASSERT_LT((vec(r.force) - last).norm(), 1.01 * 5e-5 * kStiffness) << x << ": a step";
+      last = vec(r.force);
+    }
+  });
+}
+
+TEST(ThinPlate, DrivenOffItsRimHalfwayToTheMiddleTheForceEndsWithoutAStep) {
+  forEachTip([](Tip& tip) {
+    constexpr double kWay = 5e-5;  // m in a tick
+    const double most =
+        std::isfinite(tip.friction()) ? 2.0 * kStiffness * kWay : 3.3 / 25.0;  // let go: a ramp
+    const double deep = 0.5 * tip.middle();
+    tip.press(deep);
+    Vec3 last = vec(tip.to(deep).force);
+    EXPECT_GT(last.z(), 0.9 * kStiffness * deep);
+    for (double x = 0.0; x < 0.075; x += kWay) {
+      const ToolResult& r = tip.to(deep, x);
+      ASSERT_LT((vec(r.force) - last).norm(), most) << x;
+      last = vec(r.force);
+    }
+    EXPECT_EQ(last, Vec3::Zero());
+  });
+}
+
+namespace {
+
+/// Down through the plate and away. @param step  m in a tick
+void pokeThrough(Tip tip, double step) {
+  double size = 0.0, largest = 0.0;
+  bool touched = false, gone = false;
+  const auto to = [&](double depth) {
+    const ToolResult& r = tip.to(depth);
+    const double now = vec(r.force).norm();
+    gone = gone || (touched && r.state == 0);
+    touched = touched || r.state != 0;
+    ASSERT_EQ(r.state != 0, touched && !gone) << depth << ": once, and for good";
+    ASSERT_GE(r.force[2], 0.0) << depth << ": never towards the far side";
+    ASSERT_LE(now, gone ? size : 3.3 + 1e-9) << depth;
+    size = now;
+    largest = std::max(largest, size);
+  };
+  const double through = tip.middle() + 0.02;
+  for (double depth = -0.001; depth < through; depth += step) ASSERT_NO_FATAL_FAILURE(to(depth));
+  EXPECT_TRUE(gone);
+  for (int ms = 0; ms < 40; ++ms) ASSERT_NO_FATAL_FAILURE(to(through));
+  EXPECT_GT(largest, 0.05);
+  EXPECT_EQ(size, 0.0);
+  EXPECT_EQ(tip.settle(through).flags, 0U);
+}
+
+}  // namespace
+
+TEST(ThinPlate, PokedRightThroughAndLeftOnTheOtherSideItLetsGoWithoutAPull) {
+  forEachTip([](const Tip& tip) {
+    for (const double step : {1e-4, std::min(2e-3, 0.8 * tip.middle())}) pokeThrough(tip, step);
+  });
+}
+
+TEST(ThinPlate, TouchedFromTheOtherSideAfterwardsItPushesThere) {
+  forEachTip([](Tip& tip) {
+    tip.press(tip.middle() + 0.02);
+    const double below = 2.0 * tip.middle();  // where the tip touches the other side
+    for (double depth = tip.middle() + 0.02; depth > below - 0.0005; depth -= 1e-4) tip.to(depth);
+    const ToolResult& r = tip.settle(below - 0.0005);
+    EXPECT_NEAR(r.force[2], -kStiffness * 0.0005, 1e-6);
+    EXPECT_NEAR(r.anchor[2], -kHalf, 1e-9);
+  });
+}
+
+}  // namespace palpate::testing
