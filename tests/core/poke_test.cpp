@@ -198,7 +198,7 @@ TEST(Poke, ForceNeverPullsOnARandomWay) {
     std::array<int, 3> ticks{};  // by state
     ContactState before = ContactState::kFree;
     Vec3 anchor = Vec3::Zero();
-    for (int ms = 0; ms < 10000; ++ms) {
+    for (int ms = 0; ms < 5000; ++ms) {
       velocity = 0.98 * velocity + 0.02 * Vec3(random(), random(), random());
       c += 0.004 * velocity + 0.002 * (over(0.0, 0.001) - c);
       const ToolResult& r = driver.at(c);
