@@ -179,7 +179,8 @@ TEST(Poke, AToolThatStartsInsideIsPushedOutTheNearestWayAndFreeOnceItIsOut) {
       EXPECT_GT(felt.last.norm(), 0.9 * std::min(config.force_limit, 450.0 * depth));
       EXPECT_GT(felt.last.normalized().dot(inside.normalized()), 0.95);
       go(driver, inside, outside, 0.2, felt);
-      EXPECT_LT(felt.largest_step, config.force_limit / 25.0) << "the ramp, or the way out";
+      const double turn = depth > 0.03 ? 2.0 : 1.0;  // near the middle an anchor may snap to the other side
+      EXPECT_LT(felt.largest_step, turn * config.force_limit / 25.0) << "the ramp, or the way out";
       EXPECT_LE(felt.largest, config.force_limit * (1.0 + 1e-12));
       EXPECT_EQ(felt.changes, 2);
       EXPECT_EQ(felt.pulls, 0);

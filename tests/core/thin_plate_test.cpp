@@ -135,6 +135,23 @@ TEST(ThinPlate, DrivenOffItsRimHalfwayToTheMiddleTheForceEndsWithoutAStep) {
   });
 }
 
+// Without friction the anchor snaps round the rim to the other side, within a tick.
+TEST(ThinPlate, DrivenOffItsRimBeyondItsMiddleTheForceTurnsWithoutAStep) {
+  for (const double friction : {0.0, 0.05}) {
+    Tip tip(0.005, friction);
+    tip.press(0.0065);
+    Vec3 last = vec(tip.to(0.0065).force);
+    double lowest = 0.0;
+    for (double x = 0.0; x < 0.075; x += 5e-5) {
+      const Vec3 now = vec(tip.to(0.0065, x).force);
+      ASSERT_LT((now - last).norm(), 2.0 * 3.3 / 25.0) << x << ", friction " << friction;  // turned in a ramp
+      last = now;
+      lowest = std::min(lowest, now.z());
+    }
+    EXPECT_LT(lowest, -0.5) << "it did turn";
+  }
+}
+
 namespace {
 
 /// Down through the plate and away. @param step  m in a tick

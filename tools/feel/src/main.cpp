@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
   for (CLI::App* command : {loops, slides})
     command->add_option("--depth", study.depth, "of the tip below the surface, m")->capture_default_str();
   slides->add_option("--speed", study.speed, "m/s")->capture_default_str();
+  coupling->add_flag("--no-device-friction", study.frictionless,
+                     "without the device's Coulomb friction, which hides small instabilities");
   CLI11_PARSE(app, argc, argv);
   try {
     if (*loops) return palpate::feel::runLoops(study);

@@ -130,7 +130,7 @@ int runCoupling(const Study& study) {
   for (const DevicePreset& preset : devicePresets())
     for (const double E : kModuli)
       for (const device::Hand& hand : kHands) {
-        const StabilityResult result = stability(model, {preset, E, hand, s});
+        const StabilityResult result = stability(model, {preset, E, hand, s, !study.frictionless});
         rows.push_back({{"preset", preset.name},
                         {"E_Pa", E},
                         {"hand_N_per_m", hand.stiffness},

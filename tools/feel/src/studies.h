@@ -9,10 +9,11 @@ namespace palpate::feel {
 struct Study {
   std::string model;
   unsigned seed{1};
-  int count{1000};      ///< loops of each kind
-  int paths{100};       ///< slides of each kind
-  double depth{0.002};  ///< m
-  double speed{0.05};   ///< m/s
+  int count{1000};           ///< loops of each kind
+  int paths{100};            ///< slides of each kind
+  double depth{0.002};       ///< m
+  double speed{0.05};        ///< m/s
+  bool frictionless{false};  ///< devices without their own Coulomb friction
   bool json{false};
 };
 
