@@ -144,7 +144,8 @@ TEST(ThinPlate, DrivenOffItsRimBeyondItsMiddleTheForceTurnsWithoutAStep) {
     double lowest = 0.0;
     for (double x = 0.0; x < 0.075; x += 5e-5) {
       const Vec3 now = vec(tip.to(0.0065, x).force);
-      ASSERT_LT((now - last).norm(), 2.0 * 3.3 / 25.0) << x << ", friction " << friction;  // turned in a ramp
+      // Turned round in a ramp, 6.6 N / 30 ms, while the anchor still goes on.
+      ASSERT_LT((now - last).norm(), 3.3 / 10.0) << x << ", friction " << friction;
       last = now;
       lowest = std::min(lowest, now.z());
     }
