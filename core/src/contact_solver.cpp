@@ -51,14 +51,14 @@ void ContactSolver::update(const MetaModel& model, const ContactLaw& law, const 
 void ContactSolver::follow(const MetaModel& model, const ContactLaw& law, const Vec3& c,
                            Contact& contact) const noexcept PALPATE_NONBLOCKING {
   constexpr double kFar = 1e-3;          // m
-  constexpr double kTurned = 0.7;        // cosine
-  constexpr double kOfTheTipsWay = 5.0;  // round a ridge an anchor is faster than the tip
-  const Vec3 anchor = contact.anchor, normal = contact.normal;
-  const Vec3 tip = anchor + tip_radius_ * normal + contact.imposed;
+  constexpr double kOfTheTipsWay = 5.0;  // a slide follows the tip
+  const auto touching = [&] {
+    return Vec3(contact.anchor + tip_radius_ * contact.normal);
+  };  // the tip, at d = 0
+  const Vec3 there = touching(), tip = there + contact.imposed;
   hold(model, law, c, contact);
-  const double way = (contact.anchor - anchor).norm();
-  const bool elsewhere = way > kFar || contact.normal.dot(normal) < kTurned;
-  if (elsewhere && way > kOfTheTipsWay * (c - tip).norm()) contact.jumped = true;
+  const double way = (touching() - there).norm();
+  if (way > kFar && way > kOfTheTipsWay * (c - tip).norm()) contact.jumped = true;
 }
 
 bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& c,

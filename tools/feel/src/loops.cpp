@@ -19,6 +19,7 @@ class Ledger {
   Ledger(const MetaModel& model, const StepConfig& config) : model_(model), player_(model, config) {}
 
   void to(const Vec3& c) {
+    constexpr double kLeft = 1e-3;  // N
     const ToolResult& result = player_.at(c);
     const Vec3 force = forceOf(result);
     if (begun_) book_.work -= 0.5 * (force + force_).dot(c - c_);
@@ -28,11 +29,10 @@ class Ledger {
       const ContactPoint s = model_.surface().closestPoint(anchor).s;
       book_.stored = std::max(book_.stored, PatchResponse(model_, s).energy(d));
       book_.highest = std::max(book_.highest, d.norm());
-      book_.releases += gone_;
-      gone_ = 0;
       touched_ = true;
     } else if (touched_) {
-      ++gone_;
+      if (force_.norm() > kLeft) ++book_.releases;
+      touched_ = false;
     }
     c_ = c;
     force_ = force;
@@ -46,7 +46,6 @@ class Ledger {
   LoopResult book_;
   Vec3 c_ = Vec3::Zero(), force_ = Vec3::Zero();
   bool begun_{false}, touched_{false};
-  int gone_{0};
 };
 
 /// A closed way of d that begins and ends at zero and never draws: sines of the time along the normal and across.

@@ -18,7 +18,7 @@ struct LoopResult {
   double work{0.0};     ///< done by the hand, J: the integral of -force . dc, trapezoidal over the ticks
   double stored{0.0};   ///< largest stored energy W(s, d) on the way, J
   double highest{0.0};  ///< largest |d|, m
-  int releases{0};      ///< ticks without contact between the first and the last one with it
+  int releases{0};      ///< times that the tool was let go with more than 1 mN left: energy is lost there
   [[nodiscard]] double share() const noexcept { return stored > 0.0 ? work / stored : 0.0; }
 };
 
