@@ -52,9 +52,9 @@ void ContactSolver::follow(const MetaModel& model, const ContactLaw& law, const 
                            Contact& contact) const noexcept PALPATE_NONBLOCKING {
   constexpr double kFar = 1e-3;          // m
   constexpr double kOfTheTipsWay = 5.0;  // a slide follows the tip
-  const auto touching = [&] {
-    return Vec3(contact.anchor + tip_radius_ * contact.normal);
-  };  // the tip, at d = 0
+  const auto touching = [&] {            // where the tip is at d = 0
+    return Vec3(model.contactSurface().mesh().position(contact.fine) + tip_radius_ * contact.normal);
+  };
   const Vec3 there = touching(), tip = there + contact.imposed;
   hold(model, law, c, contact);
   const double way = (touching() - there).norm();

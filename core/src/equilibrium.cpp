@@ -31,7 +31,7 @@ bool Equilibrium::balance() noexcept {
   CoupledResponse& coupled = contact_.coupled;
   const PatchResponse patch(model_, contact_.s);
   const ResponseStatus status = couple(patch, g, contact_.carried, law_, coupled);
-  if (slides())
+  if (slides() && status != ResponseStatus::kNoAnswer)
     energy_slope_ =
         law_.stiffness_scale * (frame_.rates.transpose() * patch.energySlope(coupled.displacement));
   contact_.anchor = model_.surface().position(contact_.s);
@@ -92,6 +92,7 @@ bool Equilibrium::slideBy(const Vec2& step) noexcept {
   if (!step.allFinite()) return false;
   const Contact before = contact_;
   const SurfaceFrame frame = frame_;
+  const Vec2 energy_slope = energy_slope_;
   const SurfaceMesh& surface = model_.contactSurface().mesh();
   const bool went = surface.move(contact_.fine, frame_.tangent * step, Reach::kAccessible);
   contact_.s = model_.contactSurface().rest(contact_.fine);
@@ -102,6 +103,7 @@ bool Equilibrium::slideBy(const Vec2& step) noexcept {
   if (balance()) return !stayed;  // at the border the next step may lead back inside
   contact_ = before;
   frame_ = frame;
+  energy_slope_ = energy_slope;
   return false;
 }
 
@@ -159,8 +161,9 @@ Equilibrium::Slip Equilibrium::landed(const Start& start, const Slip& from, cons
     contact_ = start.contact;
     frame_ = start.frame;
     energy_slope_ = start.energy_slope;
-    if (!slideBy(share * step)) break;
+    const bool moved = slideBy(share * step);
     now = slip();
+    if (!moved) break;
   }
   return now;
 }

@@ -23,7 +23,8 @@ class Equilibrium {
   /// Moves the anchor until Coulomb's law holds, by at most kMaxSlides steps of Newton's method (where the anchor
   /// snaps from one balance to another, the next ticks go on):
   ///   ds = -J^-1 (|T| - mu f_n) T / |T|,   J = dT/ds with the coupled stiffness, offset and turning of the normal
-  /// @return false when the model's answer is missing on the way; the anchor then is where there was one
+  /// A step that goes past the cone is cut back, up to 4 times: 40 balances at most.
+  /// @return false when the model has no answer at the begin; on the way the anchor stays where there was one
   bool slide() noexcept;
   /// d force / d c, of the force on the organ, N/m; how the anchor gives way as slide() had it at its begin.
   [[nodiscard]] Mat3 stiffness() const noexcept;

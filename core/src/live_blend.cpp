@@ -36,7 +36,7 @@ LiveParameters LiveBlend::resolved(const LiveParameters& parameters) const noexc
 void LiveBlend::start(const LiveParameters& wanted, double largest_force) noexcept {
   jumped_ = switched(now_.friction, wanted.friction) || switched(now_.force_limit, wanted.force_limit) ||
             switched(now_.coupling_stiffness, wanted.coupling_stiffness) ||
-            wanted.force_rate_limit > now_.force_rate_limit;
+            wanted.force_rate_limit > std::max(now_.force_rate_limit, target_.force_rate_limit);
   from_ = now_;
   if (std::isinf(from_.friction)) from_.friction = std::max(kMostFriction, wanted.friction);
   if (std::isinf(from_.force_limit)) from_.force_limit = std::max(largest_force, wanted.force_limit);

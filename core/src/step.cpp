@@ -22,7 +22,7 @@ class Tick {
         dt_(std::clamp(1e-9 * double(input.dt_ns), 0.0, 0.1)),
         period_(input.period_ns > 0 ? std::min(1e-9 * double(input.period_ns), 0.1) : 1e-3),
         ramp_dt_(std::min(dt_, 2.0 * period_)),
-        disturbed_(1e-9 * double(input.dt_ns) > 10.0 * period_),
+        disturbed_(1e-9 * double(input.dt_ns) > std::max(10.0 * period_, kStall)),
         shaken_(std::exchange(work.shaken_, false)) {}
 
   [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
@@ -40,6 +40,8 @@ class Tick {
   void evaluate(StepResult& result) noexcept;
   void blendField() noexcept;
   void report(const ToolMemory& memory, ToolResult& out) const noexcept;
+
+  static constexpr double kStall = 0.01;  // s; in a faster loop, ten periods are no time that a hand notices
 
   const MetaModel& model_;
   Workspace& work_;
@@ -174,6 +176,7 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
   if (memory.rendering.gain <= 0.0) {
     work_.shaken_ = work_.shaken_ || memory.contact.state != ContactState::kFree;
     ContactSolver::release(memory.contact);
+    memory.damper = {};
   }
   out.flags |= limited.flags | memory.contact.flags;
   store(limited.force, out.force);

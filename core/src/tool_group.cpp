@@ -37,7 +37,8 @@ void ToolGroup::hasMoved(std::size_t tool) noexcept PALPATE_NONBLOCKING {
   for (std::size_t i = 0; i < count_; ++i) {
     if (pressing_[i] != tool) continue;
     const Contact& contact = tools_[tool].contact;
-    if (contact.state == ContactState::kFree) return;  // the others feel that in the next tick
+    if (contact.state == ContactState::kFree || contact.jumped)
+      return;  // the others feel that in the next tick
     for (std::size_t later = i + 1; later < count_; ++later)
       tools_[pressing_[later]].contact.carried.constant +=
           influence_[later][i] * (contact.coupled.displacement - d_[i]);

@@ -43,6 +43,23 @@ class Pressed : public ::testing::Test {
   std::int64_t now{1000 * kMs};
 };
 
+TEST_F(Pressed, ComesBackByARampAfterADriverThatDidNotRead) {
+  EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).gain, 1.0);
+  now += 1000 * kMs;
+  answer.arrived_ns = now;  // the server went on answering meanwhile
+  ASSERT_TRUE(renderer.answered(answer));
+  double last = renderer.at(nullptr, now, kNoLimit).gain;
+  EXPECT_LE(last, 0.2) << "of the first read";
+  for (int ms = 0; ms < 40; ++ms) {
+    answer.arrived_ns = now += kMs;
+    ASSERT_TRUE(renderer.answered(answer));
+    const double gain = renderer.at(nullptr, now, kNoLimit).gain;
+    EXPECT_LE(gain, last + 0.2);
+    last = gain;
+  }
+  EXPECT_EQ(last, 1.0);
+}
+
 TEST_F(Pressed, IsHeldWithoutAPosition) {
   EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).force, answer.force);
   EXPECT_EQ(at(kPose), answer.force);

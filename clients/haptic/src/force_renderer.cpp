@@ -57,7 +57,8 @@ void ForceRenderer::watch(std::int64_t now_ns) noexcept PALPATE_NONBLOCKING {
   age_ = has_answer_ ? 1e-9 * static_cast<double>(std::max<std::int64_t>(now_ns - answer_.arrived_ns, 0))
                      : std::numeric_limits<double>::infinity();
   const double fresh = std::clamp(1.0 - (age_ - kStaleAfter) / kRamp, 0.0, 1.0);
-  gain_ = std::min(fresh, gain_ + std::min(since_read, kLongestRead) / kRamp);
+  const double attentive = std::clamp(1.0 - (since_read - kStaleAfter) / kRamp, 0.0, 1.0);
+  gain_ = std::min(fresh, std::min(gain_, attentive) + std::min(since_read, kLongestRead) / kRamp);
 }
 
 Point ForceRenderer::extrapolated(const Point& position) const noexcept PALPATE_NONBLOCKING {

@@ -41,7 +41,12 @@ ordered_json rowOf(const char* kind, double friction, std::vector<LoopResult> lo
   const std::size_t count = loops.size();
   if (std::isinf(friction)) std::erase_if(loops, [](const LoopResult& loop) { return loop.releases > 0; });
   if (loops.empty())
-    return {{"loops", kind}, {"friction", friction}, {"count", count}, {"with_release", releases}};
+    return {{"loops", kind},
+            {"friction", friction},
+            {"count", count},
+            {"least_work_share", nullptr},
+            {"largest_work_share", nullptr},
+            {"with_release", releases}};
   const auto [least, most] = std::minmax_element(
       loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.share() < b.share(); });
   return {{"loops", kind},

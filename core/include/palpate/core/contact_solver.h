@@ -14,11 +14,12 @@ namespace palpate {
 /// What a tool remembers from tick to tick about its contact.
 struct Contact {
   ContactState state{ContactState::kFree};
-  ContactPoint s;                 ///< the anchor, a point of the rest surface; when free, the nearest one
-  ContactPoint fine;              ///< the same of MetaModel::contactSurface()
-  Vec3 anchor = Vec3::Zero();     ///< X(s), m
-  Vec3 normal = Vec3::Zero();     ///< n(s), outward unit normal of the contact surface
-  Vec3 imposed = Vec3::Zero();    ///< g = c - X(s) - R n(s), where the tool would have the patch, m
+  ContactPoint s;              ///< the anchor, a point of the rest surface; when free, the nearest one
+  ContactPoint fine;           ///< the same of MetaModel::contactSurface()
+  Vec3 anchor = Vec3::Zero();  ///< X(s) of the rest surface, m
+  Vec3 normal = Vec3::Zero();  ///< n(s), outward unit normal of the contact surface
+  Vec3 imposed =
+      Vec3::Zero();  ///< g = c - X - R n(s), X of the contact surface: where the tool would have the patch, m
   CoupledResponse coupled;        ///< d, the organ's answer to it and df/dg; zero when free
   Mat3 stiffness = Mat3::Zero();  ///< df/dc of the force on the organ, sliding included, N/m; zero when free
   Carried carried;                ///< e, displacement of the patch that the other tools cause; the caller's
@@ -34,8 +35,8 @@ struct Contact {
 ///                   that the force begins at zero
 ///   stick, slide:   the anchor's force balance and Coulomb's law (Equilibrium). Beyond the border of the accessible
 ///                   part no anchor goes: it waits there, flagged kNotAccessible
-///   -> free:        f . n > 0, the tool would pull; or the tip's sphere, grown by 0.5 mm, has left the
-///                   rest surface: a tool drawn off sideways is not held from afar
+///   -> free:        f . n > 0, the tool would pull; or the tip's sphere, grown by 0.5 mm, has left the contact
+///                   surface, as other tools displaced it: a tool drawn off sideways is not held from afar
 /// Differs from DESIGN 3.1: the direction m from anchor to tip is n(s) itself, not (c - X) / |c - X| at capture. So g
 /// depends on where the anchor is and not on how it came there, and the surface that a tip of radius R slides on,
 /// X(s) + R n(s), has no edges.

@@ -14,9 +14,8 @@ namespace palpate {
 ///   K_vc (1 + (b / K_vc) / 3 ms) <= stiffness_limit                                      coupling_damper.h
 struct DevicePreset {
   std::string_view name;
-  double force_limit;  ///< largest force, N
-  double
-      stiffness_limit;  ///< largest stiffness that it renders stably, N/m: the coupling with its damper never exceeds it
+  double force_limit;         ///< largest force, N
+  double stiffness_limit;     ///< largest stiffness that it renders stably, N/m: no coupling is stiffer
   double coupling_stiffness;  ///< K_vc, N/m
   double coupling_damping;    ///< N s/m
 };

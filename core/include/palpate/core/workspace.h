@@ -51,8 +51,8 @@ class Workspace {
   FieldScratch scratch_;
   std::vector<float> displacement_;
   std::vector<float> displacement_from_;  // the field at the last jump,
-  bool shaken_{false};              // a contact came or went at once: the others feel it in the next tick
-  double displacement_blend_{0.0};  // and its weight, 1 at the jump, then falling to 0
+  double displacement_blend_{0.0};        // and its weight, 1 at the jump, then falling to 0
+  bool shaken_{false};  // a contact came or went at once: the others feel it in the next tick
 };
 
 }  // namespace palpate
