@@ -3,27 +3,101 @@
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <optional>
+#include <string_view>
 
 #include "contact_force.h"
+#include "eigen_product.h"
+#include "field.h"
+#include "load_bench.h"
+#include "quiet_core.h"
+#include "scale.h"
+#include "step_bench.h"
+
+namespace palpate::bench {
+namespace {
+
+struct Options {
+  std::string model;
+  int cpu{-1};
+  bool scale{false};
+  int modes{100};
+};
+
+/// Google Benchmark's own option, which it does not tell: how long each benchmark runs, s.
+double leastSeconds(int argc, char** argv) {
+  constexpr std::string_view kOption = "--benchmark_min_time=";
+  for (int i = 1; i < argc; ++i)
+    if (std::string_view(argv[i]).starts_with(kOption)) return std::atof(argv[i] + kOption.size());
+  return 0.5;
+}
+
+/// The model asked for, or the one of tools/demo: under this folder or where this program was built.
+std::optional<std::filesystem::path> chooseModel(const Options& options) {
+  if (!options.model.empty()) return options.model;
+  std::error_code gone;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", gone);
+  for (const auto& path : {std::filesystem::path("build/demo/liver.h5"),
+                           program.parent_path().parent_path().parent_path() / "demo/liver.h5"})
+    if (std::filesystem::exists(path, gone)) return path;
+  return std::nullopt;
+}
+
+int run(const Options& options, double seconds) {
+  // 1. One processor, and what disturbs on it.
+  const int cpu = pinTo(options.cpu);
+  for (const std::string& what : disturbances(cpu)) std::cerr << "palpate-bench: " << what << "\n";
+  benchmark::AddCustomContext("pinned_to_cpu", std::to_string(cpu));
+  benchmark::AddCustomContext("eigen_instructions", eigenInstructions());
+  if (options.scale) return printScale(options.modes) ? 0 : 1;
+  // 2. What there is to measure.
+  registerFields(seconds);
+  std::optional<MetaModel> model;
+  if (const auto path = chooseModel(options)) {
+    model.emplace(MetaModel::load(*path));
+    benchmark::AddCustomContext("model", path->string());
+    registerSteps(*model);
+    registerLoad(*path);
+    registerContactForce(*model);
+  } else {
+    std::cerr << "palpate-bench: no model given and no build/demo/liver.h5 (tools/demo makes it): without "
+                 "step/*, load/* and "
+                 "contact_force/*\n";
+  }
+  // 3. Measure.
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::bench
 
 int main(int argc, char** argv) {
   CLI::App app(
       "Measures the parts of a tick. Options that begin with --benchmark_ are Google Benchmark's own, e.g. "
-      "--benchmark_format=json, --benchmark_filter=contact_force.");
-  std::string path;
-  app.add_option("model", path, "model file (.h5)")->required();
+      "--benchmark_format=json, --benchmark_filter=field/2009x167.");
+  palpate::bench::Options options;
+  app.add_option("model", options.model,
+                 "model file (.h5) of step/default, load/default and contact_force; default: "
+                 "build/demo/liver.h5, if there is one");
+  app.add_option("--cpu", options.cpu, "processor to run on; -1: the last one that may be used")
+      ->capture_default_str();
+  app.add_flag("--scale", options.scale, "instead print the largest synthetic model whose step() fits 1 kHz");
+  app.add_option("--modes", options.modes, "modes of these models")
+      ->check(CLI::Range(20, 1000))
+      ->capture_default_str();
   app.set_version_flag("--version", PALPATE_VERSION);
+  const double seconds = palpate::bench::leastSeconds(argc, argv);
   benchmark::Initialize(&argc, argv);  // takes its own options out
   CLI11_PARSE(app, argc, argv);
   try {
-    const palpate::MetaModel model = palpate::MetaModel::load(path);
-    palpate::bench::registerContactForce(model);
-    benchmark::RunSpecifiedBenchmarks();
+    return palpate::bench::run(options, seconds);
   } catch (const std::exception& error) {
     std::cerr << "palpate-bench: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }

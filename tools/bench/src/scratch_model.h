@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palpate/core/meta_model.h"
+#include "palpate/modelfile/model_data.h"
+
+namespace palpate::bench {
+
+/// Writes the data as a model file, loads it as the server does, and removes the file again. @throw ModelFileError, LoadError
+[[nodiscard]] MetaModel throughFile(const modelfile::ModelData& data);
+
+}  // namespace palpate::bench
