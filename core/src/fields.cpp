@@ -48,6 +48,15 @@ void SeparatedField::expand(std::span<const float> y, std::span<float> u) const 
   addWeightedRows(X_.data(), u.size(), y.data(), y.size(), u.size(), u.data());
 }
 
+Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t length = X_.size() / std::max<std::size_t>(y.size(), 1);
+  const float* X = X_.data() + 3 * index(node);
+  std::array<float, 3> u{};
+  for (std::size_t k = 0; k < y.size(); ++k, X += length)
+    for (std::size_t axis = 0; axis < 3; ++axis) u[axis] += y[k] * X[axis];
+  return {u[0], u[1], u[2]};
+}
+
 NearField::NearField(const ModelView& view)
     : offset_(view.near_offset), node_(view.near_node), field_(view.near_field) {
   std::int64_t most = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "index.h"
 #include "load_driven.h"
 #include "palpate/core/length.h"
 
@@ -154,26 +155,70 @@ FieldScratch::FieldScratch(const MetaModel& model)
     : amplitudes(static_cast<std::size_t>(model.farField().modes())),
       near_block(static_cast<std::size_t>(model.nearField().scratchSize())) {}
 
+namespace {
+
+/// Visits the sources that the model answers: add(mix, phi, gain).
+template <typename Add>
+void forEachAnswered(const MetaModel& model, std::span<const FieldSource> sources, Add&& add) noexcept {
+  for (const FieldSource& source : sources) {
+    const PositionMix mix = model.surface().mix(source.s);
+    if (mix.count == 0) continue;
+    const Vec3 p = clampToDomain(source.parameter, model.response().limit(mix));
+    std::array<double, MonomialBasis::kMaxCoefficients> all;
+    const std::span<double> phi(all.data(), static_cast<std::size_t>(model.functions().size()));
+    model.functions().evaluate(p, phi);
+    add(mix, std::span<const double>(phi), source.gain);
+  }
+}
+
+void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources,
+                    std::span<float> y) noexcept {
+  std::fill(y.begin(), y.end(), 0.0F);
+  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
+    model.farField().addAmplitudes(mix, phi, gain, y);
+  });
+}
+
+/// Barycentric weight of a surface node at s; 0 when it is none of the triangle's.
+double weightOf(const MetaModel& model, std::int32_t node, const ContactPoint& s) noexcept {
+  const std::int32_t* const corner = model.view().surface_triangles.data() + 3 * index(s.triangle);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (corner[k] == node) return s.barycentric[k];
+  return 0.0;
+}
+
+}  // namespace
+
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING {
-  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
-  const auto forEach = [&](auto&& add) {
-    for (const FieldSource& source : sources) {
-      const PositionMix mix = model.surface().mix(source.s);
-      if (mix.count == 0) continue;
-      const Vec3 p = clampToDomain(source.parameter, model.response().limit(mix));
-      std::array<double, MonomialBasis::kMaxCoefficients> all;
-      const std::span<double> phi(all.data(), static_cast<std::size_t>(model.functions().size()));
-      model.functions().evaluate(p, phi);
-      add(mix, phi, source.gain);
-    }
-  };
-  forEach([&](const PositionMix& mix, std::span<const double> phi, double gain) {
-    model.farField().addAmplitudes(mix, phi, gain, scratch.amplitudes);
-  });
+  findAmplitudes(model, sources, scratch.amplitudes);
   model.farField().expand(scratch.amplitudes, u);
-  forEach([&](const PositionMix& mix, std::span<const double> phi, double gain) {
+  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
     model.nearField().add(mix, phi, gain, scratch.near_block, u);
+  });
+}
+
+void evaluateFieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+                     std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
+  findAmplitudes(model, sources, scratch.amplitudes);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    u[i] = Vec3::Zero();
+    if (points[i].triangle < 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int node = model.view().surface_triangles[3 * index(points[i].triangle) + k];
+      u[i] += points[i].barycentric[k] * model.farField().at(scratch.amplitudes, node);
+    }
+  }
+  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
+    for (std::size_t b = 0; b < index(mix.count); ++b) {
+      const NearField::Block near =
+          model.nearField().block(mix.position[b], phi, gain * mix.weight[b], scratch.near_block);
+      for (std::size_t j = 0; j < near.nodes.size(); ++j)
+        for (std::size_t i = 0; i < points.size(); ++i)
+          if (points[i].triangle >= 0)
+            u[i] += weightOf(model, near.nodes[j], points[i]) *
+                    Eigen::Map<const Eigen::Vector3f>(near.u.data() + 3 * j).cast<double>();
+    }
   });
 }
 

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <span>
 #include <utility>
 
-#include "palpate/core/tool_coupling.h"
 #include "tool_group.h"
+#include "tool_surface.h"
 
 namespace palpate {
 
@@ -37,9 +35,9 @@ class Tick {
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
   void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept;
   void deform(StepResult& result) noexcept;
-  void evaluate(StepResult& result) noexcept;
-  void blendField() noexcept;
-  void report(const ToolMemory& memory, ToolResult& out) const noexcept;
+  [[nodiscard]] bool showSurface(const ToolSurface& surface) noexcept;
+  [[nodiscard]] bool showAnchors(const ToolSurface& surface) noexcept;
+  void report(std::size_t tool, ToolResult& out) const noexcept;
 
   static constexpr double kStall = 0.01;  // s; in a faster loop, ten periods are no time that a hand notices
 
@@ -52,6 +50,7 @@ class Tick {
   bool disturbed_;  // the loop stood still, or a parameter changed at once: no force follows from the last
   bool jumped_{false};  // some tool's contact did, in this tick
   bool shaken_;         // some tool's contact did in the tick before: what the others feel of it jumps now
+  std::array<Vec3, kMaxTools> shown_;  // u at each tool's anchor, m
 };
 
 namespace {
@@ -59,13 +58,6 @@ namespace {
 template <std::size_t N, typename Vector>
 void store(const Vector& from, std::array<double, N>& to) noexcept {
   for (std::size_t i = 0; i < N; ++i) to[i] = from(static_cast<Eigen::Index>(i));
-}
-
-bool isFinite(std::span<const float> values) noexcept {
-  int bad = 0;  // counted without a branch, so that the loop runs in vectors
-  for (const float value : values)
-    bad |= static_cast<int>(!(std::abs(value) <= std::numeric_limits<float>::max()));
-  return bad == 0;
 }
 
 }  // namespace
@@ -188,58 +180,52 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
 /// field before falls from 1 to 0 within ramp_time. One weight for the whole field, so that a second jump
 /// starts from what is shown.
 void Tick::deform(StepResult& result) noexcept {
+  double& blend = work_.displacement_blend_;
   if (jumped_) {
     std::copy(work_.displacement_.begin(), work_.displacement_.end(), work_.displacement_from_.begin());
-    work_.displacement_blend_ = 1.0;
+    blend = 1.0;
   }
-  evaluate(result);
-  blendField();
-}
-
-void Tick::blendField() noexcept {
-  double& blend = work_.displacement_blend_;
   const double ramp_time = work_.config_.ramp_time;
   blend = ramp_time > 0.0 ? std::max(0.0, blend - ramp_dt_ / ramp_time) : 0.0;
-  if (blend == 0.0) return;
-  const auto weight = static_cast<float>(blend);
-  for (std::size_t i = 0; i < work_.displacement_.size(); ++i)
-    work_.displacement_[i] += weight * (work_.displacement_from_[i] - work_.displacement_[i]);
-}
-
-/// The surface under all tools together; a tool whose force fades takes its dimple with it.
-void Tick::evaluate(StepResult& result) noexcept {
-  std::array<FieldSource, 2 * kMaxTools> sources;
-  std::size_t count = 0;
-  for (const ToolMemory& memory : work_.tools_) {
-    const Contact& contact = memory.contact;
-    if (contact.state == ContactState::kFree) continue;
-    const Vec3& d = contact.coupled.displacement;
-    const Vec3 carried = contact.carried.at(d);
-    if (carried == Vec3::Zero()) {
-      sources[count++] = {contact.s, contact.coupled.response.parameter, memory.rendering.gain};
-      continue;
-    }
-    for (FieldSource source : ownField(model_, contact.s, d, d - carried)) {
-      source.gain *= memory.rendering.gain;
-      sources[count++] = source;
-    }
-  }
-  const std::span<float> u(work_.displacement_);
-  std::fill(u.begin(), u.end(), 0.0F);
-  if (count == 0) return;
-  evaluateField(model_, std::span(sources).first(count), work_.scratch_, u);
-  if (isFinite(u)) return;
-  std::fill(u.begin(), u.end(), 0.0F);
+  const ToolSurface surface(model_, work_.tools_);
+  const bool finite = input_.skip_surface == 0 ? showSurface(surface) : showAnchors(surface);
+  if (finite) return;
   for (ToolResult& out : result.tools)
     if ((out.flags & kInContact) != 0) out.flags |= kNonFiniteForce;
 }
 
-void Tick::report(const ToolMemory& memory, ToolResult& out) const noexcept {
-  const Contact& contact = memory.contact;
+bool Tick::showSurface(const ToolSurface& surface) noexcept {
+  std::vector<float>& u = work_.displacement_;
+  const bool finite = surface.evaluate(work_.scratch_, u);
+  const auto weight = static_cast<float>(work_.displacement_blend_);
+  for (std::size_t i = 0; weight > 0.0F && i < u.size(); ++i)
+    u[i] += weight * (work_.displacement_from_[i] - u[i]);
+  for (std::size_t i = 0; i < kMaxTools; ++i) {
+    const ContactPoint& s = work_.tools_[i].contact.s;
+    if (s.triangle >= 0) shown_[i] = model_.surface().interpolate(u, s);
+  }
+  return finite;
+}
+
+/// The same where it is reported, when nobody takes the rest.
+bool Tick::showAnchors(const ToolSurface& surface) noexcept {
+  const bool finite = surface.evaluateAnchors(work_.scratch_, shown_);
+  const double weight = work_.displacement_blend_;
+  for (std::size_t i = 0; weight > 0.0 && i < kMaxTools; ++i) {
+    const ContactPoint& s = work_.tools_[i].contact.s;
+    if (s.triangle < 0) continue;
+    const Vec3 from = model_.surface().interpolate(work_.displacement_from_, s);
+    shown_[i] += weight * (from - shown_[i]);
+  }
+  return finite;
+}
+
+void Tick::report(std::size_t tool, ToolResult& out) const noexcept {
+  const Contact& contact = work_.tools_[tool].contact;
   if (contact.s.triangle < 0) return;
   out.state = static_cast<std::uint32_t>(contact.state);
   store(contact.anchor, out.anchor);
-  store(Vec3(contact.anchor + model_.surface().interpolate(work_.displacement_, contact.s)), out.proxy);
+  store(Vec3(contact.anchor + shown_[tool]), out.proxy);
   store(contact.coupled.response.displacement, out.displacement);
   out.domain_radius = contact.coupled.response.domain_radius;
   out.penetration = std::max(0.0, -contact.imposed.dot(contact.normal));
@@ -257,7 +243,7 @@ StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   deform(result);
   std::uint32_t flags = 0;
   for (std::size_t i = 0; i < kMaxTools; ++i) {
-    report(work_.tools_[i], result.tools[i]);
+    report(i, result.tools[i]);
     result.tools[i].flags |= input_.tools[i].flags;
     flags |= result.tools[i].flags;
     const bool gone = input_.tools[i].present == 0 && work_.tools_[i].rendering.gain <= 0.0;

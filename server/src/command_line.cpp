@@ -18,9 +18,9 @@ struct Given {
   std::optional<std::int64_t> domain;
   std::optional<std::int64_t> server_id;
   std::optional<std::int64_t> organ_id;
-  std::optional<std::int64_t> surface_every;
   std::optional<std::int64_t> tools;
   std::optional<double> rate;
+  std::optional<double> surface_rate;
   std::optional<double> tip_radius;
   std::optional<double> friction;
   std::optional<double> force_rate_limit;
@@ -67,7 +67,9 @@ void declare(CLI::App& app, Given& given) {
       ->type_name("POLICY");
   app.add_option("--tip-radius", given.tip_radius, "Radius of the tools' tips, m, 0 to 0.05, default 0.005");
   declareContact(app, given);
-  app.add_option("--surface-every", given.surface_every, "Ticks per surface field, 1 to 1000, default 1");
+  app.add_option("--surface-rate", given.surface_rate,
+                 "Surface fields per second, 0.1 or more, default inf: with every tick")
+      ->type_name("HZ");
   app.add_option("--organ-id", given.organ_id, "Key of the surface topics, default 0");
   app.add_option("--server-id", given.server_id, "Key of the status topic, default 0");
   app.footer(
@@ -132,7 +134,7 @@ ServerConfig combine(const Given& given) {
   overwrite(given.rate, config.rate);
   overwrite(given.server_id, config.server_id);
   overwrite(given.organ_id, config.organ_id);
-  overwrite(given.surface_every, config.surface_every);
+  overwrite(given.surface_rate, config.surface_rate);
   combineContact(given, config.step);
   combineDevice(given, config);
   takeWord("--realtime", [&] {

@@ -105,7 +105,7 @@ std::optional<Complaint> firstComplaint(const ServerConfig& config) {
       {"rate", config.rate, 10, 10000, " Hz"},
       {"server_id", static_cast<double>(config.server_id), 0, kMaxId, ""},
       {"organ_id", static_cast<double>(config.organ_id), 0, kMaxId, ""},
-      {"surface_every", static_cast<double>(config.surface_every), 1, 1000, " ticks"},
+      {"surface_rate", config.surface_rate, 0.1, kEveryTick, " Hz"},
   }};
   for (const Range& range : ranges) {
     // Written so that NaN complains too.

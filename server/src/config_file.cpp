@@ -156,7 +156,7 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   keys.read("realtime", realtime);
   keys.read("server_id", config.server_id);
   keys.read("organ_id", config.organ_id);
-  keys.read("surface_every", config.surface_every);
+  keys.read("surface_rate", config.surface_rate);
   readTools(keys, config.step);
   readTool(keys, config.step);
   readDevice(keys, config);

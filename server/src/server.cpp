@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -38,6 +39,11 @@ Facts factsOf(const MetaModel& model, const ServerConfig& config) {
 
 std::int64_t periodOf(const ServerConfig& config) {
   return std::llround(1e9 / config.rate);
+}
+
+TickPlan planOf(const ServerConfig& config) {
+  const double surface_rate = std::min(config.surface_rate, config.rate);
+  return {periodOf(config), std::llround(1e9 / surface_rate)};
 }
 
 record::SessionFacts sessionOf(const Facts& facts) {
@@ -89,7 +95,7 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       status_out_(participant_, facts_),
       parameters_(participant_, channels_, facts_),
       events_(channels_, status_out_, parameters_),
-      tick_(model, work_, channels_, static_cast<std::uint64_t>(config.surface_every), periodOf(config)),
+      tick_(model, work_, channels_, planOf(config)),
       poses_in_(participant_, channels_, config.step),
       ramp_time_(config.step.ramp_time) {
   if (!config.record.empty()) recorder_.emplace(channels_, config.record, sessionOf(facts_));

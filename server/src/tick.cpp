@@ -45,6 +45,7 @@ void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   input_.has_live =
       channels_.parameters.read(input_.live) ? 1 : 0;  // told once, the engine goes over by itself
   input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
+  input_.skip_surface = surfaceIsDue(cycle) ? 0 : 1;
   last_woke_ns_ = cycle.woke_ns;
 }
 
@@ -123,8 +124,18 @@ void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NO
   if (!channels_.forces.push(record)) ++dropped_;
 }
 
+// In the tick that is nearest to a grid of its own, so that any rate is kept in the mean.
+bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  if (plan_.surface_period_ns <= plan_.period_ns) return true;
+  if (next_surface_ns_ == 0) next_surface_ns_ = cycle.deadline_ns;
+  const std::int64_t here_ns = cycle.deadline_ns + plan_.period_ns / 2;
+  if (here_ns < next_surface_ns_) return false;
+  next_surface_ns_ = rt::nextDeadline(next_surface_ns_, plan_.surface_period_ns, here_ns).ns;
+  return true;
+}
+
 void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
-  if (cycle.index % surface_every_ != 0) return;
+  if (input_.skip_surface != 0) return;
   SurfaceFrame& frame = channels_.surface.back();
   frame.seq = ++surface_seq_;
   frame.stamp_ns = cycle.woke_ns;

@@ -83,6 +83,55 @@ TEST(Step, ProxyIsTheDeformedSurfaceAtTheAnchor) {
   EXPECT_LT(r.proxy[2], r.anchor[2]);
 }
 
+// One tick in seven is shown; two tools, one of which slides, comes and goes.
+TEST(Step, ASurfaceThatNobodyTakesChangesNoAnswer) {
+  StepConfig config;
+  config.friction = 0.1;
+  Driver every(organ(), config), seldom(organ(), config);
+  int compared = 0;
+  const auto play = [&](const Vec3& first, const Vec3& second, bool taken) {
+    for (Driver* driver : {&every, &seldom}) {
+      ToolInput& tool = driver->input().tools[1];
+      tool.present = 1;
+      tool.position = {second.x(), second.y(), second.z()};
+      driver->input().skip_surface = driver == &seldom && !taken ? 1 : 0;
+      driver->at(first);
+    }
+    const bool jumped = ((every.result().tools[0].flags | every.result().tools[1].flags) & kRamping) != 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const ToolResult &a = every.result().tools[i], &b = seldom.result().tools[i];
+      ASSERT_EQ(a.flags, b.flags);
+      ASSERT_EQ(a.force, b.force);
+      ASSERT_EQ(a.anchor, b.anchor);
+      ASSERT_LT((vec(a.proxy) - vec(b.proxy)).norm(), jumped ? 1e-4 : 1e-9) << "tool " << i;
+      compared += !jumped && vec(a.proxy) != vec(a.anchor) ? 1 : 0;
+    }
+    if (taken && !jumped) {
+      ASSERT_TRUE(std::ranges::equal(every.work().displacement(), seldom.work().displacement()));
+    }
+  };
+  for (int i = 0; i < 700; ++i) {
+    const double t = 1e-3 * i;
+    const Vec3 second = above(0.002 * std::sin(20.0 * t)) + Vec3(0.01 * t, 0.02, -0.004);
+    play(above(0.003 * std::min(1.0, 5.0 * t)) + Vec3(0.01 * t, 0.0, 0.0), second, i % 7 == 0);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(compared, 700) << "the tools were in contact, and not always in a jump";
+}
+
+TEST(Step, ASurfaceThatNobodyTakesStaysAsItWas) {
+  Driver driver(organ());
+  press(driver, 0.002);
+  const std::span<const float> shown = driver.work().displacement();
+  const std::vector<float> before(shown.begin(), shown.end());
+  driver.input().skip_surface = 1;
+  for (int i = 0; i < 20; ++i) driver.at(above(0.002 + 1e-4 * i));
+  EXPECT_TRUE(std::ranges::equal(shown, before));
+  driver.input().skip_surface = 0;
+  driver.settle(above(0.004));
+  EXPECT_FALSE(std::ranges::equal(shown, before));
+}
+
 TEST(Step, StiffnessIsTheSlopeOfTheRenderedForce) {
   for (const double limit : {3.3, 0.3}) {  // the second one cuts the force
     StepConfig config;

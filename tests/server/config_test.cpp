@@ -40,13 +40,13 @@ class ConfigFile : public ::testing::Test {
 
 TEST_F(ConfigFile, SetsWhatItNamesAndLeavesTheRest) {
   const ServerConfig config = read(
-      "model = \"organ.h5\"\ndomain = 7\nrate = 500\nrealtime = \"off\"\nsurface_every = 4\n"
+      "model = \"organ.h5\"\ndomain = 7\nrate = 500\nrealtime = \"off\"\nsurface_rate = 60\n"
       "[tool]\nforce_limit = 2.5\n");
   EXPECT_EQ(config.model, path_.parent_path() / "organ.h5") << "relative to the file";
   EXPECT_EQ(config.domain, 7);
   EXPECT_EQ(config.rate, 500.0) << "an integer is a number too";
   EXPECT_EQ(config.realtime, rt::RealtimePolicy::kOff);
-  EXPECT_EQ(config.surface_every, 4);
+  EXPECT_EQ(config.surface_rate, 60.0);
   EXPECT_EQ(config.step.force_limit, 2.5);
   EXPECT_EQ(config.step.tip_radius, StepConfig{}.tip_radius);
 }
@@ -62,7 +62,7 @@ TEST_F(ConfigFile, TheSampleHoldsTheDefaults) {
   EXPECT_EQ(sample.domain, defaults.domain);
   EXPECT_EQ(sample.rate, defaults.rate);
   EXPECT_EQ(sample.realtime, defaults.realtime);
-  EXPECT_EQ(sample.surface_every, defaults.surface_every);
+  EXPECT_EQ(sample.surface_rate, defaults.surface_rate);
   EXPECT_EQ(sample.step.tip_radius, defaults.step.tip_radius);
   EXPECT_EQ(sample.step.force_limit, defaults.step.force_limit);
   EXPECT_EQ(sample.step.stale_timeout, defaults.step.stale_timeout);
@@ -106,7 +106,8 @@ TEST_F(ConfigFile, RefusesANumberOutOfRangeByNameAndLine) {
   EXPECT_EQ(refusal("domain = 231"), ":1: domain is 231, expected 0 to 230");
   EXPECT_EQ(refusal("\nrate = 9.5"), ":2: rate is 9.5, expected 10 to 10000 Hz");
   EXPECT_EQ(refusal("rate = nan"), ":1: rate is nan, expected 10 to 10000 Hz");
-  EXPECT_EQ(refusal("surface_every = 0"), ":1: surface_every is 0, expected 1 to 1000 ticks");
+  EXPECT_EQ(refusal("surface_rate = 0"), ":1: surface_rate is 0, expected 0.1 to inf Hz");
+  EXPECT_EQ(refusal("surface_rate = nan").find(":1: surface_rate is "), 0U);
   EXPECT_EQ(refusal("organ_id = -1"), ":1: organ_id is -1, expected 0 to 4294967295");
   EXPECT_EQ(refusal("server_id = 4294967296"), ":1: server_id is 4294967296, expected 0 to 4294967295");
 }

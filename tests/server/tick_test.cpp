@@ -95,7 +95,7 @@ class TickTest : public ::testing::Test {
   Workspace work_{model_, StepConfig{}};
   std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3 * model_.view().surfaceNodes());
   PoseIntake intake_{*channels_, StepConfig{}};
-  Tick tick_{model_, work_, *channels_, 1, kPeriod};
+  Tick tick_{model_, work_, *channels_, {kPeriod}};
   rt::Cycle cycle_;
   std::int64_t now_ns_{1'000'000'000};
   std::uint64_t pose_seq_{0};
@@ -268,11 +268,40 @@ TEST_F(TickTest, AFullRecordingRingCostsTheNewestTicksAndTheCounterShowsIt) {
   EXPECT_EQ(tick.input.dt_ns, 0);
 }
 
-TEST_F(TickTest, WritesTheSurfaceOnlyAsOftenAsAsked) {
-  Tick seldom(model_, work_, *channels_, 10, kPeriod);
-  for (cycle_.index = 0; cycle_.index < 30; ++cycle_.index) seldom.run(cycle_);
-  ASSERT_TRUE(channels_->surface.update());
-  EXPECT_EQ(channels_->surface.front().seq, 3U);
+TEST_F(TickTest, WritesTheSurfaceAsOftenAsAskedInTheMeanAndTheForceEveryTick) {
+  Tick seldom(model_, work_, *channels_, {kPeriod, 16'666'667});  // 60 Hz: no whole number of ticks
+  std::int64_t last_ns = 0;
+  for (int i = 0; i < 1000; ++i) {
+    send(poseAtDepth(0, 0.000001 * i));
+    now_ns_ += kPeriod;
+    cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
+    seldom.run(cycle_);
+    ++cycle_.index;
+    EXPECT_EQ(takeForces().size(), 1U);
+    if (!channels_->surface.update()) continue;
+    const SurfaceFrame& frame = channels_->surface.front();
+    if (last_ns != 0) {
+      EXPECT_NEAR(static_cast<double>(frame.stamp_ns - last_ns), 16.5e6, 0.5e6);
+    }
+    EXPECT_EQ(last_ns == 0, frame.displacement == std::vector<float>(frame.displacement.size(), 0.0F));
+    last_ns = frame.stamp_ns;
+  }
+  EXPECT_EQ(channels_->surface.front().seq, 60U);
+}
+
+TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
+  Tick seldom(model_, work_, *channels_, {kPeriod, 10 * kPeriod});
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i, now_ns_ += kPeriod) {
+      cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
+      seldom.run(cycle_);
+    }
+    (void)channels_->surface.update();
+    return channels_->surface.front().seq;
+  };
+  EXPECT_EQ(run(20), 2U);
+  now_ns_ += 500 * kPeriod;
+  EXPECT_EQ(run(20), 4U);
 }
 
 TEST_F(TickTest, TellsWhenZeroForceWasSent) {

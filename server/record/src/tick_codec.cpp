@@ -12,7 +12,8 @@ namespace {
 constexpr std::uint8_t kPeriod = 1;    // period_ns: it changed
 constexpr std::uint8_t kShutting = 2;  // shutting_down: it changed
 constexpr std::uint8_t kLive = 4;      // has_live, and the live parameters
-constexpr std::uint8_t kTickBits = 7;
+constexpr std::uint8_t kSkip = 8;      // skip_surface is 1
+constexpr std::uint8_t kTickBits = 15;
 // and for a tool of it.
 constexpr std::uint8_t kInput = 1;   // there is a tool: present, age_ns, flags; without, ToolInput{}
 constexpr std::uint8_t kPose = 2;    // position and orientation: they changed
@@ -48,6 +49,7 @@ void TickCodec::encode(const RecordedTick& tick, Bytes& out) {
   if (input.period_ns != last_.input.period_ns) bits |= kPeriod;
   if (input.shutting_down != last_.input.shutting_down) bits |= kShutting;
   if (input.has_live != 0) bits |= kLive;
+  if (input.skip_surface != 0) bits |= kSkip;
   put(out, tick.index);
   put(out, input.dt_ns);
   put(out, bits);
@@ -94,6 +96,7 @@ void TickCodec::decode(ByteSource& in, RecordedTick& tick) {
   refuseUnknown(bits, kTickBits, "tick");
   if ((bits & kPeriod) != 0) in.get(input.period_ns);
   if ((bits & kShutting) != 0) in.get(input.shutting_down);
+  input.skip_surface = (bits & kSkip) != 0 ? 1 : 0;
   input.has_live = 0;
   if ((bits & kLive) != 0) {
     in.get(input.has_live);

@@ -24,6 +24,8 @@ class SeparatedField {
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
   /// u = X^T y, m (overwrites). @param u  [Ns][3]. Cost O(n Ns), bound by reading X. Real-time: yes.
   void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
+  /// u of one surface node, m, as expand() gives it but for rounding. Cost O(n), a cache miss a mode. Real-time: yes.
+  [[nodiscard]] Vec3 at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING;
 
  private:
   std::span<const float> X_;

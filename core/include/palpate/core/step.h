@@ -31,6 +31,10 @@ struct StepInput {
   std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
   /// not 0: go over to `live`, within LiveBlend::kSeconds. 0: the parameters stay as they are (at first StepConfig's)
   std::uint32_t has_live{0};
+  /// not 0: nobody takes the surface of this tick. Workspace::displacement() stays the last one that was taken. Forces and
+  /// anchors are the same as with it, proxies too but for rounding, and but for ramp_time after a jump, in which they
+  /// come from the last surface that was taken
+  std::uint32_t skip_surface{0};
   LiveParameters live;  ///< checked by the caller: firstComplaint() is empty
 };
 
@@ -48,7 +52,7 @@ struct ToolResult {
   double penetration{0.0};               ///< -d . n as imposed (before clamping), m, >= 0; zero when free
 };
 
-/// Output of one tick; the surface displacement is Workspace::displacement(). Plain: it crosses threads.
+/// Output of one tick; the surface displacement, where it was not skipped, is Workspace::displacement(). Plain: it crosses threads.
 struct StepResult {
   std::array<ToolResult, kMaxTools> tools{};
 };
@@ -59,7 +63,7 @@ static_assert(std::is_trivially_copyable_v<StepInput> && std::is_trivially_copya
 enum class StepStatus { kOk, kFlagged };
 
 /// One tick: poses in, forces and the surface's displacement out (DESIGN 3.1, 3.2). Bad input never stops it and
-/// never comes out: each has a defined, safe, continuous answer and a flag. Cost O(C n + n Ns). Allocates
+/// never comes out: each has a defined, safe, continuous answer and a flag. Cost O(C n + n Ns), without surface O(C n). Allocates
 /// nothing, takes no lock, throws nothing. Real-time: yes. Threads: one per Workspace.
 [[nodiscard]] StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                               StepResult& result) noexcept PALPATE_NONBLOCKING;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,9 @@ struct DeviceOverrides {
 /// what a softer coupling that was said allows (kLongestCouplingTime).
 [[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const DeviceOverrides& said);
 
+/// A surface rate: with each tick.
+inline constexpr double kEveryTick = std::numeric_limits<double>::infinity();
+
 /// What the server is told, by defaults, a file and the command line, in this order.
 struct ServerConfig {
   std::filesystem::path model;                               ///< model file; no default
@@ -39,7 +43,7 @@ struct ServerConfig {
   rt::RealtimePolicy realtime{rt::RealtimePolicy::kPrefer};  ///< require, prefer or off
   std::int64_t server_id{0};                                 ///< key of ServerStatus, in [0, 2^32 - 1]
   std::int64_t organ_id{0};                                  ///< key of the surface topics, in [0, 2^32 - 1]
-  std::int64_t surface_every{1};                             ///< ticks per surface field, in [1, 1000]
+  double surface_rate{kEveryTick};     ///< surface fields per second, Hz, in [0.1, kEveryTick]
   std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
   std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
   DeviceOverrides said;                ///< of the file and the command line

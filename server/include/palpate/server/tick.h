@@ -11,19 +11,23 @@
 
 namespace palpate::server {
 
+/// How often what happens.
+struct TickPlan {
+  std::int64_t period_ns{1'000'000};  ///< of the loop
+  std::int64_t surface_period_ns{
+      0};  ///< from one surface field to the next; up to period_ns: every tick has one
+};
+
 /// One tick: newest poses in, one step of the engine, forces and surface out (DESIGN 3.1, 3.3).
 /// Takes no lock, allocates nothing, logs nothing, knows no DDS. What it keeps from tick to tick is
 /// bookkeeping only; the state of the contact lives in the Workspace. Threads: one, the tick thread.
 /// Real-time: yes.
 class Tick {
  public:
-  /// @param[in] surface_every  ticks per surface field, >= 1
-  /// @param[in] period_ns      of the loop
   /// The three references must outlive the tick.
-  Tick(const MetaModel& model, Workspace& work, Channels& channels, std::uint64_t surface_every,
-       std::int64_t period_ns)
-      : model_(model), work_(work), channels_(channels), surface_every_(surface_every) {
-    input_.period_ns = period_ns;
+  Tick(const MetaModel& model, Workspace& work, Channels& channels, const TickPlan& plan)
+      : model_(model), work_(work), channels_(channels), plan_(plan) {
+    input_.period_ns = plan.period_ns;
   }
 
   void run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
@@ -51,6 +55,7 @@ class Tick {
   void answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportZeroForce() noexcept PALPATE_NONBLOCKING;
@@ -59,7 +64,7 @@ class Tick {
   const MetaModel& model_;
   Workspace& work_;
   Channels& channels_;
-  std::uint64_t surface_every_;
+  TickPlan plan_;
 
   StepInput input_;
   StepResult result_;
@@ -71,6 +76,7 @@ class Tick {
   std::uint64_t last_overruns_{0};
   bool overrun_{false};  // ticks were missed before this one
   std::uint64_t surface_seq_{0};
+  std::int64_t next_surface_ns_{0};
   std::uint64_t rejected_{0};
   std::uint64_t dropped_{0};
   int zero_ticks_{0};  // in a row, while shutting down

@@ -9,7 +9,7 @@ namespace palpate::record {
 
 // A new field changes a size: add it to its list, and raise the version (kVersion).
 static_assert(sizeof(LiveParameters) == 48 && sizeof(StepConfig) == 104 && sizeof(ToolInput) == 80 &&
-                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 72,
+                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 80,
               "core has other fields than the recording");
 
 template <class Config, class Visit>

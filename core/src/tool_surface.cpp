@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tool_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "palpate/core/tool_coupling.h"
+
+namespace palpate {
+
+namespace {
+
+bool isFinite(std::span<const float> values) noexcept {
+  int bad = 0;  // counted without a branch, so that the loop runs in vectors
+  for (const float value : values)
+    bad |= static_cast<int>(!(std::abs(value) <= std::numeric_limits<float>::max()));
+  return bad == 0;
+}
+
+}  // namespace
+
+ToolSurface::ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools) noexcept
+    : model_(model) {
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    const Contact& contact = tools[i].contact;
+    const double gain = tools[i].rendering.gain;
+    anchors_[i] = contact.s;
+    if (contact.state == ContactState::kFree) continue;
+    const Vec3& d = contact.coupled.displacement;
+    const Vec3 carried = contact.carried.at(d);
+    if (carried == Vec3::Zero()) {
+      sources_[count_++] = {contact.s, contact.coupled.response.parameter, gain};
+      continue;
+    }
+    for (FieldSource source : ownField(model_, contact.s, d, d - carried)) {
+      source.gain *= gain;
+      sources_[count_++] = source;
+    }
+  }
+}
+
+std::span<const FieldSource> ToolSurface::sources() const noexcept {
+  return std::span(sources_).first(count_);
+}
+
+bool ToolSurface::evaluate(FieldScratch& scratch, std::span<float> u) const noexcept {
+  if (count_ > 0) {
+    evaluateField(model_, sources(), scratch, u);
+    if (isFinite(u)) return true;
+  }
+  std::fill(u.begin(), u.end(), 0.0F);
+  return count_ == 0;
+}
+
+bool ToolSurface::evaluateAnchors(FieldScratch& scratch, std::span<Vec3, kMaxTools> u) const noexcept {
+  std::fill(u.begin(), u.end(), Vec3::Zero());
+  if (count_ == 0) return true;
+  evaluateFieldAt(model_, sources(), scratch, anchors_, u);
+  bool finite = true;
+  for (Vec3& shown : u) {
+    if (shown.allFinite()) continue;
+    shown.setZero();
+    finite = false;
+  }
+  return finite;
+}
+
+}  // namespace palpate

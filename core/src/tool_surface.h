@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "palpate/core/workspace.h"
+
+namespace palpate {
+
+/// The surface under all tools together; a tool whose force fades takes its dimple with it.          DESIGN 2.3
+/// Borrows the model. Real-time: yes.
+class ToolSurface {
+ public:
+  /// Finds what each tool in contact adds.
+  ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools) noexcept;
+
+  /// The whole field. @param[out] u  [Ns][3] m
+  /// @return false when the model overflows: u is zero then
+  [[nodiscard]] bool evaluate(FieldScratch& scratch, std::span<float> u) const noexcept;
+  /// The field at the tools' anchors alone, what a tick whose surface nobody takes reports.
+  /// @param[out] u  m; zero where a tool has no anchor
+  /// @return false when the model overflows: u is zero there
+  [[nodiscard]] bool evaluateAnchors(FieldScratch& scratch, std::span<Vec3, kMaxTools> u) const noexcept;
+
+ private:
+  [[nodiscard]] std::span<const FieldSource> sources() const noexcept;
+
+  const MetaModel& model_;
+  std::array<ContactPoint, kMaxTools> anchors_;
+  std::array<FieldSource, 2 * kMaxTools> sources_;
+  std::size_t count_{0};
+};
+
+}  // namespace palpate
