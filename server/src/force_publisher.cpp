@@ -33,6 +33,7 @@ dds::ToolForce toWire(const ForceRecord& record) noexcept {
   force.tick_ns = record.previous_tick_ns;
   force.overruns = record.overruns;
   force.superseded = record.superseded;
+  force.pose_wait_ns = record.pose_wait_ns;
   return force;
 }
 

@@ -90,6 +90,7 @@ void Tick::writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     record.pose_seq = ledger.pose.seq;
     record.pose_stamp_ns = ledger.pose.stamp_ns;
     record.superseded = ledger.superseded;
+    record.pose_wait_ns = cycle.woke_ns - ledger.pose.arrival_ns;
     record.result = result_.tools[tool];
     push(record, cycle);
   }
@@ -109,6 +110,7 @@ void Tick::answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     record.seq = ++stranger_seq_[slot];
     record.pose_seq = stranger.seq;
     record.pose_stamp_ns = stranger.stamp_ns;
+    record.pose_wait_ns = cycle.woke_ns - stranger.arrival_ns;
     record.result.flags = stranger.flags | (input_.shutting_down != 0 ? kShuttingDown : 0);
     push(record, cycle);
     return;

@@ -38,6 +38,24 @@ TEST(LatencyLog, OnlyTheFirstAnswerToAPoseIsARoundTrip) {
   EXPECT_EQ(log.wakeup().max(), 40'000);
 }
 
+TEST(LatencyLog, TheWaitForTheTickIsTakenOutPoseByPose) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  auto waited = answer(1, 1);  // woke 40 us late, 340 us after the pose had come
+  waited.pose_wait_ns = 340'000;
+  log.add(waited, received(waited, 500'000));
+  auto late = answer(2, 2);  // came while the tick was being woken: no wait for the planned time
+  late.pose_wait_ns = 10'000;
+  log.add(late, received(late, 90'000));
+  auto later = answer(3, 3);  // came after the tick woke
+  later.pose_wait_ns = -1'000;
+  log.add(later, received(later, 80'000));
+  EXPECT_EQ(log.wait().max(), 300'000);
+  EXPECT_EQ(log.wait().count(), 3U);
+  EXPECT_EQ(log.poseToForceLessWait().max(), 200'000);
+  EXPECT_EQ(log.poseToForceLessWait().count(), 3U);
+}
+
 TEST(LatencyLog, AnswersToPosesOlderThanTwoPeriodsAreLate) {
   LatencyLog log(kPeriod);
   log.record(true);

@@ -78,6 +78,7 @@ TEST(RoundTrip, ForceArrivesUnchanged) {
   sent.tick_ns = 60000;
   sent.overruns = 8;
   sent.superseded = 9;
+  sent.pose_wait_ns = -10;
   ASSERT_TRUE(link.writer.write(sent));
   std::vector<ToolForce> got(1);
   ASSERT_TRUE(eventually([&] { return link.reader.take(got) == 1; }));
@@ -102,6 +103,7 @@ TEST(RoundTrip, ForceArrivesUnchanged) {
   EXPECT_EQ(got[0].tick_ns, 60000);
   EXPECT_EQ(got[0].overruns, 8U);
   EXPECT_EQ(got[0].superseded, 9U);
+  EXPECT_EQ(got[0].pose_wait_ns, -10);
 }
 
 TEST(RoundTrip, DisplacementArrivesFromTheCallersMemory) {

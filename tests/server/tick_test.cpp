@@ -127,6 +127,13 @@ TEST_F(TickTest, AnswersEveryToolThatWasSeenOnceATick) {
   EXPECT_EQ(seq_of_2, 8U);
 }
 
+TEST_F(TickTest, SaysHowLongThePoseHadWaited) {
+  send(poseAtDepth(0, 0.001));
+  const std::int64_t arrived_ns = now_ns_;
+  for (int i = 0; i < 2; ++i) runOneTick();
+  for (const ForceRecord& record : takeForces()) EXPECT_EQ(record.pose_wait_ns, record.stamp_ns - arrived_ns);
+}
+
 TEST_F(TickTest, PushesBackAndMovesTheSurface) {
   for (int i = 0; i < 100; ++i) {
     send(poseAtDepth(0, 0.00001 * i));

@@ -18,6 +18,7 @@ TEST(ForceOnTheWire, SaysWhatTheRecordSays) {
   record.previous_tick_ns = 16;
   record.overruns = 17;
   record.superseded = 18;
+  record.pose_wait_ns = 19;
   record.result.flags = kInContact | kForceLimited;
   record.result.state = static_cast<std::uint32_t>(ContactState::kStick);
   record.result.force = {1, 2, 3};
@@ -37,6 +38,7 @@ TEST(ForceOnTheWire, SaysWhatTheRecordSays) {
   EXPECT_EQ(force.tick_ns, 16);
   EXPECT_EQ(force.overruns, 17U);
   EXPECT_EQ(force.superseded, 18U);
+  EXPECT_EQ(force.pose_wait_ns, 19);
   EXPECT_EQ(force.flags, dds::flag::kInContact | dds::flag::kForceLimited);
   EXPECT_EQ(force.state, dds::tool_state::kStick);
   EXPECT_EQ(force.force[2], 3.0);

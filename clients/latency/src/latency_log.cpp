@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "latency_log.h"
 
+#include <algorithm>
+
 namespace palpate::latency {
 
 void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noexcept {
@@ -16,7 +18,11 @@ void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noex
   if (force.pose_stamp_ns == 0) return;
   const std::int64_t age_ns = received_ns - force.pose_stamp_ns;
   if (age_ns > 2 * period_ns_) ++late_;
-  if (!known) pose_to_force_.add(age_ns);  // only the first answer to a pose is a round trip
+  if (known) return;  // only the first answer to a pose is a round trip
+  const std::int64_t wait_ns = std::max<std::int64_t>(0, force.pose_wait_ns - force.wakeup_ns);
+  pose_to_force_.add(age_ns);
+  wait_.add(wait_ns);
+  less_wait_.add(age_ns - wait_ns);
 }
 
 }  // namespace palpate::latency

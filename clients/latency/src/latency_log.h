@@ -26,6 +26,10 @@ class LatencyLog {
   void add(const dds::ToolForce& force, std::int64_t received_ns) noexcept;
 
   [[nodiscard]] const client::Histogram& poseToForce() const noexcept { return pose_to_force_; }
+  /// From a pose's arrival at the server to the planned time of the tick that answered it, by the server's clock.
+  [[nodiscard]] const client::Histogram& wait() const noexcept { return wait_; }
+  /// Pose to force less that wait, pose by pose: what wire, wake-up, tick and threads cost.
+  [[nodiscard]] const client::Histogram& poseToForceLessWait() const noexcept { return less_wait_; }
   [[nodiscard]] const client::Histogram& wakeup() const noexcept { return wakeup_; }
   [[nodiscard]] const client::Histogram& tick() const noexcept { return tick_; }
   [[nodiscard]] std::uint64_t received() const noexcept { return answers_.received(); }
@@ -45,6 +49,8 @@ class LatencyLog {
   std::int64_t period_ns_;
   std::atomic<bool> recording_{false};  // a flag on its own: nothing else is read because of it
   client::Histogram pose_to_force_;
+  client::Histogram wait_;
+  client::Histogram less_wait_;
   client::Histogram wakeup_;
   client::Histogram tick_;
   client::GapCounter answers_;

@@ -33,6 +33,8 @@ report::Series barsOf(const char* name, const client::Histogram& histogram) {
 std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
   std::string text = "time / us                          p50       p99     p99.9       max     count\n";
   text += rowOf("pose to force, round trip", log.poseToForce().summary());
+  text += rowOf("  of it the wait for a tick", log.wait().summary());
+  text += rowOf("  less that wait", log.poseToForceLessWait().summary());
   text += rowOf("tick, compute time", log.tick().summary());
   text += rowOf("tick, woke late by", log.wakeup().summary());
   text += rowOf("sender, woke late by", sender.wakeup.summary());
@@ -53,6 +55,8 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
 
 nlohmann::json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
   return {{"pose_to_force_us", report::toJson(log.poseToForce().summary())},
+          {"pose_wait_us", report::toJson(log.wait().summary())},
+          {"pose_to_force_less_wait_us", report::toJson(log.poseToForceLessWait().summary())},
           {"wakeup_us", report::toJson(log.wakeup().summary())},
           {"tick_us", report::toJson(log.tick().summary())},
           {"client_wakeup_us", report::toJson(sender.wakeup.summary())},

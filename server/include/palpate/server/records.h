@@ -50,8 +50,9 @@ struct ForceRecord {
   std::int64_t wakeup_ns{0};         ///< how late it woke
   std::int64_t previous_tick_ns{0};  ///< compute time of the tick before
   std::uint64_t overruns{0};
-  std::uint64_t superseded{0};  ///< of this tool
-  ToolResult result;            ///< force on the tool
+  std::uint64_t superseded{0};   ///< of this tool
+  std::int64_t pose_wait_ns{0};  ///< from the pose's arrival to the wake-up; below 0: it came after that
+  ToolResult result;             ///< force on the tool
 };
 
 /// Tick to surface-out: a large slot, filled in place.

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// tools/latency-report as a whole, against a real server on a synthetic model.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "palpate/testing/synthetic_model.h"
+
+namespace palpate::testing {
+
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string contentOf(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+int run(const std::string& command) {
+  return WEXITSTATUS(std::system(command.c_str()));
+}
+
+void expectTimes(const nlohmann::json& times, const std::string& name) {
+  ASSERT_TRUE(times.contains("p50") && times.contains("p99")) << name;
+  EXPECT_GT(times["p50"], 0.0) << name;
+  EXPECT_GE(times["p99"], times["p50"]) << name;
+}
+
+}  // namespace
+
+TEST(LatencyReport, MeasuresAllInTurnAndWritesTableFigureAndJson) {
+  for (const char* program : {"cyclictest", "ddsperf"})
+    if (run(std::string("command -v ") + program + " >/dev/null") != 0)
+      GTEST_SKIP() << program << " is not installed (rt-tests, cyclonedds-tools)";
+  const TemporaryFile model("report.h5"), out("report");
+  writeSyntheticModel(model.path(), {.subdivisions = 3, .modes = 8});
+  const std::filesystem::path json_file = out.path() / "report.json";
+  const std::string command = std::string(PALPATE_TOOLS_DIR) + "/latency-report --quick --bin " +
+                              PALPATE_BIN_DIR + " --model " + model.path().string() + " --out " +
+                              out.path().string() + " --json " + json_file.string() + " >/dev/null";
+  ASSERT_EQ(run(command), 0);
+  const auto json = nlohmann::json::parse(contentOf(json_file));
+  for (const nlohmann::json& state : {json, json["loaded"]}) {
+    for (const char* key :
+         {"cyclictest", "wakeup", "tick", "ddsperf_roundtrip", "pose_to_force", "pose_to_force_less_wait"})
+      expectTimes(state[key], key);
+    for (const char* viewers : {"0", "1", "4", "4_one_stopped"})
+      expectTimes(state["force_with_viewers"][viewers], viewers);
+    ASSERT_TRUE(state.contains("pose_to_force_phase_locked"));
+    if (json["about"]["phase_lock"] == true) expectTimes(state["pose_to_force_phase_locked"], "locked");
+    EXPECT_LT(state["pose_to_force_less_wait"]["p50"], state["pose_to_force"]["p50"])
+        << "991 Hz goes through all waits";
+  }
+  EXPECT_THAT(contentOf(out.path() / "report.txt"), HasSubstr("== other processors busy"));
+  EXPECT_THAT(contentOf(out.path() / "report.md"), HasSubstr("| wake-up lateness: tick | "));
+  if (run("command -v gnuplot >/dev/null") == 0) {
+    EXPECT_THAT(contentOf(out.path() / "report.svg"), HasSubstr("</svg>"));
+  }
+  std::error_code ignored;
+  std::filesystem::remove_all(out.path(), ignored);
+}
+
+}  // namespace palpate::testing

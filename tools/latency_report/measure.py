@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One measurement each: cyclictest, ddsperf, palpate. All give {"p50", "p99", "max"} in us."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import statistics
+import subprocess
+import time
+
+from . import processes, wire
+from .processes import Failure
+
+TICK_PRIORITY = 80     # DESIGN 3.3
+RECEIVE_PRIORITY = 70  # of palpate's threads that receive; ddsperf gets the same
+SWEEP_RATE = 991       # poses a second: against 1000 ticks a second a run goes nine times a second through all waits
+
+
+class Setup:
+    """What all measurements share. @throw Failure naming what is missing"""
+
+    def __init__(self, options, tools):
+        self.seconds = options.seconds
+        self.alternations = options.alternations
+        self.model, self.bin, self.out = options.model, options.bin, options.out
+        self.server_arguments = options.server_arguments.split()
+        self.notes = []
+        self._check_programs()
+        self.out.mkdir(parents=True, exist_ok=True)
+        for old in self.out.glob("*.log"):
+            old.unlink()
+        self.env = dict(os.environ, CYCLONEDDS_URI=_shell(tools, 'use_loopback; printf %s "$CYCLONEDDS_URI"'))
+        self.domain = int(_shell(tools, "free_domain"))
+        idl = tools.parent / "idl/palpate.idl"
+        self.pose_bytes, self.force_bytes = wire.size_of(idl, "ToolPose"), wire.size_of(idl, "ToolForce")
+        self.realtime = _realtime_granted()
+        if not self.realtime:
+            self.notes.append("no real-time priority: run as root, or raise rtprio in limits.conf; figures are those of "
+                              "ordinary threads")
+        self.phase_lock = "--phase-lock" in _help_of(self.bin / "palpate-server")
+        if not self.phase_lock:
+            self.notes.append("this palpate-server has no --phase-lock: that row is empty")
+        self.tick_cpus = self._affinity_of_the_tick()
+        self.busy_cpus = self._other_cpus()
+
+    def log(self, name):
+        return self.out / f"{name}.log"
+
+    def note_awake(self, granted):
+        if not granted:
+            self.notes.append("/dev/cpu_dma_latency could not be held: processors may sleep deeply between wake-ups")
+
+    def _check_programs(self):
+        if not self.model.exists():
+            raise Failure(f"{self.model} is not there: tools/demo makes it, or say --model")
+        for program, package in (("cyclictest", "rt-tests"), ("ddsperf", "cyclonedds-tools"), ("taskset", "util-linux")):
+            if shutil.which(program) is None:
+                raise Failure(f"{program} is not installed: apt-get install {package}")
+        for program in ("palpate-server", "palpate-latency", "palpate-watch"):
+            if not (self.bin / program).exists():
+                raise Failure(f"{self.bin / program} is not there: build first (tools/check, tools/demo), or say --bin")
+
+    def _affinity_of_the_tick(self):
+        """Processors that the server's tick thread may use: cyclictest gets the same."""
+        server = Server(self, locked=False)
+        try:
+            return server.tick_cpus()
+        finally:
+            server.end()
+
+    def _other_cpus(self):
+        """Where the load goes: every processor but one that the tick may use."""
+        keep = max(self.tick_cpus)
+        return sorted(cpu for cpu in os.sched_getaffinity(0) if cpu != keep)
+
+
+def _shell(tools, command):
+    result = subprocess.run(["bash", "-c", f"source {tools}/common.sh; {command}"], capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise Failure(f"tools/common.sh: {result.stderr.strip()}")
+    return result.stdout
+
+
+def _help_of(program):
+    return subprocess.run([str(program), "--help"], capture_output=True, text=True, check=False).stdout
+
+
+def _realtime_granted():
+    probe = subprocess.run(["chrt", "-f", str(TICK_PRIORITY), "true"], capture_output=True, check=False)
+    return probe.returncode == 0
+
+
+def cyclictest(setup):
+    """Wake-up lateness of a thread like the tick: priority, policy, clock_nanosleep on CLOCK_MONOTONIC each ms, memory locked."""
+    result = setup.out / "cyclictest.json"
+    command = ["cyclictest", "--quiet", "--mlockall", "--threads=1", "--interval=1000", "--nsecs", "--histogram=1000000",
+               f"--duration={max(1, round(setup.seconds))}", f"--json={result}"]
+    command += [f"--priority={TICK_PRIORITY}", "--policy=fifo"] if setup.realtime else ["--policy=other"]
+    if setup.tick_cpus != os.sched_getaffinity(0):
+        command.append("--affinity=" + ",".join(str(cpu) for cpu in sorted(setup.tick_cpus)))
+    processes.output_of(command, setup.log("cyclictest"), setup.seconds + 30)
+    thread = json.loads(result.read_text(encoding="utf-8"))["thread"]["0"]
+    lateness = sorted((int(ns), count) for ns, count in thread["histogram"].items())
+    return {"p50": _quantile(lateness, thread["cycles"], 0.5) * 1e-3, "p99": _quantile(lateness, thread["cycles"], 0.99) * 1e-3,
+            "max": thread["max"] * 1e-3}
+
+
+def _quantile(counts, total, q):
+    """counts: sorted (value, how often); what is beyond the histogram is counted in total only."""
+    seen = 0
+    for value, count in counts:
+        seen += count
+        if seen >= q * total:
+            return value
+    raise Failure(f"cyclictest: {100 * q:g} % of {total} wake-ups lie beyond its histogram of 1 ms")
+
+
+_STATISTICS = re.compile(r"size \d+ mean [\d.]+us min [\d.]+us 50% ([\d.]+)us 90% [\d.]+us 99% ([\d.]+)us max ([\d.]+)us cnt (\d+)")
+
+
+def ddsperf(setup, size):
+    """Ping-pong between two processes, best effort, 1000 a second. It tells each second for itself: medians of these."""
+    priority = RECEIVE_PRIORITY if setup.realtime else None
+    command = ["ddsperf", "-i", str(setup.domain), "-u"]
+    log = setup.log("ddsperf")
+    seconds = round(setup.seconds) + 2
+    pong = processes.start(command + ["-D", str(seconds + 5), "pong"], log, setup.env, priority)
+    try:
+        text = processes.output_of(command + ["-D", str(seconds), "ping", "1kHz", "size", str(size)], log, seconds + 30,
+                                   setup.env, priority)
+    finally:
+        processes.end(pong)
+    found = [tuple(float(x) for x in match) for match in _STATISTICS.findall(text)]
+    full = [second for second in found[1:] if second[3] > 500]  # in the first one they find each other
+    if not full:
+        raise Failure(f"ddsperf reported no full second of ping-pong of {size} bytes; see {log}")
+    return {"p50": statistics.median(s[0] for s in full), "p99": statistics.median(s[1] for s in full),
+            "max": max(s[2] for s in full)}
+
+
+class Server:
+    """A palpate-server on the report's domain."""
+
+    def __init__(self, setup, locked):
+        self._setup = setup
+        command = [setup.bin / "palpate-server", "--model", setup.model, "--domain", setup.domain, *setup.server_arguments]
+        self._process = processes.start(command + (["--phase-lock"] if locked else []), setup.log("server"), setup.env)
+
+    def end(self):
+        code = processes.end(self._process)
+        if code != 0:
+            raise Failure(f"palpate-server ended with code {code}: {processes.last_line(self._setup.log('server'))}")
+
+    def tick_cpus(self):
+        """@throw Failure when no thread named tick comes up within 10 s"""
+        tasks = pathlib.Path(f"/proc/{self._process.pid}/task")
+        for _ in range(100):
+            time.sleep(0.1)
+            if self._process.poll() is not None:
+                break
+            tick = next((task for task in tasks.iterdir() if _name_of(task) == "tick"), None)
+            if tick is not None:
+                time.sleep(0.3)  # its affinity may come after its name
+                return os.sched_getaffinity(int(tick.name))
+        raise Failure(f"palpate-server has no tick thread: {processes.last_line(self._setup.log('server'))}")
+
+
+def _name_of(task):
+    try:
+        return (task / "comm").read_text(encoding="utf-8").strip()
+    except OSError:  # it has just ended
+        return ""
+
+
+def latency(setup, rate):
+    """palpate-latency's report while a server runs. @param rate  of the poses, Hz"""
+    command = [setup.bin / "palpate-latency", "--domain", setup.domain, "--seconds", setup.seconds, "--rate", rate, "--json"]
+    report = json.loads(processes.output_of(command, setup.log("latency"), setup.seconds + 60, setup.env))
+    names = {"wakeup": "wakeup_us", "tick": "tick_us", "pose_to_force": "pose_to_force_us",
+             "pose_to_force_less_wait": "pose_to_force_less_wait_us"}
+    return {name: {key: report[ours][key] for key in ("p50", "p99", "max")} for name, ours in names.items()}

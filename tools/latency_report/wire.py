@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How many bytes the 1 kHz types take on the wire, from idl/palpate.idl itself."""
+import re
+
+from .processes import Failure
+
+_SIZES = {"unsigned long": 4, "long": 4, "unsigned long long": 8, "long long": 8, "double": 8, "float": 4}
+
+
+def size_of(idl, struct):
+    """Bytes of a struct of numbers and arrays of them in CDR: each number at a multiple of its size.
+    @throw Failure when the struct is not there or has something else in it"""
+    body = re.search(r"struct " + struct + r" \{(.*?)\};", idl.read_text(encoding="utf-8"), re.S)
+    if body is None:
+        raise Failure(f"{idl} has no struct {struct}")
+    size = 0
+    for line in body.group(1).splitlines():
+        line = line.split("//")[0].strip()
+        if not line:
+            continue
+        member = re.fullmatch(r"(?:@key )?([a-z ]+) \w+(?:\[(\d+)\])?;", line)
+        if member is None or member.group(1) not in _SIZES:
+            raise Failure(f"{idl}: struct {struct}: '{line}' is no number")
+        number = _SIZES[member.group(1)]
+        size = -(-size // number) * number + number * int(member.group(2) or 1)
+    return size
