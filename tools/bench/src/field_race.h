@@ -11,20 +11,21 @@
 
 namespace palpate::bench {
 
-/// Who runs: the field as the server evaluates it, the product of the modes alone by Eigen in float32, and a plain read of the
-/// bytes of the modes that the server's model has.
+/// Who runs: the field as the server evaluates it, the product of the modes alone by Eigen in float32, and a
+/// plain read of the bytes of the modes that the server's model has.
 enum class Runner { kPalpate, kEigen, kPlainRead };
 inline constexpr std::array<Runner, 3> kRunners{Runner::kPalpate, Runner::kEigen, Runner::kPlainRead};
 
-/// One size of field evaluation, the three runners in turn on one synthetic model, each evaluation with another contact and
-/// other amplitudes, as they follow each other in a slide.
+/// One size of field evaluation, the three runners in turn on one synthetic model, each evaluation with
+/// another contact and other amplitudes, as they follow each other in a slide.
 class FieldRace {
  public:
   /// @throw modelfile::ModelFileError, LoadError
   explicit FieldRace(const SyntheticSize& size);
 
-  /// The three in alternating blocks, so that who disturbs the machine disturbs all alike. In a block each runner has it warm:
-  /// the first two evaluations do not count. @param[in] seconds  for all of it, at least six rounds
+  /// The three in alternating blocks, so that who disturbs the machine disturbs all alike. In a block each
+  /// runner has it warm: the first two evaluations do not count. @param[in] seconds  for all of it, at least
+  /// six rounds
   void measure(double seconds);
   [[nodiscard]] const Samples& samples(Runner who) const { return samples_[static_cast<std::size_t>(who)]; }
 
@@ -32,8 +33,8 @@ class FieldRace {
   void run(Runner who);
   /// Bytes of modes that one evaluation reads.
   [[nodiscard]] std::size_t bytes(Runner who) const;
-  /// Largest |u - u of the float32 data in double precision| at any node over the largest |u| of that field, the worst of a few
-  /// fields. Zero for a read. Valid after measure().
+  /// Largest |u - u of the float32 data in double precision| at any node over the largest |u| of that field,
+  /// the worst of a few fields. Zero for a read. Valid after measure().
   [[nodiscard]] double errorMax(Runner who) const { return errors_[static_cast<std::size_t>(who)]; }
 
  private:

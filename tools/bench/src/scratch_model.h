@@ -6,7 +6,8 @@
 
 namespace palpate::bench {
 
-/// Writes the data as a model file, loads it as the server does, and removes the file again. @throw ModelFileError, LoadError
+/// Writes the data as a model file, loads it as the server does, and removes the file again. @throw
+/// ModelFileError, LoadError
 [[nodiscard]] MetaModel throughFile(const modelfile::ModelData& data);
 
 }  // namespace palpate::bench

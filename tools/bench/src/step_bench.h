@@ -6,8 +6,9 @@
 
 namespace palpate::bench {
 
-/// Times of whole ticks of step(), contact, force, near and far field, while tools press and slide over random ways: mu = 0.3, no
-/// virtual coupling, which would leave less of the depth to the organ, 1 to 3 mm deep.
+/// Times of whole ticks of step(), contact, force, near and far field, while tools press and slide over
+/// random ways: mu = 0.3, no virtual coupling, which would leave less of the depth to the organ, 1 to 3 mm
+/// deep.
 struct StepTimes {
   Samples samples;
   double in_contact{0.0};  ///< share of the ticks in which every tool touched the organ
