@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kStack = 64;
 
 /// x as a float that lies a little further along `way`, 1 or -1.
-float rounded(double x, double way) noexcept {
+float rounded(double x, double way) noexcept PALPATE_NONBLOCKING {
   using Float = std::numeric_limits<float>;
   const double beyond = x + way * std::max(double(Float::epsilon()) * std::abs(x), double(Float::min()));
   if (std::abs(beyond) <= double(Float::max())) return static_cast<float>(beyond);
@@ -36,7 +36,7 @@ BoundingVolumes::BoundingVolumes(std::span<const double> positions, std::span<co
   if (!order.empty()) (void)build(order, centres);
 }
 
-Vec3 BoundingVolumes::corner(std::int32_t triangle, int k) const noexcept {
+Vec3 BoundingVolumes::corner(std::int32_t triangle, int k) const noexcept PALPATE_NONBLOCKING {
   const auto entry = 3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(k);
   return Eigen::Map<const Vec3>(positions_.data() + 3 * static_cast<std::size_t>(triangles_[entry]));
 }
@@ -95,7 +95,8 @@ std::int32_t BoundingVolumes::build(std::span<std::int32_t> triangles, std::span
   return self;
 }
 
-BoundingVolumes::Distances BoundingVolumes::squaredDistances(const Node& node, const Vec3& p) noexcept {
+BoundingVolumes::Distances BoundingVolumes::squaredDistances(const Node& node,
+                                                             const Vec3& p) noexcept PALPATE_NONBLOCKING {
   Distances sum{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double x = p[static_cast<Eigen::Index>(axis)];
@@ -109,7 +110,7 @@ BoundingVolumes::Distances BoundingVolumes::squaredDistances(const Node& node, c
   return sum;
 }
 
-TriangleHit BoundingVolumes::hit(std::int32_t triangle, const Vec3& p) const noexcept {
+TriangleHit BoundingVolumes::hit(std::int32_t triangle, const Vec3& p) const noexcept PALPATE_NONBLOCKING {
   return closestOnTriangle(p, corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
 }
 

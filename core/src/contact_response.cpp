@@ -33,7 +33,7 @@ void ContactSeries::evaluate(const Vec3& p, Vec3& value, Mat3& gradient) const n
 }
 
 /// One row of value and gradient for each component: whole vectors, nothing is stored on the way.
-void ContactSeries::sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept {
+void ContactSeries::sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept PALPATE_NONBLOCKING {
   Vec4 x = Vec4::Zero(), y = Vec4::Zero(), z = Vec4::Zero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(functions_->size()); ++k) {
     x += coefficient_[k].x() * jets[k];

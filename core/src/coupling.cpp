@@ -10,11 +10,14 @@ namespace {
 /// r(d) = d + (f(s, d) - df/dd e(d)) / K_vc - g, and the answer that it belongs to.
 class Balance {
  public:
-  Balance(const PatchResponse& patch, const Vec3& g, const Carried& carried, double compliance) noexcept
-      : patch_(patch), g_(g), carried_(carried), compliance_(compliance) {}
+  Balance(const PatchResponse& patch, const Vec3& g, const Carried& carried,
+          double compliance) noexcept PALPATE_NONBLOCKING : patch_(patch),
+                                                            g_(g),
+                                                            carried_(carried),
+                                                            compliance_(compliance) {}
 
   /// Evaluates at d. @return whether the organ has an answer
-  bool moveTo(const Vec3& d) noexcept {
+  bool moveTo(const Vec3& d) noexcept PALPATE_NONBLOCKING {
     displacement = d;
     status = patch_.at(d, response);
     response.force -= response.stiffness * carried_.at(d);
@@ -22,7 +25,9 @@ class Balance {
     residual = d + compliance_ * response.force - g_;
     return status != ResponseStatus::kNoAnswer;
   }
-  [[nodiscard]] Mat3 slope() const noexcept { return Mat3::Identity() + compliance_ * response.stiffness; }
+  [[nodiscard]] Mat3 slope() const noexcept PALPATE_NONBLOCKING {
+    return Mat3::Identity() + compliance_ * response.stiffness;
+  }
 
   Vec3 displacement = Vec3::Zero();
   Vec3 residual = Vec3::Zero();  // m
@@ -37,7 +42,7 @@ class Balance {
 };
 
 /// One Newton step, halved until the residual falls. @return false when it does not
-bool improve(Balance& balance) noexcept {
+bool improve(Balance& balance) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxHalvings = 4;
   const Balance before = balance;
   Vec3 step = before.slope().inverse() * before.residual;

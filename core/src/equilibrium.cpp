@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "equilibrium.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "symmetric_eigen.h"
 
 namespace palpate {
 
 namespace {
 
-bool isNegativeDefinite(const Mat2& A) noexcept {
+bool isNegativeDefinite(const Mat2& A) noexcept PALPATE_NONBLOCKING {
   const Mat2 S = 0.5 * (A + A.transpose());
   return S(0, 0) < 0.0 && S.determinant() > 0.0;
 }
@@ -18,7 +19,7 @@ bool isNegativeDefinite(const Mat2& A) noexcept {
 }  // namespace
 
 Equilibrium::Equilibrium(const MetaModel& model, const ContactLaw& law, double tip_radius, const Vec3& c,
-                         Contact& contact) noexcept
+                         Contact& contact) noexcept PALPATE_NONBLOCKING
     : model_(model),
       law_(law),
       tip_radius_(tip_radius),
@@ -26,7 +27,7 @@ Equilibrium::Equilibrium(const MetaModel& model, const ContactLaw& law, double t
       contact_(contact),
       frame_(model.contactSurface().frame(model.surface(), contact.fine)) {}
 
-bool Equilibrium::balance() noexcept {
+bool Equilibrium::balance() noexcept PALPATE_NONBLOCKING {
   const Vec3 g = c_ - frame_.position - tip_radius_ * frame_.normal;
   CoupledResponse& coupled = contact_.coupled;
   const PatchResponse patch(model_, contact_.s);
@@ -41,7 +42,7 @@ bool Equilibrium::balance() noexcept {
   return status != ResponseStatus::kNoAnswer;
 }
 
-Equilibrium::Slip Equilibrium::slip() const noexcept {
+Equilibrium::Slip Equilibrium::slip() const noexcept PALPATE_NONBLOCKING {
   const Vec3& f = contact_.coupled.response.force;
   Slip slip;
   slip.T = frame_.tangent.transpose() * f - perTip(energy_slope_);
@@ -55,17 +56,16 @@ Equilibrium::Slip Equilibrium::slip() const noexcept {
 
 /// A force on the anchor, work per length of its way, as one on the tip: the tip's way is (1 + R kappa) as long, taken as
 /// a tenth where a tip of this radius can hardly roll or not at all (a hollow sharper than itself).
-Vec2 Equilibrium::perTip(const Vec2& force) const noexcept {
+Vec2 Equilibrium::perTip(const Vec2& force) const noexcept PALPATE_NONBLOCKING {
   constexpr double kLeast = 0.1;
   const Mat2 stretch = frame_.tangent.transpose() * (frame_.along + tip_radius_ * frame_.turning);
-  Eigen::SelfAdjointEigenSolver<Mat2> eigen;
-  eigen.computeDirect(0.5 * (stretch + stretch.transpose()));
-  const Vec2 inverse = eigen.eigenvalues().cwiseMax(kLeast).cwiseInverse();
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose() * force;
+  const SymmetricEigen<Mat2> eigen = symmetricEigen<Mat2>(0.5 * (stretch + stretch.transpose()));
+  const Vec2 inverse(1.0 / std::max(eigen.values[0], kLeast), 1.0 / std::max(eigen.values[1], kLeast));
+  return eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose() * force;
 }
 
 /// d(T - mu f_n T / |T|)/dxi. Where it is not stable (a ridge sharper than the tool's tip can ride on) the part that is.
-Mat2 Equilibrium::slope(const Slip& slip) const noexcept {
+Mat2 Equilibrium::slope(const Slip& slip) const noexcept PALPATE_NONBLOCKING {
   const Mat3& K = contact_.coupled.stiffness;
   const Vec3& n = frame_.normal;
   const Mat32 offset = frame_.along + tip_radius_ * frame_.turning;
@@ -80,14 +80,14 @@ Mat2 Equilibrium::slope(const Slip& slip) const noexcept {
   return isNegativeDefinite(plain) ? plain : Mat2(-K.norm() * Mat2::Identity());
 }
 
-Vec2 Equilibrium::stepOf(const Slip& slip) noexcept {
+Vec2 Equilibrium::stepOf(const Slip& slip) noexcept PALPATE_NONBLOCKING {
   constexpr double kLongestStep = 2e-3;  // m
   const Vec2 step = -slip.J.inverse() * (slip.T * (slip.excess / slip.T.norm()));
   return step * std::min(1.0, kLongestStep / std::max(step.norm(), kLongestStep));
 }
 
 /// Moves the anchor. @return false when it stays where it was, or has no answer where it came to
-bool Equilibrium::slideBy(const Vec2& step) noexcept {
+bool Equilibrium::slideBy(const Vec2& step) noexcept PALPATE_NONBLOCKING {
   constexpr double kShortestStep = 1e-9;  // m
   if (!step.allFinite()) return false;
   const Contact before = contact_;
@@ -108,11 +108,11 @@ bool Equilibrium::slideBy(const Vec2& step) noexcept {
 }
 
 /// A load of one direction is no force that friction could be judged by: its anchor sticks.
-bool Equilibrium::slides() const noexcept {
+bool Equilibrium::slides() const noexcept PALPATE_NONBLOCKING {
   return std::isfinite(law_.friction) && model_.attributes().parameters != Parameters::kLevel;
 }
 
-bool Equilibrium::slide() noexcept {
+bool Equilibrium::slide() noexcept PALPATE_NONBLOCKING {
   constexpr double kTolerance = 1e-6;   // of |f|
   constexpr double kLeastForce = 1e-7;  // N
   contact_.at_border = false;
@@ -120,7 +120,7 @@ bool Equilibrium::slide() noexcept {
   if (!balance()) return false;
   const Response& response = contact_.coupled.response;
   if (!slides() || !response.force.allFinite()) return true;
-  if (contact_.coupled.stiffness.isZero(0.0)) return true;  // beyond a fold: where to slide, nothing says
+  if (contact_.coupled.stiffness == Mat3::Zero()) return true;  // beyond a fold: where to slide, nothing says
   int stopped = 0;
   Slip now = slip();
   for (int i = 0; i < kMaxSlides && now.excess > kTolerance * response.force.norm() + kLeastForce; ++i) {
@@ -139,7 +139,8 @@ bool Equilibrium::slide() noexcept {
 
 /// J does not know how dW/ds changes along the way; the step that was made shows it (Broyden's update, C. G. Broyden,
 /// Math. Comp. 19 (1965) 577-593).
-Equilibrium::Slip Equilibrium::learned(Slip next, const Start& start, const Slip& from) const noexcept {
+Equilibrium::Slip Equilibrium::learned(Slip next, const Start& start,
+                                       const Slip& from) const noexcept PALPATE_NONBLOCKING {
   const Mat2 turn = frame_.tangent.transpose() * start.frame.tangent;
   const Vec2 way = frame_.tangent.transpose() * (frame_.position - start.frame.position);
   const auto goal = [](const Slip& slip) { return Vec2(slip.T * (slip.excess / slip.T.norm())); };
@@ -151,7 +152,8 @@ Equilibrium::Slip Equilibrium::learned(Slip next, const Start& start, const Slip
 
 /// A step that went past the cone, where friction would hold what did not move so far, is cut short: by the rule of
 /// false position, to the edge of the cone.
-Equilibrium::Slip Equilibrium::landed(const Start& start, const Slip& from, const Vec2& step) noexcept {
+Equilibrium::Slip Equilibrium::landed(const Start& start, const Slip& from,
+                                      const Vec2& step) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxCuts = 4;
   constexpr double kInside = 1e-3;  // of |f|
   Slip now = slip();
@@ -169,7 +171,7 @@ Equilibrium::Slip Equilibrium::landed(const Start& start, const Slip& from, cons
 }
 
 /// dX/dc of an anchor that slides, as the law has it at the begin.
-void Equilibrium::giveWay(const Slip& now) noexcept {
+void Equilibrium::giveWay(const Slip& now) noexcept PALPATE_NONBLOCKING {
   const Mat3& K = contact_.coupled.stiffness;
   const Vec2 t = now.T.normalized();
   const Mat2 radial = Mat2::Identity() - now.hold * (Mat2::Identity() - t * t.transpose());
@@ -179,7 +181,7 @@ void Equilibrium::giveWay(const Slip& now) noexcept {
   if (!give_.allFinite()) give_.setZero();
 }
 
-Mat3 Equilibrium::stiffness() const noexcept {
+Mat3 Equilibrium::stiffness() const noexcept PALPATE_NONBLOCKING {
   const Mat3& K = contact_.coupled.stiffness;
   if (contact_.at_border) return K;
   return K - K * (frame_.along + tip_radius_ * frame_.turning) * frame_.tangent.transpose() * give_;

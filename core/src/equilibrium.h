@@ -16,18 +16,18 @@ namespace palpate {
 class Equilibrium {
  public:
   Equilibrium(const MetaModel& model, const ContactLaw& law, double tip_radius, const Vec3& c,
-              Contact& contact) noexcept;
+              Contact& contact) noexcept PALPATE_NONBLOCKING;
 
   /// d and f at the anchor as it is. @return false when the model has no answer there
-  bool balance() noexcept;
+  bool balance() noexcept PALPATE_NONBLOCKING;
   /// Moves the anchor until Coulomb's law holds, by at most kMaxSlides steps of Newton's method (where the anchor
   /// snaps from one balance to another, the next ticks go on):
   ///   ds = -J^-1 (|T| - mu f_n) T / |T|,   J = dT/ds with the coupled stiffness, offset and turning of the normal
   /// A step that goes past the cone is cut back, up to 4 times: 40 balances at most.
   /// @return false when the model has no answer at the begin; on the way the anchor stays where there was one
-  bool slide() noexcept;
+  bool slide() noexcept PALPATE_NONBLOCKING;
   /// d force / d c, of the force on the organ, N/m; how the anchor gives way as slide() had it at its begin.
-  [[nodiscard]] Mat3 stiffness() const noexcept;
+  [[nodiscard]] Mat3 stiffness() const noexcept PALPATE_NONBLOCKING;
   static constexpr int kMaxSlides = 8;
 
  private:
@@ -38,21 +38,22 @@ class Equilibrium {
     double hold{0.0};    // mu f_n / |T|, at most 1
     Mat2 J;              // d(excess T / |T|)/dxi, negative definite where sliding is stable, N/m
   };
-  [[nodiscard]] Slip slip() const noexcept;
-  [[nodiscard]] Vec2 perTip(const Vec2& force) const noexcept;
-  [[nodiscard]] Mat2 slope(const Slip& slip) const noexcept;
-  [[nodiscard]] bool slides() const noexcept;
+  [[nodiscard]] Slip slip() const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Vec2 perTip(const Vec2& force) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Mat2 slope(const Slip& slip) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool slides() const noexcept PALPATE_NONBLOCKING;
   /// Where a step begins.
   struct Start {
     Contact contact;
     SurfaceFrame frame;
     Vec2 energy_slope;
   };
-  [[nodiscard]] static Vec2 stepOf(const Slip& slip) noexcept;
-  bool slideBy(const Vec2& step) noexcept;
-  Slip landed(const Start& start, const Slip& from, const Vec2& step) noexcept;
-  [[nodiscard]] Slip learned(Slip next, const Start& start, const Slip& from) const noexcept;
-  void giveWay(const Slip& now) noexcept;
+  [[nodiscard]] static Vec2 stepOf(const Slip& slip) noexcept PALPATE_NONBLOCKING;
+  bool slideBy(const Vec2& step) noexcept PALPATE_NONBLOCKING;
+  Slip landed(const Start& start, const Slip& from, const Vec2& step) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Slip learned(Slip next, const Start& start,
+                             const Slip& from) const noexcept PALPATE_NONBLOCKING;
+  void giveWay(const Slip& now) noexcept PALPATE_NONBLOCKING;
 
   const MetaModel& model_;
   const ContactLaw& law_;

@@ -11,7 +11,7 @@ constexpr double kRounding = 1.0 + 1e-12;  // what was cut to the limit is not l
 
 /// f cut to the length `limit`, K with it: d(limit f/|f|)/df = limit/|f| (I - f f^T / f.f). @return true when
 /// cut
-bool cut(double limit, Vec3& f, Mat3& K) noexcept {
+bool cut(double limit, Vec3& f, Mat3& K) noexcept PALPATE_NONBLOCKING {
   const double length = f.norm();
   if (!(length > limit)) return false;
   const Vec3 direction = f / length;
@@ -21,7 +21,7 @@ bool cut(double limit, Vec3& f, Mat3& K) noexcept {
 }
 
 /// `to`, or as far towards it as `most` N lead; K of what is cut is zero. @return true when cut
-bool follow(const Vec3& from, double most, Vec3& to, Mat3& K) noexcept {
+bool follow(const Vec3& from, double most, Vec3& to, Mat3& K) noexcept PALPATE_NONBLOCKING {
   const double way = (to - from).norm();
   if (!(way > most)) return false;
   to = from + (most / way) * (to - from);

@@ -12,7 +12,7 @@ namespace palpate {
 namespace {
 
 /// Of the symmetric part, by its leading minors; false for what is no number.
-bool isPositiveDefinite(const Mat3& A) noexcept {
+bool isPositiveDefinite(const Mat3& A) noexcept PALPATE_NONBLOCKING {
   const Mat3 S = 0.5 * (A + A.transpose());
   return S(0, 0) > 0.0 && S.topLeftCorner<2, 2>().determinant() > 0.0 && S.determinant() > 0.0;
 }
@@ -21,33 +21,36 @@ bool isPositiveDefinite(const Mat3& A) noexcept {
 /// solution for each direction of d if it has one at the domain's edge.
 class ForceSearch {
  public:
-  explicit ForceSearch(const ContactSeries& series) noexcept
-      : series_(series), at_rest_(series.gradient(Vec3::Zero()).inverse()) {}
+  explicit ForceSearch(const ContactSeries& series) noexcept PALPATE_NONBLOCKING
+      : series_(series),
+        at_rest_(series.gradient(Vec3::Zero()).inverse()) {}
 
   /// False when the model has no answer to a small d.
-  [[nodiscard]] bool valid() const noexcept { return at_rest_.allFinite(); }
+  [[nodiscard]] bool valid() const noexcept PALPATE_NONBLOCKING { return at_rest_.allFinite(); }
   /// f with d(f) = d, on a branch with a positive definite dd/df. @return false when f is only what comes nearest
-  [[nodiscard]] bool find(const Vec3& d, Vec3& f) const noexcept;
+  [[nodiscard]] bool find(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING;
   /// Derivative of the continued d(f).
-  [[nodiscard]] Mat3 gradient(const Vec3& f) const noexcept;
+  [[nodiscard]] Mat3 gradient(const Vec3& f) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] bool beyond(const Vec3& f) const noexcept { return f.norm() > series_.limit(); }
-  [[nodiscard]] Vec3 value(const Vec3& f) const noexcept;
-  [[nodiscard]] bool newton(const Vec3& d, Vec3& f) const noexcept;
-  void descend(const Vec3& d, Vec3& f) const noexcept;
-  [[nodiscard]] bool improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept;
+  [[nodiscard]] bool beyond(const Vec3& f) const noexcept PALPATE_NONBLOCKING {
+    return f.norm() > series_.limit();
+  }
+  [[nodiscard]] Vec3 value(const Vec3& f) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool newton(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING;
+  void descend(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept PALPATE_NONBLOCKING;
 
   const ContactSeries& series_;
   Mat3 at_rest_;  // df/dd at f = 0
 };
 
-Vec3 ForceSearch::value(const Vec3& f) const noexcept {
+Vec3 ForceSearch::value(const Vec3& f) const noexcept PALPATE_NONBLOCKING {
   if (!beyond(f)) return series_.value(f);
   return series_.value(clampToDomain(f, series_.limit())) * (f.norm() / series_.limit());
 }
 
-Mat3 ForceSearch::gradient(const Vec3& f) const noexcept {
+Mat3 ForceSearch::gradient(const Vec3& f) const noexcept PALPATE_NONBLOCKING {
   if (!beyond(f)) return series_.gradient(f);
   const Vec3 edge = clampToDomain(f, series_.limit()), e = edge / series_.limit();
   const Mat3 across = Mat3::Identity() - e * e.transpose();
@@ -55,7 +58,7 @@ Mat3 ForceSearch::gradient(const Vec3& f) const noexcept {
 }
 
 /// One step, halved until the residual falls. @return false when it does not
-bool ForceSearch::improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept {
+bool ForceSearch::improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxHalvings = 5;
   Vec3 step = gradient(f).inverse() * residual;
   for (int halving = 0; halving <= kMaxHalvings; ++halving, step *= 0.5) {
@@ -68,7 +71,7 @@ bool ForceSearch::improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept
   return false;
 }
 
-bool ForceSearch::newton(const Vec3& d, Vec3& f) const noexcept {
+bool ForceSearch::newton(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxIterations = 12;
   constexpr double kTolerance = 1e-11;  // of |d|
   Vec3 residual = value(f) - d;
@@ -80,7 +83,7 @@ bool ForceSearch::newton(const Vec3& d, Vec3& f) const noexcept {
 }
 
 /// From f = 0, so that of several branches that of small forces is found.
-void ForceSearch::descend(const Vec3& d, Vec3& f) const noexcept {
+void ForceSearch::descend(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING {
   constexpr int kSteps = 30;
   constexpr double kFirst = 1e-3, kLeast = 1e-12;  // damping, of the diagonal
   constexpr double kFloor = 1e-6;                  // of the trace: keeps a singular matrix away
@@ -98,7 +101,7 @@ void ForceSearch::descend(const Vec3& d, Vec3& f) const noexcept {
   }
 }
 
-bool ForceSearch::find(const Vec3& d, Vec3& f) const noexcept {
+bool ForceSearch::find(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING {
   constexpr double kTolerance = 1e-9;  // of |d|
   f = at_rest_ * d;
   if (newton(d, f) && isPositiveDefinite(gradient(f))) return true;
@@ -107,12 +110,13 @@ bool ForceSearch::find(const Vec3& d, Vec3& f) const noexcept {
 }
 
 /// |d| where the ray of f leaves the domain; at rest, where there is no ray, a length that is inside of it.
-double radiusAlong(const ContactSeries& series, const Vec3& f, const Mat3& stiffness) noexcept {
+double radiusAlong(const ContactSeries& series, const Vec3& f,
+                   const Mat3& stiffness) noexcept PALPATE_NONBLOCKING {
   if (lengthOf(f) > 0.0) return series.value((series.limit() / lengthOf(f)) * f).norm();
-  return stiffness.isZero(0.0) ? 0.0 : series.limit() / stiffness.norm();
+  return stiffness == Mat3::Zero() ? 0.0 : series.limit() / stiffness.norm();
 }
 
-ResponseStatus noNumber(Response& out) noexcept {
+ResponseStatus noNumber(Response& out) noexcept PALPATE_NONBLOCKING {
   out = Response{};
   out.force.setConstant(std::numeric_limits<double>::quiet_NaN());
   return ResponseStatus::kClamped;

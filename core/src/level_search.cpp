@@ -19,15 +19,19 @@ struct Bracket {
 /// e . d(s, t) over the steps of the level, the last one cut off at t_max.
 class LevelSearch {
  public:
-  LevelSearch(const ContactSeries& series, const Vec3& direction) noexcept
-      : series_(series), direction_(direction), last_(lastStep(series.limit(), series.levelSteps())) {}
+  LevelSearch(const ContactSeries& series, const Vec3& direction) noexcept PALPATE_NONBLOCKING
+      : series_(series),
+        direction_(direction),
+        last_(lastStep(series.limit(), series.levelSteps())) {}
 
-  [[nodiscard]] double along(double t) const noexcept { return direction_.dot(series_.value({t, 0.0, 0.0})); }
+  [[nodiscard]] double along(double t) const noexcept PALPATE_NONBLOCKING {
+    return direction_.dot(series_.value({t, 0.0, 0.0}));
+  }
   /// The level with g = wanted; 0 < wanted <= g(t_max). @param[out] slope  dg/dt there, m
-  [[nodiscard]] double find(double wanted, double& slope) const noexcept;
+  [[nodiscard]] double find(double wanted, double& slope) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] double level(int step) const noexcept {
+  [[nodiscard]] double level(int step) const noexcept PALPATE_NONBLOCKING {
     return step == last_ ? series_.limit() : double(step) / series_.levelSteps();
   }
 
@@ -36,7 +40,7 @@ class LevelSearch {
   int last_;
 };
 
-double LevelSearch::find(double wanted, double& slope) const noexcept {
+double LevelSearch::find(double wanted, double& slope) const noexcept PALPATE_NONBLOCKING {
   Bracket in{0, last_, 0.0, along(series_.limit())};
   while (in.last - in.first > 1) {  // at most 17 times: L <= 100000
     const int middle = (in.first + in.last) / 2;
@@ -49,13 +53,13 @@ double LevelSearch::find(double wanted, double& slope) const noexcept {
   return std::min(begin + (wanted - in.below) / slope, end);
 }
 
-Vec3 directionOf(const ModelAttributes& attributes) noexcept {
+Vec3 directionOf(const ModelAttributes& attributes) noexcept PALPATE_NONBLOCKING {
   return Eigen::Map<const Vec3>(attributes.load_direction.data());
 }
 
 /// Force, displacement and radius at a level inside the domain; stiffness for dg/dt > 0, else zero.
 ResponseStatus settle(const ContactSeries& series, const ModelAttributes& attributes, double t, double slope,
-                      ResponseStatus status, Response& out) noexcept {
+                      ResponseStatus status, Response& out) noexcept PALPATE_NONBLOCKING {
   const Vec3 e = directionOf(attributes);
   out.parameter = {t, 0.0, 0.0};
   out.force = t * attributes.load * e;

@@ -13,12 +13,12 @@ namespace {
 constexpr double kMostFriction = 2.0;  // the end of StepConfig's range
 
 /// From a to b; at once when only one of them is a number.
-double mix(double a, double b, double weight) noexcept {
+double mix(double a, double b, double weight) noexcept PALPATE_NONBLOCKING {
   if (a == b || weight >= 1.0 || std::isinf(a) || std::isinf(b)) return b;
   return (1.0 - weight) * a + weight * b;
 }
 
-bool switched(double a, double b) noexcept {
+bool switched(double a, double b) noexcept PALPATE_NONBLOCKING {
   return std::isinf(a) != std::isinf(b);
 }
 
@@ -27,13 +27,13 @@ bool switched(double a, double b) noexcept {
 LiveBlend::LiveBlend(const LiveParameters& parameters, double model_modulus) noexcept
     : model_modulus_(model_modulus), from_(resolved(parameters)), target_(from_), now_(from_) {}
 
-LiveParameters LiveBlend::resolved(const LiveParameters& parameters) const noexcept {
+LiveParameters LiveBlend::resolved(const LiveParameters& parameters) const noexcept PALPATE_NONBLOCKING {
   LiveParameters out = parameters;
   if (out.youngs_modulus == 0.0) out.youngs_modulus = model_modulus_;
   return out;
 }
 
-void LiveBlend::start(const LiveParameters& wanted, double largest_force) noexcept {
+void LiveBlend::start(const LiveParameters& wanted, double largest_force) noexcept PALPATE_NONBLOCKING {
   jumped_ = switched(now_.friction, wanted.friction) || switched(now_.force_limit, wanted.force_limit) ||
             switched(now_.coupling_stiffness, wanted.coupling_stiffness) ||
             wanted.force_rate_limit > std::max(now_.force_rate_limit, target_.force_rate_limit);

@@ -8,7 +8,7 @@ namespace palpate {
 
 namespace {
 
-double referenceOf(const ModelAttributes& attributes) noexcept {
+double referenceOf(const ModelAttributes& attributes) noexcept PALPATE_NONBLOCKING {
   switch (attributes.parameters) {
     case Parameters::kDisplacement:
       return attributes.reference_displacement;
@@ -32,13 +32,13 @@ ParameterFunctions::ParameterFunctions(const ModelView& view, const ModelAttribu
   level_steps_ = static_cast<int>(Z_.size() / view.level_functions) - 1;
 }
 
-ParameterFunctions::Place ParameterFunctions::place(double t) const noexcept {
+ParameterFunctions::Place ParameterFunctions::place(double t) const noexcept PALPATE_NONBLOCKING {
   const double at = (t > 0.0 ? std::min(t, 1.0) : 0.0) * level_steps_;  // what is no number is at rest
   const int step = std::min(static_cast<int>(at), level_steps_ - 1);
   return {static_cast<std::size_t>(step), at - step};
 }
 
-const double* ParameterFunctions::row(int q) const noexcept {
+const double* ParameterFunctions::row(int q) const noexcept PALPATE_NONBLOCKING {
   return Z_.data() + static_cast<std::size_t>(q) * (static_cast<std::size_t>(level_steps_) + 1);
 }
 

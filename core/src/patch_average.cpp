@@ -97,12 +97,12 @@ void PatchAverage::measureReach(const ModelView& view) {
   }
 }
 
-std::span<const std::int32_t> PatchAverage::nodes(std::int32_t position) const noexcept {
+std::span<const std::int32_t> PatchAverage::nodes(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
   const std::size_t m = index(position);
   return std::span(node_).subspan(first_[m], first_[m + 1] - first_[m]);
 }
 
-std::span<const float> PatchAverage::weights(std::int32_t position) const noexcept {
+std::span<const float> PatchAverage::weights(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
   const std::size_t m = index(position);
   return std::span(weight_).subspan(first_[m], first_[m + 1] - first_[m]);
 }

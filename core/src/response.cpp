@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/response.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
 #include "index.h"
 #include "load_driven.h"
 #include "palpate/core/length.h"
+#include "symmetric_eigen.h"
 
 namespace palpate {
 
@@ -26,18 +26,19 @@ namespace {
 /// The part of the symmetrized K that pushes back: its negative eigenvalues set to zero.
 class PushingPart {
  public:
-  explicit PushingPart(const Mat3& K) noexcept {
-    Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-    eigen.computeDirect(0.5 * (K + K.transpose()));
-    vectors_ = eigen.eigenvectors();
-    values_ = eigen.eigenvalues();
+  explicit PushingPart(const Mat3& K) noexcept PALPATE_NONBLOCKING {
+    const SymmetricEigen<Mat3> eigen = symmetricEigen<Mat3>(0.5 * (K + K.transpose()));
+    vectors_ = eigen.vectors;
+    values_ = eigen.values;
   }
-  [[nodiscard]] Mat3 matrix() const noexcept {
-    return vectors_ * values_.cwiseMax(0.0).asDiagonal() * vectors_.transpose();
+  [[nodiscard]] Mat3 matrix() const noexcept PALPATE_NONBLOCKING {
+    Vec3 pushing;
+    for (Eigen::Index i = 0; i < 3; ++i) pushing[i] = std::max(values_[i], 0.0);
+    return vectors_ * pushing.asDiagonal() * vectors_.transpose();
   }
   /// How it changes when K does so by dK: between eigenvectors i and j by (l_i+ - l_j+) / (l_i - l_j) of that, the
   /// divided difference (Daleckii and Krein; R. Bhatia, Matrix Analysis, 1997, theorem V.3.3).
-  [[nodiscard]] Mat3 change(const Mat3& dK) const noexcept {
+  [[nodiscard]] Mat3 change(const Mat3& dK) const noexcept PALPATE_NONBLOCKING {
     Mat3 seen = vectors_.transpose() * (0.5 * (dK + dK.transpose())) * vectors_;
     for (Eigen::Index i = 0; i < 3; ++i)
       for (Eigen::Index j = 0; j < 3; ++j) seen(i, j) *= share(values_[i], values_[j]);
@@ -45,7 +46,7 @@ class PushingPart {
   }
 
  private:
-  [[nodiscard]] static double share(double a, double b) noexcept {
+  [[nodiscard]] static double share(double a, double b) noexcept PALPATE_NONBLOCKING {
     const double high = std::max(a, b), low = std::min(a, b);
     return high > 0.0 ? (low > 0.0 ? 1.0 : high / (high - low)) : 0.0;
   }
@@ -57,7 +58,7 @@ class PushingPart {
 /// Force and its derivative beyond the domain, |d| > d_max:
 ///   f = f(e) + P(e) (d - e),   df/dd = P + (K + B - P) de/dd,   B_j = dP/de_j (d - e)
 /// e the point of the domain's edge towards d, K = df/dd there, P its pushing part.
-void continueTo(const ContactSeries& series, const Vec3& d, Response& out) noexcept {
+void continueTo(const ContactSeries& series, const Vec3& d, Response& out) noexcept PALPATE_NONBLOCKING {
   const Vec3 edge = clampToDomain(d, series.limit()), beyond = d - edge;
   std::array<Mat3, 3> turn;
   Mat3 K;
@@ -71,7 +72,8 @@ void continueTo(const ContactSeries& series, const Vec3& d, Response& out) noexc
 }
 
 /// f(s, d) of a "displacement" model.
-ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, Response& out) noexcept {
+ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d,
+                                    Response& out) noexcept PALPATE_NONBLOCKING {
   constexpr double kFar = 1e3;  // m; beyond every domain, and what follows is finite
   out.domain_radius = series.limit();
   out.displacement = clampToDomain(d, out.domain_radius);
@@ -101,7 +103,8 @@ std::string_view toString(ResponseStatus status) noexcept {
 namespace {
 
 /// Loads are mixed linearly: what is mixed there is not the derivative of an energy.
-ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s, const Stencil& stencil) noexcept {
+ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s,
+                       const Stencil& stencil) noexcept PALPATE_NONBLOCKING {
   const PositionMix mix = model.surface().mix(s);
   if (model.attributes().parameters != Parameters::kDisplacement) return model.response().at(mix);
   return model.response().at(stencil, model.response().limit(mix));
@@ -109,8 +112,10 @@ ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s, const Sten
 
 }  // namespace
 
-PatchResponse::PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept
-    : model_(model), stencil_(model.mixing().at(model.surface(), s)), series_(seriesAt(model, s, stencil_)) {}
+PatchResponse::PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING
+    : model_(model),
+      stencil_(model.mixing().at(model.surface(), s)),
+      series_(seriesAt(model, s, stencil_)) {}
 
 Vec3 PatchResponse::energySlope(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
   if (model_.attributes().parameters != Parameters::kDisplacement) return Vec3::Zero();
@@ -159,7 +164,8 @@ namespace {
 
 /// Visits the sources that the model answers: add(mix, phi, gain).
 template <typename Add>
-void forEachAnswered(const MetaModel& model, std::span<const FieldSource> sources, Add&& add) noexcept {
+void forEachAnswered(const MetaModel& model, std::span<const FieldSource> sources,
+                     Add&& add) noexcept PALPATE_NONBLOCKING {
   for (const FieldSource& source : sources) {
     const PositionMix mix = model.surface().mix(source.s);
     if (mix.count == 0) continue;
@@ -172,7 +178,7 @@ void forEachAnswered(const MetaModel& model, std::span<const FieldSource> source
 }
 
 void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources,
-                    std::span<float> y) noexcept {
+                    std::span<float> y) noexcept PALPATE_NONBLOCKING {
   std::fill(y.begin(), y.end(), 0.0F);
   forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
     model.farField().addAmplitudes(mix, phi, gain, y);
@@ -180,7 +186,8 @@ void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources
 }
 
 /// Barycentric weight of a surface node at s; 0 when it is none of the triangle's.
-double weightOf(const MetaModel& model, std::int32_t node, const ContactPoint& s) noexcept {
+double weightOf(const MetaModel& model, std::int32_t node,
+                const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
   const std::int32_t* const corner = model.view().surface_triangles.data() + 3 * index(s.triangle);
   for (std::size_t k = 0; k < 3; ++k)
     if (corner[k] == node) return s.barycentric[k];

@@ -17,7 +17,7 @@ struct Cubic {
   std::array<std::array<Vec4, 2>, 3> B;  // [a][turn]: c = a + 1 + turn, modulo 3
 };
 
-Cubic cubicAt(const std::array<double, 3>& l) noexcept {
+Cubic cubicAt(const std::array<double, 3>& l) noexcept PALPATE_NONBLOCKING {
   const std::array<Vec4, 3> slope{Vec4::Unit(1), Vec4::Unit(2), Vec4::Unit(3)};  // dl_a/dl
   const Vec4 product(l[0] * l[1] * l[2], l[1] * l[2], l[2] * l[0], l[0] * l[1]);
   Cubic cubic;
@@ -33,7 +33,7 @@ Cubic cubicAt(const std::array<double, 3>& l) noexcept {
   return cubic;
 }
 
-void mixLinearly(const PositionMix& mix, Stencil& stencil) noexcept {
+void mixLinearly(const PositionMix& mix, Stencil& stencil) noexcept PALPATE_NONBLOCKING {
   stencil.count = index(mix.count);
   for (std::size_t b = 0; b < stencil.count; ++b) {
     stencil.position[b] = mix.position[b];

@@ -13,7 +13,7 @@ namespace palpate {
 /// One tick over one workspace.
 class Tick {
  public:
-  Tick(const MetaModel& model, Workspace& work, const StepInput& input) noexcept
+  Tick(const MetaModel& model, Workspace& work, const StepInput& input) noexcept PALPATE_NONBLOCKING
       : model_(model),
         work_(work),
         input_(input),
@@ -26,18 +26,20 @@ class Tick {
   [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept;
-  [[nodiscard]] bool leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept;
-  [[nodiscard]] ContactLaw law() const noexcept;
-  void changeLive() noexcept;
-  void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
-  [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept;
-  void grow(const ToolInput& tool, ToolMemory& memory) const noexcept;
-  void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept;
-  void deform(StepResult& result) noexcept;
-  [[nodiscard]] bool showSurface(const ToolSurface& surface) noexcept;
-  [[nodiscard]] bool showAnchors(const ToolSurface& surface) noexcept;
-  void report(std::size_t tool, ToolResult& out) const noexcept;
+  [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool leapt(const ToolInput& tool,
+                           const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] ContactLaw law() const noexcept PALPATE_NONBLOCKING;
+  void changeLive() noexcept PALPATE_NONBLOCKING;
+  void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory,
+                            ToolResult& out) noexcept PALPATE_NONBLOCKING;
+  void grow(const ToolInput& tool, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING;
+  void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept PALPATE_NONBLOCKING;
+  void deform(StepResult& result) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool showSurface(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING;
+  void report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING;
 
   static constexpr double kStall = 0.01;  // s; in a faster loop, ten periods are no time that a hand notices
 
@@ -56,14 +58,14 @@ class Tick {
 namespace {
 
 template <std::size_t N, typename Vector>
-void store(const Vector& from, std::array<double, N>& to) noexcept {
+void store(const Vector& from, std::array<double, N>& to) noexcept PALPATE_NONBLOCKING {
   for (std::size_t i = 0; i < N; ++i) to[i] = from(static_cast<Eigen::Index>(i));
 }
 
 }  // namespace
 
 /// Flags of the pose itself; 0 when it can be followed.
-std::uint32_t Tick::judge(const ToolInput& tool) const noexcept {
+std::uint32_t Tick::judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING {
   constexpr double kFarthest =
       1000.0;  // m; an organ and its tools are not that far apart, and squares stay finite
   for (const double x : tool.position)
@@ -78,7 +80,7 @@ std::uint32_t Tick::judge(const ToolInput& tool) const noexcept {
 
 /// Whether a good pose is farther from the last one than a tool may get in the time between: by the poses' own arrival,
 /// and a little more, because they arrive unevenly.
-bool Tick::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept {
+bool Tick::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   constexpr double kUneven = 2e-3;  // s
   if (!memory.known) return false;
   const double between = std::max(0.0, memory.age + dt_ - 1e-9 * double(tool.age_ns));
@@ -86,13 +88,13 @@ bool Tick::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept
   return (here - memory.position).norm() > work_.config_.speed_limit * (between + kUneven);
 }
 
-ContactLaw Tick::law() const noexcept {
+ContactLaw Tick::law() const noexcept PALPATE_NONBLOCKING {
   const LiveParameters& live = work_.live_.now();
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
 }
 
 /// Live parameters go on; a change at once disturbs the contacts.
-void Tick::changeLive() noexcept {
+void Tick::changeLive() noexcept PALPATE_NONBLOCKING {
   double largest = 0.0;
   for (const ToolMemory& memory : work_.tools_) largest = std::max(largest, memory.rendering.rendered.norm());
   LiveBlend& live = work_.live_;
@@ -101,7 +103,7 @@ void Tick::changeLive() noexcept {
 }
 
 /// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
-bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
+bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept PALPATE_NONBLOCKING {
   const Contact before = memory.contact;
   const Vec3 c(tool.position[0], tool.position[1], tool.position[2]);
   if (leapt(tool, memory)) {
@@ -119,13 +121,13 @@ bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) no
 }
 
 /// Age of a tool's last good pose in a tick without one.
-void Tick::grow(const ToolInput& tool, ToolMemory& memory) const noexcept {
+void Tick::grow(const ToolInput& tool, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   memory.age += dt_;
   if (tool.present != 0) memory.age = std::max(memory.age, 1e-9 * double(tool.age_ns));
   if (!memory.known) memory.age = std::max(memory.age, work_.config_.zero_after);
 }
 
-void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept {
+void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept PALPATE_NONBLOCKING {
   if (tool.present == 0 && !memory.known) return;
   if (disturbed_ && memory.contact.state != ContactState::kFree) memory.leapt = true;
   if (tool.present != 0) out.flags |= judge(tool);
@@ -148,7 +150,7 @@ void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) n
 }
 
 /// Limits and fades the force. A contact whose force has faded to nothing is given up.
-void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept {
+void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept PALPATE_NONBLOCKING {
   LimiterInput in;
   const LiveParameters& live = work_.live_.now();
   if (held)
@@ -179,7 +181,7 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
 /// The surface as shown. Where a contact jumps, the field moves over like the force does: the weight of the
 /// field before falls from 1 to 0 within ramp_time. One weight for the whole field, so that a second jump
 /// starts from what is shown.
-void Tick::deform(StepResult& result) noexcept {
+void Tick::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
   double& blend = work_.displacement_blend_;
   if (jumped_) {
     std::copy(work_.displacement_.begin(), work_.displacement_.end(), work_.displacement_from_.begin());
@@ -194,7 +196,7 @@ void Tick::deform(StepResult& result) noexcept {
     if ((out.flags & kInContact) != 0) out.flags |= kNonFiniteForce;
 }
 
-bool Tick::showSurface(const ToolSurface& surface) noexcept {
+bool Tick::showSurface(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
   std::vector<float>& u = work_.displacement_;
   const bool finite = surface.evaluate(work_.scratch_, u);
   const auto weight = static_cast<float>(work_.displacement_blend_);
@@ -208,7 +210,7 @@ bool Tick::showSurface(const ToolSurface& surface) noexcept {
 }
 
 /// The same where it is reported, when nobody takes the rest.
-bool Tick::showAnchors(const ToolSurface& surface) noexcept {
+bool Tick::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
   const bool finite = surface.evaluateAnchors(work_.scratch_, shown_);
   const double weight = work_.displacement_blend_;
   for (std::size_t i = 0; weight > 0.0 && i < kMaxTools; ++i) {
@@ -220,7 +222,7 @@ bool Tick::showAnchors(const ToolSurface& surface) noexcept {
   return finite;
 }
 
-void Tick::report(std::size_t tool, ToolResult& out) const noexcept {
+void Tick::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING {
   const Contact& contact = work_.tools_[tool].contact;
   if (contact.s.triangle < 0) return;
   out.state = static_cast<std::uint32_t>(contact.state);

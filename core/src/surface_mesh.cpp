@@ -68,7 +68,7 @@ SurfaceMesh::SurfaceMesh(std::span<const double> positions, std::span<const std:
   buildEdgeNormals();
 }
 
-Vec3 SurfaceMesh::nodePosition(std::int32_t node) const noexcept {
+Vec3 SurfaceMesh::nodePosition(std::int32_t node) const noexcept PALPATE_NONBLOCKING {
   return Eigen::Map<const Vec3>(positions_.data() + 3 * index(node));
 }
 
@@ -154,7 +154,7 @@ Vec3 SurfaceMesh::position(const ContactPoint& s) const noexcept PALPATE_NONBLOC
   return sum;
 }
 
-Vec3 SurfaceMesh::mixedNormal(const ContactPoint& s) const noexcept {
+Vec3 SurfaceMesh::mixedNormal(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k)
     sum += s.barycentric[k] * node_normals_[index(triangles_[3 * index(s.triangle) + k])];

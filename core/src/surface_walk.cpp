@@ -10,7 +10,7 @@ namespace palpate {
 namespace {
 
 /// Two unit vectors normal to n and to each other.
-Mat32 tangentsOf(const Vec3& n) noexcept {
+Mat32 tangentsOf(const Vec3& n) noexcept PALPATE_NONBLOCKING {
   Eigen::Index least = 0;
   n.cwiseAbs().minCoeff(&least);
   Mat32 tangent;
@@ -21,7 +21,7 @@ Mat32 tangentsOf(const Vec3& n) noexcept {
 
 /// The vector in the plane of `face` that looks like v from along n. Where the plane is seen from its edge: v
 /// laid into it.
-Vec3 intoPlane(const Vec3& v, const Vec3& face, const Vec3& n) noexcept {
+Vec3 intoPlane(const Vec3& v, const Vec3& face, const Vec3& n) noexcept PALPATE_NONBLOCKING {
   constexpr double kSteepest = 0.2;  // cosine: the way may get five times as long
   const double cosine = face.dot(n);
   return cosine > kSteepest ? Vec3(v - n * (face.dot(v) / cosine)) : Vec3(v - face * face.dot(v));
@@ -33,7 +33,7 @@ struct Exit {
   std::size_t edge{3};  ///< 3: it does not leave
 };
 
-Exit exitOf(const ContactPoint& s, const Vec3& rate) noexcept {
+Exit exitOf(const ContactPoint& s, const Vec3& rate) noexcept PALPATE_NONBLOCKING {
   constexpr double kAlong = 1e-12;  // slower than that it goes along the edge
   Exit exit;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -45,7 +45,7 @@ Exit exitOf(const ContactPoint& s, const Vec3& rate) noexcept {
 }
 
 /// Part of v that is normal to the unit vector e, as a unit vector.
-Vec3 across(const Vec3& v, const Vec3& e) noexcept {
+Vec3 across(const Vec3& v, const Vec3& e) noexcept PALPATE_NONBLOCKING {
   return (v - e * e.dot(v)).normalized();
 }
 
@@ -92,7 +92,8 @@ bool SurfaceMesh::reachable(std::int32_t triangle) const noexcept PALPATE_NONBLO
 }
 
 /// s, on an edge, as a point of the triangle on its other side; w turned over the edge into that one's plane.
-void SurfaceMesh::crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to, Vec3& w) const noexcept {
+void SurfaceMesh::crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to,
+                            Vec3& w) const noexcept PALPATE_NONBLOCKING {
   const std::int32_t* const from_node = triangles_.data() + 3 * index(s.triangle);
   const std::int32_t* const to_node = triangles_.data() + 3 * index(to);
   const std::array<Vec3, 3> from = corners(s.triangle), other = corners(to);

@@ -1,36 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/tool_coupling.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 
 #include "index.h"
 #include "load_driven.h"
+#include "small_square.h"
 
 namespace palpate {
 
 namespace {
 
-constexpr int kMost = 3 * kMaxTools;
-/// Unknowns of all tools, and the matrix between them; no allocation.
-using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
-using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
-
 /// P_to of the near field. Where no near node lies in the patch no block is evaluated.
 Vec3 averagedNear(const MetaModel& model, const PositionMix& from, std::span<const double> phi, double gain,
-                  const PositionMix& to, std::span<float> scratch) noexcept {
+                  const PositionMix& to, std::span<float> scratch) noexcept PALPATE_NONBLOCKING {
   const NearField& near = model.nearField();
   const std::span<float> weight = scratch.last(index(model.surface().nodes()));
   const auto positions = std::span(from.position).first(index(from.count));
-  const auto meets = [&](std::int32_t b) noexcept { return model.patchAverage().meets(b, to); };
+  const auto meets = [&](std::int32_t b) noexcept PALPATE_NONBLOCKING {
+    return model.patchAverage().meets(b, to);
+  };
   if (std::none_of(positions.begin(), positions.end(), meets)) return Vec3::Zero();
   for (const std::int32_t b : positions)
     for (const std::int32_t node : near.nodes(b)) weight[index(node)] = 0.0F;  // no other is read
   model.patchAverage().addWeights(to, weight);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (std::size_t k = 0; k < positions.size(); ++k) {
-    const auto weighs = [&](std::int32_t node) noexcept { return weight[index(node)] > 0.0F; };
+    const auto weighs = [&](std::int32_t node) noexcept PALPATE_NONBLOCKING {
+      return weight[index(node)] > 0.0F;
+    };
     const std::span<const std::int32_t> nodes = near.nodes(positions[k]);
     if (std::none_of(nodes.begin(), nodes.end(), weighs)) continue;
     const NearField::Block block = near.block(positions[k], phi, gain * from.weight[k], scratch);
@@ -42,7 +41,7 @@ Vec3 averagedNear(const MetaModel& model, const PositionMix& from, std::span<con
 
 /// P_to of the field sum_alpha phi_alpha U_alpha.
 Vec3 averaged(const MetaModel& model, const PositionMix& from, std::span<const double> phi, double gain,
-              const PositionMix& to, FieldScratch& scratch) noexcept {
+              const PositionMix& to, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
   std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
   model.farField().addAmplitudes(from, phi, gain, scratch.amplitudes);
   return model.patchAverage().ofModes(to, scratch.amplitudes) +
@@ -52,19 +51,22 @@ Vec3 averaged(const MetaModel& model, const PositionMix& from, std::span<const d
 /// What one tool moves the others' patches by, and its derivative.
 class Influence {
  public:
-  Influence(const MetaModel& model, const ContactPoint& s, const Vec3& d, double h) noexcept
-      : model_(model), s_(s), d_(d), h_(h) {
+  Influence(const MetaModel& model, const ContactPoint& s, const Vec3& d,
+            double h) noexcept PALPATE_NONBLOCKING : model_(model),
+                                                     s_(s),
+                                                     d_(d),
+                                                     h_(h) {
     if (model.attributes().parameters == Parameters::kDisplacement) differentiate();
   }
 
   /// P_at u(s, d), m.
-  [[nodiscard]] Vec3 on(const ContactPoint& at, FieldScratch& scratch) const noexcept {
+  [[nodiscard]] Vec3 on(const ContactPoint& at, FieldScratch& scratch) const noexcept PALPATE_NONBLOCKING {
     return patchDisplacement(model_, ownPart(model_, s_, d_), at, scratch);
   }
 
   /// P_at du/dd, 3 x 3; of a load-driven model by differences of length h. @param moved  on(at)
   [[nodiscard]] Mat3 slopeOn(const ContactPoint& at, const Vec3& moved,
-                             FieldScratch& scratch) const noexcept {
+                             FieldScratch& scratch) const noexcept PALPATE_NONBLOCKING {
     const PositionMix from = model_.surface().mix(s_), to = model_.surface().mix(at);
     Mat3 slope = Mat3::Zero();
     if (from.count == 0 || to.count == 0) return slope;
@@ -81,7 +83,7 @@ class Influence {
   }
 
  private:
-  void differentiate() noexcept {
+  void differentiate() noexcept PALPATE_NONBLOCKING {
     const PositionMix from = model_.surface().mix(s_);
     std::array<Vec3, MonomialBasis::kMaxCoefficients> all;
     const std::span<Vec3> gradient(all.data(), index(model_.functions().size()));
@@ -97,21 +99,6 @@ class Influence {
   double h_;
   std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3> slope_;  // dphi/dd_i
 };
-
-/// The X of slope X = 1 that leaves least, at a price for its length. Repeated with what is left, so that only
-/// what is nearly impossible pays it: of a direction that slope shrinks to a tenth 2e-8, to a hundredth 1 %.
-Table dampedInverse(const Table& slope) noexcept {
-  constexpr double kDamping = 0.005;
-  constexpr int kRounds = 3;
-  Table normal = slope.transpose() * slope;
-  normal.diagonal().array() += kDamping * kDamping;
-  const Eigen::LDLT<Table> factor(normal);
-  const Table one = Table::Identity(slope.rows(), slope.cols());
-  Table inverse = Table::Zero(slope.rows(), slope.cols());
-  for (int round = 0; round < kRounds; ++round)
-    inverse += factor.solve(Table(slope.transpose() * (one - slope * inverse)));
-  return inverse;
-}
 
 }  // namespace
 
@@ -147,28 +134,26 @@ void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, s
   double length = 0.0;
   for (const Vec3& prescribed : d) length = std::max(length, prescribed.norm());
   if (tools < 2 || length == 0.0) return;
-  const auto size = static_cast<Eigen::Index>(3 * tools);
-  Table slope = Table::Identity(size, size);
-  Numbers moved = Numbers::Zero(size);
+  SmallSquare slope(tools);
+  std::array<Vec3, kMaxTools> moved;
+  for (std::size_t a = 0; a < tools; ++a) moved[a].setZero();
   for (std::size_t b = 0; b < tools; ++b) {
     const Influence of(model, s[b], d[b], 0.01 * length);
     for (std::size_t a = 0; a < tools; ++a) {
       if (a == b) continue;
-      const auto row = static_cast<Eigen::Index>(3 * a), column = static_cast<Eigen::Index>(3 * b);
       const Vec3 u = of.on(s[a], scratch);
-      moved.segment<3>(row) += u;
-      slope.block<3, 3>(row, column) = of.slopeOn(s[a], u, scratch);
+      moved[a] += u;
+      slope.setPart(a, b, of.slopeOn(s[a], u, scratch));
     }
   }
-  const Table inverse = dampedInverse(slope);
-  const Numbers y = -(inverse * moved);
-  for (std::size_t a = 0; a < tools; ++a) own[a] += y.segment<3>(static_cast<Eigen::Index>(3 * a));
-  if (influence == nullptr) return;
-  const Table carried = inverse * (slope - Table::Identity(size, size));  // e = inverse moved
+  const SmallSquare inverse = dampedInverse(slope);
   for (std::size_t a = 0; a < tools; ++a)
-    for (std::size_t b = 0; b < tools; ++b)
-      (*influence)[a][b] =
-          carried.block<3, 3>(static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b));
+    for (std::size_t b = 0; b < tools; ++b) own[a] -= inverse.part(a, b) * moved[b];
+  if (influence == nullptr) return;
+  slope.subtractUnit();
+  const SmallSquare carried = product(inverse, slope);  // e = inverse moved
+  for (std::size_t a = 0; a < tools; ++a)
+    for (std::size_t b = 0; b < tools; ++b) (*influence)[a][b] = carried.part(a, b);
 }
 
 std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s, const Vec3& d,

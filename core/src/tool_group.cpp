@@ -23,7 +23,7 @@ void ToolGroup::feelEachOther() noexcept PALPATE_NONBLOCKING {
 }
 
 /// What tools in the air would find displaced.
-void ToolGroup::approach() noexcept {
+void ToolGroup::approach() noexcept PALPATE_NONBLOCKING {
   for (ToolMemory& memory : tools_) {
     Contact& contact = memory.contact;
     if (!memory.known || contact.state != ContactState::kFree || contact.s.triangle < 0) continue;

@@ -15,8 +15,10 @@ namespace palpate {
 /// make a loop that rings or grows.
 class ToolGroup {
  public:
-  ToolGroup(const MetaModel& model, std::span<ToolMemory> tools, FieldScratch& scratch) noexcept
-      : model_(model), tools_(tools), scratch_(scratch) {}
+  ToolGroup(const MetaModel& model, std::span<ToolMemory> tools,
+            FieldScratch& scratch) noexcept PALPATE_NONBLOCKING : model_(model),
+                                                                  tools_(tools),
+                                                                  scratch_(scratch) {}
 
   /// Sets each contact's `carried`; at most kMaxTools tools. Real-time: yes.
   void feelEachOther() noexcept PALPATE_NONBLOCKING;
@@ -24,7 +26,7 @@ class ToolGroup {
   void hasMoved(std::size_t tool) noexcept PALPATE_NONBLOCKING;
 
  private:
-  void approach() noexcept;
+  void approach() noexcept PALPATE_NONBLOCKING;
 
   const MetaModel& model_;
   std::span<ToolMemory> tools_;

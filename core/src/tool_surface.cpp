@@ -11,7 +11,7 @@ namespace palpate {
 
 namespace {
 
-bool isFinite(std::span<const float> values) noexcept {
+bool isFinite(std::span<const float> values) noexcept PALPATE_NONBLOCKING {
   int bad = 0;  // counted without a branch, so that the loop runs in vectors
   for (const float value : values)
     bad |= static_cast<int>(!(std::abs(value) <= std::numeric_limits<float>::max()));
@@ -20,7 +20,8 @@ bool isFinite(std::span<const float> values) noexcept {
 
 }  // namespace
 
-ToolSurface::ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools) noexcept
+ToolSurface::ToolSurface(const MetaModel& model,
+                         std::span<const ToolMemory, kMaxTools> tools) noexcept PALPATE_NONBLOCKING
     : model_(model) {
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const Contact& contact = tools[i].contact;
@@ -40,11 +41,11 @@ ToolSurface::ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMa
   }
 }
 
-std::span<const FieldSource> ToolSurface::sources() const noexcept {
+std::span<const FieldSource> ToolSurface::sources() const noexcept PALPATE_NONBLOCKING {
   return std::span(sources_).first(count_);
 }
 
-bool ToolSurface::evaluate(FieldScratch& scratch, std::span<float> u) const noexcept {
+bool ToolSurface::evaluate(FieldScratch& scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
   if (count_ > 0) {
     evaluateField(model_, sources(), scratch, u);
     if (isFinite(u)) return true;
@@ -53,7 +54,8 @@ bool ToolSurface::evaluate(FieldScratch& scratch, std::span<float> u) const noex
   return count_ == 0;
 }
 
-bool ToolSurface::evaluateAnchors(FieldScratch& scratch, std::span<Vec3, kMaxTools> u) const noexcept {
+bool ToolSurface::evaluateAnchors(FieldScratch& scratch,
+                                  std::span<Vec3, kMaxTools> u) const noexcept PALPATE_NONBLOCKING {
   std::fill(u.begin(), u.end(), Vec3::Zero());
   if (count_ == 0) return true;
   evaluateFieldAt(model_, sources(), scratch, anchors_, u);

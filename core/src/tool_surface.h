@@ -13,18 +13,20 @@ namespace palpate {
 class ToolSurface {
  public:
   /// Finds what each tool in contact adds.
-  ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools) noexcept;
+  ToolSurface(const MetaModel& model,
+              std::span<const ToolMemory, kMaxTools> tools) noexcept PALPATE_NONBLOCKING;
 
   /// The whole field. @param[out] u  [Ns][3] m
   /// @return false when the model overflows: u is zero then
-  [[nodiscard]] bool evaluate(FieldScratch& scratch, std::span<float> u) const noexcept;
+  [[nodiscard]] bool evaluate(FieldScratch& scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   /// The field at the tools' anchors alone, what a tick whose surface nobody takes reports.
   /// @param[out] u  m; zero where a tool has no anchor
   /// @return false when the model overflows: u is zero there
-  [[nodiscard]] bool evaluateAnchors(FieldScratch& scratch, std::span<Vec3, kMaxTools> u) const noexcept;
+  [[nodiscard]] bool evaluateAnchors(FieldScratch& scratch,
+                                     std::span<Vec3, kMaxTools> u) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] std::span<const FieldSource> sources() const noexcept;
+  [[nodiscard]] std::span<const FieldSource> sources() const noexcept PALPATE_NONBLOCKING;
 
   const MetaModel& model_;
   std::array<ContactPoint, kMaxTools> anchors_;

@@ -10,7 +10,7 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 
 TriangleHit hitAt(const Vec3& p, const Corners& corner, const std::array<double, 3>& barycentric,
-                  TriangleFeature feature) noexcept {
+                  TriangleFeature feature) noexcept PALPATE_NONBLOCKING {
   TriangleHit hit;
   hit.barycentric = barycentric;
   hit.feature = feature;
@@ -25,14 +25,15 @@ struct EdgePoint {
   double squared_distance;
 };
 
-EdgePoint closestOnEdge(const Vec3& p, const Corners& corner, std::size_t k) noexcept {
+EdgePoint closestOnEdge(const Vec3& p, const Corners& corner, std::size_t k) noexcept PALPATE_NONBLOCKING {
   const Vec3& from = corner[(k + 1) % 3];
   const Vec3 edge = corner[(k + 2) % 3] - from, gap = p - from;
   const double t = std::clamp(gap.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
   return {t, (gap - t * edge).squaredNorm()};
 }
 
-TriangleHit hitOnEdge(const Vec3& p, const Corners& corner, std::size_t k, double t) noexcept {
+TriangleHit hitOnEdge(const Vec3& p, const Corners& corner, std::size_t k,
+                      double t) noexcept PALPATE_NONBLOCKING {
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
   std::array<double, 3> barycentric{};
   barycentric[i] = 1.0 - t;

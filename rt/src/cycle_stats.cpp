@@ -9,13 +9,13 @@ namespace palpate::rt {
 
 // Values below 2^(kSubBits+1) have a bucket each. A value in [2^m, 2^(m+1)) above that is shifted right until
 // it lies in [64, 128); every shift moves 64 buckets up.
-std::size_t CycleStats::bucketOf(std::uint64_t ns) noexcept {
+std::size_t CycleStats::bucketOf(std::uint64_t ns) noexcept PALPATE_NONBLOCKING {
   const std::uint64_t value = std::min<std::uint64_t>(ns, (std::uint64_t{1} << kTopBits) - 1);
   const int shift = std::max(0, static_cast<int>(std::bit_width(value)) - 1 - kSubBits);
   return (static_cast<std::size_t>(shift) << kSubBits) + static_cast<std::size_t>(value >> shift);
 }
 
-std::int64_t CycleStats::upperEdge(std::size_t bucket) noexcept {
+std::int64_t CycleStats::upperEdge(std::size_t bucket) noexcept PALPATE_NONBLOCKING {
   const std::size_t one = std::size_t{1} << kSubBits;
   const std::size_t shift = bucket < one ? 0 : bucket / one - 1;
   const std::uint64_t mantissa = bucket - (shift << kSubBits);

@@ -12,7 +12,7 @@ constexpr int kZeroTicks = 10;
 // A second publisher is flagged for so long after its last pose, and a stranger is answered.
 constexpr std::int64_t kRecent = 50'000'000;  // ns
 
-bool isZero(const std::array<double, 3>& force) noexcept {
+bool isZero(const std::array<double, 3>& force) noexcept PALPATE_NONBLOCKING {
   return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 

@@ -57,9 +57,10 @@ class BoundingVolumes {
   [[nodiscard]] std::array<std::span<std::int32_t>, kChildren> divided(std::span<std::int32_t> triangles,
                                                                        std::span<const Vec3> centres) const;
   void setBox(Node& node, std::size_t k, std::span<const std::int32_t> triangles) const;
-  [[nodiscard]] static Distances squaredDistances(const Node& node, const Vec3& p) noexcept;
-  [[nodiscard]] TriangleHit hit(std::int32_t triangle, const Vec3& p) const noexcept;
-  [[nodiscard]] Vec3 corner(std::int32_t triangle, int k) const noexcept;
+  [[nodiscard]] static Distances squaredDistances(const Node& node,
+                                                  const Vec3& p) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] TriangleHit hit(std::int32_t triangle, const Vec3& p) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Vec3 corner(std::int32_t triangle, int k) const noexcept PALPATE_NONBLOCKING;
 
   std::span<const double> positions_;
   std::span<const std::int32_t> triangles_;

@@ -40,7 +40,7 @@ class ContactSeries {
   friend class ContactResponse;
   explicit ContactSeries(const ParameterFunctions& functions) noexcept : functions_(&functions) {}
   using Jets = std::array<Vec4, MonomialBasis::kMaxCoefficients>;
-  void sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept;
+  void sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept PALPATE_NONBLOCKING;
 
   const ParameterFunctions* functions_;
   std::array<Vec3, MonomialBasis::kMaxCoefficients + 1>

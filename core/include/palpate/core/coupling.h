@@ -18,7 +18,7 @@ struct ContactLaw {
 struct Carried {
   Vec3 constant = Vec3::Zero();  ///< m
   Mat3 slope = Mat3::Zero();     ///< de/dd, 1
-  [[nodiscard]] Vec3 at(const Vec3& d) const noexcept { return constant + slope * d; }
+  [[nodiscard]] Vec3 at(const Vec3& d) const noexcept PALPATE_NONBLOCKING { return constant + slope * d; }
 };
 
 /// A patch and a tool in balance.

@@ -31,8 +31,8 @@ class LiveBlend {
   [[nodiscard]] bool moving() const noexcept { return left_ > 0.0; }
 
  private:
-  [[nodiscard]] LiveParameters resolved(const LiveParameters& parameters) const noexcept;
-  void start(const LiveParameters& wanted, double largest_force) noexcept;
+  [[nodiscard]] LiveParameters resolved(const LiveParameters& parameters) const noexcept PALPATE_NONBLOCKING;
+  void start(const LiveParameters& wanted, double largest_force) noexcept PALPATE_NONBLOCKING;
 
   double model_modulus_;
   LiveParameters from_, target_, now_;

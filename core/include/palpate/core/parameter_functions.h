@@ -48,8 +48,8 @@ class ParameterFunctions {
     std::size_t step;
     double weight;
   };
-  [[nodiscard]] Place place(double t) const noexcept;
-  [[nodiscard]] const double* row(int q) const noexcept;
+  [[nodiscard]] Place place(double t) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] const double* row(int q) const noexcept PALPATE_NONBLOCKING;
 
   MonomialBasis basis_;
   double reference_;

@@ -23,9 +23,9 @@ class PatchAverage {
   PatchAverage(const ModelView& view, const ModelAttributes& attributes);
 
   /// Nodes of a position's patch, nearest first, none when all are fixed.
-  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t position) const noexcept;
+  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t position) const noexcept PALPATE_NONBLOCKING;
   /// Their weights, sum 1.
-  [[nodiscard]] std::span<const float> weights(std::int32_t position) const noexcept;
+  [[nodiscard]] std::span<const float> weights(std::int32_t position) const noexcept PALPATE_NONBLOCKING;
   /// Memory that the patches and averaged modes take, bytes.
   [[nodiscard]] std::size_t bytes() const noexcept;
 

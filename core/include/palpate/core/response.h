@@ -29,7 +29,7 @@ struct Response {
 class PatchResponse {
  public:
   /// Borrows the model. Cost O(C). Real-time: yes.
-  PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept;
+  PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING;
   /// respond() at this s. Real-time: yes.
   [[nodiscard]] ResponseStatus at(const Vec3& d, Response& out) const noexcept PALPATE_NONBLOCKING;
   /// dW/dlambda at fixed d, lambda the barycentric weights of s, J: what pushes the anchor, beside the force, where the

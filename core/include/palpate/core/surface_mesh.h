@@ -98,10 +98,11 @@ class SurfaceMesh {
                                  const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] Vec3 nodePosition(std::int32_t node) const noexcept;
-  [[nodiscard]] Vec3 mixedNormal(const ContactPoint& s) const noexcept;
+  [[nodiscard]] Vec3 nodePosition(std::int32_t node) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Vec3 mixedNormal(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   static constexpr double kLeastNormal = 1e-6;  // below, on a blade's edge, the nodes' normals cancel
-  void crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to, Vec3& w) const noexcept;
+  void crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to,
+                 Vec3& w) const noexcept PALPATE_NONBLOCKING;
   void buildFaceNormals();
   void buildNodeNormals();
   void findReachable();

@@ -6,13 +6,16 @@
 
 namespace palpate::rt {
 
+// Trusted: clock_gettime() reads a page that the kernel keeps up to date (vDSO); there is no system call.
+PALPATE_TRUSTED_BEGIN
 /// Time on CLOCK_MONOTONIC, the only clock that decides anything here (deadlines, age of a pose), ns.
-/// Real-time: yes (vDSO, no system call). Threads: any.
+/// Real-time: yes. Threads: any.
 [[nodiscard]] inline std::int64_t monotonicNow() noexcept PALPATE_NONBLOCKING {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
 }
+PALPATE_TRUSTED_END
 
 /// @param[in] ns  time on any clock, ns, not negative
 [[nodiscard]] inline timespec toTimespec(std::int64_t ns) noexcept PALPATE_NONBLOCKING {

@@ -29,8 +29,8 @@ class CycleStats {
   static constexpr int kTopBits = 40;  // values below 2^40 ns
   static constexpr std::size_t kBuckets = (kTopBits - kSubBits + 1) << kSubBits;
 
-  static std::size_t bucketOf(std::uint64_t ns) noexcept;
-  static std::int64_t upperEdge(std::size_t bucket) noexcept;
+  static std::size_t bucketOf(std::uint64_t ns) noexcept PALPATE_NONBLOCKING;
+  static std::int64_t upperEdge(std::size_t bucket) noexcept PALPATE_NONBLOCKING;
 
   std::array<std::uint32_t, kBuckets> buckets_{};
   std::uint64_t count_{0};

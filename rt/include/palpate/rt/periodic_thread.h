@@ -37,8 +37,9 @@ struct Deadline {
 /// Threads: the function runs on the thread; the other members belong to the creator.
 class PeriodicThread {
  public:
-  /// A plain pointer and context: what it calls is visible, and calling it cannot allocate.
-  using Function = void (*)(void* context, const Cycle& cycle) noexcept;
+  /// A plain pointer and context: what it calls is visible, calling it cannot allocate, and where the compiler knows the
+  /// effect a function that may block is refused.
+  using Function = void (*)(void* context, const Cycle& cycle) noexcept PALPATE_NONBLOCKING;
 
   /// Starts at once.
   /// @param[in] period_ns  > 0

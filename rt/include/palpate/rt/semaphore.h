@@ -20,15 +20,19 @@ class Semaphore {
   Semaphore(const Semaphore&) = delete;
   Semaphore& operator=(const Semaphore&) = delete;
 
+  // Trusted: both change a counter without a lock. sem_post() makes one system call, FUTEX_WAKE, when somebody waits; it
+  // wakes and does not wait. POSIX lists it among the few functions that a signal handler may call.
+  PALPATE_TRUSTED_BEGIN
   void post() noexcept PALPATE_NONBLOCKING { sem_post(&handle_); }
+
+  /// @return false when there was nothing to take
+  [[nodiscard]] bool tryWait() noexcept PALPATE_NONBLOCKING { return sem_trywait(&handle_) == 0; }
+  PALPATE_TRUSTED_END
 
   void wait() noexcept {
     while (sem_wait(&handle_) != 0 && errno == EINTR) {
     }
   }
-
-  /// @return false when there was nothing to take
-  [[nodiscard]] bool tryWait() noexcept PALPATE_NONBLOCKING { return sem_trywait(&handle_) == 0; }
 
   /// @param[in] timeout_ns  longest wait from now, ns
   /// @return false when the time passed without a post

@@ -33,7 +33,7 @@ class Tick {
   void run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
 
   /// run() for a PeriodicThread; context is the Tick.
-  static void onCycle(void* context, const rt::Cycle& cycle) noexcept {
+  static void onCycle(void* context, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     static_cast<Tick*>(context)->run(cycle);
   }
 
@@ -59,7 +59,9 @@ class Tick {
   void writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportZeroForce() noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool seen(std::size_t tool) const noexcept { return ledgers_[tool].pose.received > 0; }
+  [[nodiscard]] bool seen(std::size_t tool) const noexcept PALPATE_NONBLOCKING {
+    return ledgers_[tool].pose.received > 0;
+  }
 
   const MetaModel& model_;
   Workspace& work_;
