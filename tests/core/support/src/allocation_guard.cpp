@@ -70,7 +70,7 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
   release(memory);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !PALPATE_SANITIZER_HAS_MALLOC
 // glibc's own entry points; the public names are ours to replace.
 extern "C" {
 void* __libc_malloc(std::size_t size);

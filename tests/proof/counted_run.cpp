@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "counted_run.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "../idl/test_domain.h"
+#include "../server/server_process.h"
+#include "palpate/testing/synthetic_model.h"
+
+namespace palpate::proof {
+namespace {
+
+constexpr double kTipRadius = 0.005;  // m, the server's default
+constexpr double kWarmUp = 1.5;       // s until both tools press
+
+void wait(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+// Memory that this process and the server map.
+class SharedCounts {
+ public:
+  SharedCounts() : descriptor_(memfd_create("palpate-tick-counts", 0)) {  // inherited by the server
+    if (descriptor_ < 0 || ftruncate(descriptor_, sizeof(TickCounts)) != 0)
+      throw std::runtime_error("memory to count in cannot be had");
+    void* const memory =
+        mmap(nullptr, sizeof(TickCounts), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
+    if (memory == MAP_FAILED) throw std::runtime_error("memory to count in cannot be mapped");
+    counts_ = new (memory) TickCounts;
+  }
+  ~SharedCounts() {
+    munmap(counts_, sizeof(TickCounts));
+    close(descriptor_);
+  }
+  SharedCounts(const SharedCounts&) = delete;
+  SharedCounts& operator=(const SharedCounts&) = delete;
+  TickCounts* operator->() const noexcept { return counts_; }
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+
+ private:
+  int descriptor_;
+  TickCounts* counts_{nullptr};
+};
+
+// The environment that the server is born with, taken back at the end.
+class Preload {
+ public:
+  Preload(int descriptor, const std::string& mistake) {
+    const std::string folder = PALPATE_PROOF_DIR;
+    const std::string counter = folder + "/libpalpate_tick_counter.so";
+    const std::string libraries = mistake.empty() ? counter : folder + "/libpalpate_wrong_tick.so:" + counter;
+    setenv("LD_PRELOAD", libraries.c_str(), 1);
+    setenv(kCountsVariable, std::to_string(descriptor).c_str(), 1);
+    setenv(kMistakeVariable, mistake.c_str(), 1);
+  }
+  ~Preload() {
+    for (const char* const name : {"LD_PRELOAD", kCountsVariable, kMistakeVariable}) unsetenv(name);
+  }
+  Preload(const Preload&) = delete;
+  Preload& operator=(const Preload&) = delete;
+};
+
+std::unique_ptr<server::testing::ServerProcess> startServer(const std::string& model, std::uint32_t domain,
+                                                            const SharedCounts& counts,
+                                                            const std::string& mistake) {
+  const Preload preload(counts.descriptor(), mistake);
+  return std::make_unique<server::testing::ServerProcess>(
+      std::vector<std::string>{"--model", model, "--domain", std::to_string(domain), "--friction", "0.1"});
+}
+
+// Until the tick thread has said that it is done.
+bool stopCounting(const SharedCounts& counts) {
+  counts->command.store(TickCounts::kStop, std::memory_order_relaxed);
+  for (int i = 0; i < 500; ++i, wait(0.01))
+    if (counts->state.load(std::memory_order_acquire) == TickCounts::kDone) return true;  // SYNC DONE
+  return false;
+}
+
+}  // namespace
+
+CountedOptions optionsFromEnvironment() {
+  CountedOptions options;
+  if (const char* const seconds = std::getenv("PALPATE_COUNTED_SECONDS")) {
+    options.seconds = std::strtod(seconds, nullptr);
+    if (!(options.seconds >= 0.5 && options.seconds <= 86400.0))
+      throw std::runtime_error(std::string("PALPATE_COUNTED_SECONDS is ") + seconds +
+                               ", expected 0.5 to 86400 s");
+  }
+  if (const char* const model = std::getenv("PALPATE_COUNTED_MODEL")) options.model = model;
+  return options;
+}
+
+CountedRun countTicks(const CountedOptions& options) {
+  const std::uint32_t domain = palpate::testing::exclusiveDomain();
+  const palpate::testing::TemporaryFile round("counted.h5");
+  const std::string path = options.model.empty() ? round.path().string() : options.model;
+  if (options.model.empty()) palpate::testing::writeSyntheticModel(round.path());
+  const MetaModel model = MetaModel::load(path);
+  const SharedCounts counts;
+  const auto server = startServer(path, domain, counts, options.mistake);
+  CountedRun run;
+  {
+    TwoTools tools(model, domain, kTipRadius);
+    tools.start();
+    wait(kWarmUp);
+    (void)tools.take();
+    counts->command.store(TickCounts::kCount, std::memory_order_relaxed);
+    wait(options.seconds);
+    const bool counted = stopCounting(counts);
+    run.tools = tools.take();
+    if (!counted) throw std::runtime_error("no tick was counted; the server said:\n" + server->log());
+  }
+  server->signal(SIGTERM);
+  (void)server->waitForExit(std::chrono::seconds(20));
+  run.model = options.model.empty() ? "the tests' round organ" : options.model;
+  run.seconds = options.seconds;
+  run.sleeps = counts->sleeps;
+  run.calls = counts->calls;
+  run.posts = counts->posts;
+  run.other_posts = counts->other_posts;
+  run.usage = counts->usage;
+  run.log = server->log();
+  run.memory_locked = run.log.find("memory: locked") != std::string::npos;
+  run.realtime = run.log.find("real time: SCHED_FIFO") != std::string::npos;
+  return run;
+}
+
+}  // namespace palpate::proof

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wrong twin of a tick, to show that what counts its calls can find something. Loaded into palpate-server before the
+// counter: from time to time, where a tick wakes the thread that sends forces, it does what no tick may do.
+#include <dlfcn.h>
+#include <pthread.h>
+#include <semaphore.h>
+#include <sys/mman.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <string_view>
+
+#include "tick_counts.h"
+
+namespace palpate::proof {
+namespace {
+
+constexpr int kSeldom = 200;  // posts to a mistake
+constexpr std::size_t kPage = 4096;
+
+using Post = int(sem_t*);
+
+Post* next_post = nullptr;
+std::string_view mistake;
+pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+__attribute__((tls_model("initial-exec"))) thread_local int posts = 0;
+__attribute__((tls_model("initial-exec"))) thread_local int is_tick = -1;
+
+void allocate() noexcept {
+  void* volatile memory = std::malloc(100);
+  std::free(memory);
+}
+
+void lock() noexcept {
+  pthread_mutex_lock(&mutex);
+  pthread_mutex_unlock(&mutex);
+}
+
+// A page that nobody has touched. What is mapped now would be locked, and so be there at once.
+void touchFreshPage() noexcept {
+  void* const page = mmap(nullptr, kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (page == MAP_FAILED) return;
+  munlock(page, kPage);
+  madvise(page, kPage, MADV_DONTNEED);
+  *static_cast<volatile char*>(page) = 1;
+  munmap(page, kPage);
+}
+
+void sleep() noexcept {
+  const timespec pause{0, 20'000};
+  nanosleep(&pause, nullptr);
+}
+
+void makeMistake() noexcept {
+  if (mistake == "malloc") allocate();
+  if (mistake == "lock") lock();
+  if (mistake == "fault") touchFreshPage();
+  if (mistake == "sleep") sleep();
+}
+
+bool isTickThread() noexcept {
+  char name[16] = {};
+  pthread_getname_np(pthread_self(), name, sizeof name);
+  return std::string_view(name) == kTickThread;
+}
+
+// Before main().
+__attribute__((constructor)) void prepare() noexcept {
+  void* const found = dlsym(RTLD_NEXT, "sem_post");
+  std::memcpy(&next_post, &found, sizeof found);
+  if (const char* const wanted = std::getenv(kMistakeVariable)) mistake = wanted;
+}
+
+}  // namespace
+}  // namespace palpate::proof
+
+extern "C" int sem_post(sem_t* semaphore) noexcept {
+  using namespace palpate::proof;
+  if (is_tick < 0) is_tick = isTickThread() ? 1 : 0;
+  if (is_tick == 1 && ++posts % kSeldom == 0) makeMistake();
+  if (next_post == nullptr) prepare();
+  return next_post(semaphore);
+}
