@@ -11,7 +11,7 @@ namespace palpate {
 
 /// A square matrix of three rows and columns for each of up to kMaxTools tools, row by row, in place. Eigen's matrices
 /// of a size known at run time would do, but for products and factors of theirs the compiler cannot see that they
-/// allocate nothing, and the first product of a program waits for a static variable. Real-time: yes.
+/// allocate nothing, and the first solution of a program initializes a static variable. Real-time: yes.
 class SmallSquare {
  public:
   static constexpr std::size_t kMost = 3 * kMaxTools;
