@@ -54,7 +54,7 @@ Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPA
   std::array<float, 3> u{};
   for (std::size_t k = 0; k < y.size(); ++k, X += length)
     for (std::size_t axis = 0; axis < 3; ++axis) u[axis] += y[k] * X[axis];
-  return {u[0], u[1], u[2]};
+  return Vec3(double(u[0]), double(u[1]), double(u[2]));
 }
 
 NearField::NearField(const ModelView& view)
