@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "index.h"
 #include "kernels.h"
+#include "mode_tiles.h"
 #include "palpate/core/multi_index.h"
 
 namespace palpate {
@@ -31,7 +34,25 @@ Weights scaled(std::span<const double> phi, double factor) noexcept {
 }  // namespace
 
 SeparatedField::SeparatedField(const ModelView& view)
-    : X_(view.modes_X), Y_(view.modes_Y), modes_(static_cast<int>(view.modes())) {}
+    : X_(view.modes_X),
+      Y_(view.modes_Y),
+      modes_(static_cast<int>(view.modes())),
+      packed_{view.modes_X16, view.modes_X8, view.modes_scale},
+      counts_(countModes(packed_, view.modes(), 3 * view.surfaceNodes())),
+      peak_(view.modes(), 0.0F) {
+  const std::size_t numbers = 3 * view.surfaceNodes();
+  for (std::size_t k = 0; k < peak_.size(); ++k) {
+    const float* const x = X_.data() + k * numbers;
+    for (std::size_t i = 0; i < numbers; i += 3)
+      peak_[k] = std::max(peak_[k], std::hypot(x[i], x[i + 1], x[i + 2]));
+  }
+  chooseKernels();
+}
+
+std::size_t SeparatedField::bytes() const noexcept {
+  const std::size_t numbers = peak_.empty() ? 0 : X_.size() / peak_.size();
+  return sizeof(float) * counts_.f32 * numbers + packed_.X16.size_bytes() + packed_.X8.size_bytes();
+}
 
 void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
                                    std::span<float> y) const noexcept PALPATE_NONBLOCKING {
@@ -43,9 +64,17 @@ void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const doubl
   }
 }
 
-void SeparatedField::expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
-  std::fill(u.begin(), u.end(), 0.0F);
-  addWeightedRows(X_.data(), u.size(), y.data(), y.size(), u.size(), u.data());
+void SeparatedField::expand(std::span<const float> y, float unseen, ModeSelection& use,
+                            std::span<float> u) const noexcept PALPATE_NONBLOCKING {
+  addWeightedRows(X_.data(), u.size(), y.data(), counts_.f32, u.size(), u.data());
+  if (packed_.empty()) return;
+  use.choose(y, peak_, packed_.scale, unseen);
+  if (!use.finite()) std::fill(u.begin(), u.end(), std::numeric_limits<float>::quiet_NaN());
+  const ModeTiles tiles{packed_.X16.data(), counts_.f16, packed_.X8.data(), (counts_.i8 + 3) / 4};
+  const TileWeights weights{use.rows16().data(), use.weights16(), use.rows16().size(),
+                            use.quads8().data(), use.weights8(),  use.quads8().size(),
+                            use.unit8()};
+  addTiles(tiles, weights, u.size(), u.data());
 }
 
 Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING {

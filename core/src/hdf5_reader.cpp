@@ -65,6 +65,17 @@ struct FileType<float> {
   static hid_t id() { return H5T_IEEE_F32LE; }
 };
 template <>
+struct FileType<std::int8_t> {
+  static hid_t id() { return H5T_STD_I8LE; }
+};
+template <>
+struct FileType<std::uint16_t> {  // IEEE 754 halves; there are no other sixteen bits in a model file
+  static hid_t id() {
+    static const hid_t half = halfFloatType();  // HDF5 closes it at exit
+    return half;
+  }
+};
+template <>
 struct FileType<std::int32_t> {
   static hid_t id() { return H5T_STD_I32LE; }
 };
@@ -87,6 +98,14 @@ std::string describeType(hid_t type) {
 }
 
 }  // namespace
+
+std::int64_t halfFloatType() {
+  const hid_t type = H5Tcopy(H5T_IEEE_F32LE);
+  H5Tset_fields(type, 15, 10, 5, 0, 10);  // sign, exponent and its bits, mantissa and its bits
+  H5Tset_ebias(type, 15);
+  H5Tset_size(type, 2);
+  return type;
+}
 
 Hdf5Silence::Hdf5Silence() {
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
@@ -126,6 +145,11 @@ Hdf5Handle Hdf5Reader::openImage() const {
 
 bool Hdf5Reader::hasAttribute(const char* attribute) const {
   return H5Aexists(file_.get(), attribute) > 0;
+}
+
+bool Hdf5Reader::hasDataset(const std::string& path) const {
+  return H5Lexists(file_.get(), path.substr(0, path.find('/')).c_str(), H5P_DEFAULT) > 0 &&
+         H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
 }
 
 Hdf5Handle Hdf5Reader::openAttribute(const char* attribute, int values) const {
@@ -282,5 +306,9 @@ template std::span<const std::int64_t> Hdf5Reader::dataset(const std::string&,
                                                            std::initializer_list<Length*>) const;
 template std::span<const std::uint8_t> Hdf5Reader::dataset(const std::string&,
                                                            std::initializer_list<Length*>) const;
+template std::span<const std::uint16_t> Hdf5Reader::dataset(const std::string&,
+                                                            std::initializer_list<Length*>) const;
+template std::span<const std::int8_t> Hdf5Reader::dataset(const std::string&,
+                                                          std::initializer_list<Length*>) const;
 
 }  // namespace palpate

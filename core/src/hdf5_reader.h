@@ -49,12 +49,14 @@ class Hdf5Reader {
 
   [[noreturn]] void fail(const std::string& what) const;
   [[nodiscard]] bool hasAttribute(const char* attribute) const;
+  [[nodiscard]] bool hasDataset(const std::string& path) const;
   [[nodiscard]] double number(const char* attribute) const;
   /// @param[out] values  as many as the attribute has to have
   void numbers(const char* attribute, std::span<double> values) const;
   [[nodiscard]] int integer(const char* attribute) const;
   [[nodiscard]] std::string text(const char* attribute) const;
-  /// A dataset where it lies in the image: double, float, int32, int64 or uint8. Unknown lengths are filled in.
+  /// A dataset where it lies in the image: double, float, int8, int32, int64, uint8, or uint16
+  /// for IEEE 754 halves. Unknown lengths are filled in.
   template <typename T>
   [[nodiscard]] std::span<const T> dataset(const std::string& path,
                                            std::initializer_list<Length*> shape) const;

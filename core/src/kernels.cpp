@@ -3,99 +3,150 @@
 
 #include <algorithm>
 
-#include "multiversion.h"
+// Compiled once for each instruction set; the first call finds the best that the processor has.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway asks.
+#include <hwy/highway.h>
 
+HWY_BEFORE_NAMESPACE();
+namespace palpate {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// y = base + sum over four rows of weight * row; base is y or zero.
+template <bool kOntoY, typename T>
+HWY_INLINE void mixFour(const T* const (&a)[4], const T (&w)[4], std::size_t length, T* y) {
+  const hn::ScalableTag<T> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto w0 = hn::Set(d, w[0]), w1 = hn::Set(d, w[1]), w2 = hn::Set(d, w[2]), w3 = hn::Set(d, w[3]);
+  std::size_t i = 0;
+  for (; i + lanes <= length; i += lanes) {
+    const auto base = kOntoY ? hn::LoadU(d, y + i) : hn::Zero(d);
+    const auto even = hn::MulAdd(w0, hn::LoadU(d, a[0] + i), hn::Mul(w2, hn::LoadU(d, a[2] + i)));
+    const auto odd = hn::MulAdd(w1, hn::LoadU(d, a[1] + i), hn::MulAdd(w3, hn::LoadU(d, a[3] + i), base));
+    hn::StoreU(hn::Add(even, odd), d, y + i);
+  }
+  for (; i < length; ++i)
+    y[i] = (kOntoY ? y[i] : T{0}) + ((w[0] * a[0][i] + w[2] * a[2][i]) + (w[1] * a[1][i] + w[3] * a[3][i]));
+}
+
+/// Four rows at a time: one pass over y for four over the rows. What is missing of the last four has weight 0.
+template <bool kOntoY, typename T, typename RowAt>
+HWY_INLINE void mixAll(RowAt rowAt, const T* weight, std::size_t rows, std::size_t length, T* y) {
+  for (std::size_t r = 0; r < rows; r += 4) {
+    const T* a[4];
+    T w[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      a[k] = rowAt(std::min(r + k, rows - 1));
+      w[k] = r + k < rows ? weight[r + k] : T{0};
+    }
+    if (kOntoY || r > 0)
+      mixFour<true>(a, w, length, y);
+    else
+      mixFour<false>(a, w, length, y);
+  }
+}
+
+/// Four dot products at a time, each in two partial sums, so that the additions need not wait for each other.
+template <typename T>
+HWY_INLINE void dotFour(const T* const (&a)[4], const T* y, std::size_t length, T (&out)[4]) {
+  const hn::ScalableTag<T> d;
+  const std::size_t lanes = hn::Lanes(d);
+  auto s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
+  auto t0 = hn::Zero(d), t1 = hn::Zero(d), t2 = hn::Zero(d), t3 = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= length; i += 2 * lanes) {
+    const auto near = hn::LoadU(d, y + i), far = hn::LoadU(d, y + i + lanes);
+    s0 = hn::MulAdd(hn::LoadU(d, a[0] + i), near, s0);
+    s1 = hn::MulAdd(hn::LoadU(d, a[1] + i), near, s1);
+    s2 = hn::MulAdd(hn::LoadU(d, a[2] + i), near, s2);
+    s3 = hn::MulAdd(hn::LoadU(d, a[3] + i), near, s3);
+    t0 = hn::MulAdd(hn::LoadU(d, a[0] + i + lanes), far, t0);
+    t1 = hn::MulAdd(hn::LoadU(d, a[1] + i + lanes), far, t1);
+    t2 = hn::MulAdd(hn::LoadU(d, a[2] + i + lanes), far, t2);
+    t3 = hn::MulAdd(hn::LoadU(d, a[3] + i + lanes), far, t3);
+  }
+  out[0] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s0, t0)));
+  out[1] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s1, t1)));
+  out[2] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s2, t2)));
+  out[3] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s3, t3)));
+  for (; i < length; ++i)
+    for (std::size_t k = 0; k < 4; ++k) out[k] += a[k][i] * y[i];
+}
+
+template <typename T, typename RowAt>
+HWY_INLINE void dotAll(RowAt rowAt, const T* y, std::size_t rows, std::size_t length, T* out) {
+  for (std::size_t r = 0; r < rows; r += 4) {
+    const T* a[4];
+    T four[4];
+    for (std::size_t k = 0; k < 4; ++k) a[k] = rowAt(std::min(r + k, rows - 1));
+    dotFour(a, y, length, four);
+    for (std::size_t k = 0; k < 4 && r + k < rows; ++k) out[r + k] = four[k];
+  }
+}
+
+void AddWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
+                     std::size_t length, float* y) {
+  mixAll<true>([=](std::size_t r) { return A + r * stride; }, weight, rows, length, y);
+}
+
+void DotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
+             float* out) {
+  dotAll([=](std::size_t r) { return A + r * stride; }, y, rows, length, out);
+}
+
+void MixPlacedRows(const Rows& rows, const double* weight, std::size_t length, double* y) {
+  if (rows.count == 0) std::fill_n(y, length, 0.0);
+  const auto rowAt = [&](std::size_t r) {
+    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
+  };
+  mixAll<false>(rowAt, weight, rows.count, length, y);
+}
+
+void DotPlacedRows(const Rows& rows, const double* y, std::size_t length, double* out) {
+  const auto rowAt = [&](std::size_t r) {
+    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
+  };
+  dotAll(rowAt, y, rows.count, length, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace palpate
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace palpate {
 
-namespace {
+HWY_EXPORT(AddWeightedRows);
+HWY_EXPORT(DotRows);
+HWY_EXPORT(MixPlacedRows);
+HWY_EXPORT(DotPlacedRows);
 
-/// Four numbers side by side, of gcc and clang; two pairs where the processor has no more.
-using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-
-const Lanes& lanesAt(const double* p) noexcept {
-  return *reinterpret_cast<const Lanes*>(p);
+void chooseKernels() noexcept {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-}  // namespace
-
-PALPATE_MULTIVERSION void addWeightedRows(const float* A, std::size_t stride, const float* weight,
-                                          std::size_t rows, std::size_t length,
-                                          float* y) noexcept PALPATE_NONBLOCKING {
-  std::size_t r = 0;
-  for (; r + 4 <= rows; r += 4) {  // four rows at a time: one pass over y for four over A
-    const float* __restrict__ const a0 = A + r * stride;
-    const float* __restrict__ const a1 = a0 + stride;
-    const float* __restrict__ const a2 = a1 + stride;
-    const float* __restrict__ const a3 = a2 + stride;
-    const float w0 = weight[r], w1 = weight[r + 1], w2 = weight[r + 2], w3 = weight[r + 3];
-    float* __restrict__ const out = y;
-    for (std::size_t i = 0; i < length; ++i) out[i] += (w0 * a0[i] + w1 * a1[i]) + (w2 * a2[i] + w3 * a3[i]);
-  }
-  for (; r < rows; ++r) {
-    const float* __restrict__ const a = A + r * stride;
-    float* __restrict__ const out = y;
-    for (std::size_t i = 0; i < length; ++i) out[i] += weight[r] * a[i];
-  }
+void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
+                     std::size_t length, float* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddWeightedRows)(A, stride, weight, rows, length, y);
 }
 
-PALPATE_MULTIVERSION void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows,
-                                  std::size_t length, float* out) noexcept PALPATE_NONBLOCKING {
-  constexpr std::size_t kLanes = 16;
-  for (std::size_t r = 0; r < rows; ++r) {
-    const float* const a = A + r * stride;
-    float lane[kLanes] = {};
-    std::size_t i = 0;
-    for (; i + kLanes <= length; i += kLanes)
-      for (std::size_t k = 0; k < kLanes; ++k) lane[k] += a[i + k] * y[i + k];
-    for (std::size_t k = 0; i < length; ++i, ++k) lane[k] += a[i] * y[i];
-    out[r] = 0.0F;
-    for (const float part : lane) out[r] += part;
-  }
+void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
+             float* out) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(DotRows)(A, stride, y, rows, length, out);
 }
 
-PALPATE_MULTIVERSION void mixRows(const Rows& rows, const double* weight, std::size_t length,
-                                  double* y) noexcept PALPATE_NONBLOCKING {
-  double* __restrict__ const out = y;
-  const auto begin = [&](std::size_t r) {
-    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
-  };
-  for (std::size_t i = 0; i < length; ++i) out[i] = 0.0;
-  std::size_t r = 0;
-  for (; r + 4 <= rows.count; r += 4) {  // as above
-    const double* __restrict__ const a0 = begin(r);
-    const double* __restrict__ const a1 = begin(r + 1);
-    const double* __restrict__ const a2 = begin(r + 2);
-    const double* __restrict__ const a3 = begin(r + 3);
-    const double w0 = weight[r], w1 = weight[r + 1], w2 = weight[r + 2], w3 = weight[r + 3];
-    for (std::size_t i = 0; i < length; ++i) out[i] += (w0 * a0[i] + w1 * a1[i]) + (w2 * a2[i] + w3 * a3[i]);
-  }
-  for (; r < rows.count; ++r) {
-    const double* __restrict__ const a = begin(r);
-    const double w = weight[r];
-    for (std::size_t i = 0; i < length; ++i) out[i] += w * a[i];
-  }
+void mixRows(const Rows& rows, const double* weight, std::size_t length,
+             double* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(MixPlacedRows)(rows, weight, length, y);
 }
 
-PALPATE_MULTIVERSION void dotRows(const Rows& rows, const double* y, std::size_t length,
-                                  double* out) noexcept PALPATE_NONBLOCKING {
-  const auto begin = [&](std::size_t r) {
-    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
-  };
-  for (std::size_t r = 0; r < rows.count; r += 4) {  // four at a time; the last ones may be the same row
-    const std::size_t last = rows.count - 1;
-    const double* const a[4] = {begin(r), begin(std::min(r + 1, last)), begin(std::min(r + 2, last)),
-                                begin(std::min(r + 3, last))};
-    Lanes even[4] = {}, odd[4] = {};  // partial sums, so that the additions need not wait for each other
-    for (std::size_t i = 0; i < length; i += 8)
-      for (std::size_t k = 0; k < 4; ++k) {
-        even[k] += lanesAt(a[k] + i) * lanesAt(y + i);
-        odd[k] += lanesAt(a[k] + i + 4) * lanesAt(y + i + 4);
-      }
-    for (std::size_t k = 0; k < 4 && r + k < rows.count; ++k) {
-      const Lanes sum = even[k] + odd[k];
-      out[r + k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    }
-  }
+void dotRows(const Rows& rows, const double* y, std::size_t length,
+             double* out) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(DotPlacedRows)(rows, y, length, out);
 }
 
 }  // namespace palpate
+#endif

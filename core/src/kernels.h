@@ -8,13 +8,17 @@
 
 namespace palpate {
 
-/// y[i] += sum over `rows` rows of weight[r] * A[r * stride + i], i < length. The loops that a tick spends
-/// its time in: y stays in the first-level cache while A streams past once. Real-time: yes.
+// The loops that a tick spends its time in, through Highway: built for several instruction sets, of which the first
+// call takes the best that the processor has. Results differ between them in rounding only.
+
+/// Takes it before the loop. Threads: any; no other kernel may run meanwhile for the first time.
+void chooseKernels() noexcept;
+
+/// y[i] += sum over `rows` rows of weight[r] * A[r * stride + i], i < length. y stays in the first-level cache while A streams past once. Real-time: yes.
 void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
                      std::size_t length, float* y) noexcept PALPATE_NONBLOCKING;
 
-/// out[r] = sum over i < length of A[r * stride + i] * y[i], in 16 partial sums that run side by side.
-/// Real-time: yes.
+/// out[r] = sum over i < length of A[r * stride + i] * y[i]. Real-time: yes.
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
              float* out) noexcept PALPATE_NONBLOCKING;
 
@@ -30,7 +34,7 @@ struct Rows {
 void mixRows(const Rows& rows, const double* weight, std::size_t length,
              double* y) noexcept PALPATE_NONBLOCKING;
 
-/// out[r] = row r . y. @param length  of each row and y, a multiple of 8. Real-time: yes.
+/// out[r] = row r . y. @param length  of each row and y. Real-time: yes.
 void dotRows(const Rows& rows, const double* y, std::size_t length, double* out) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

@@ -9,7 +9,9 @@
 #include "load_driven.h"
 #include "model_reader.h"
 #include "palpate/core/load_error.h"
+#include "palpate/core/mode_selection.h"
 #include "palpate/core/multi_index.h"
+#include "palpate/core/packed_modes.h"
 #include "palpate/core/types.h"
 
 namespace palpate {
@@ -163,6 +165,30 @@ void checkNear(const ModelView& v, const Checker& check) {
   check.indices("/near/node", v.near_node, v.surfaceNodes());
 }
 
+/// What the tick reads is what X says, rounded.
+void checkPacked(const ModelView& v, const Checker& check) {
+  const PackedModes packed{v.modes_X16, v.modes_X8, v.modes_scale};
+  const std::size_t numbers = 3 * v.surfaceNodes();
+  const ModeCounts counts = countModes(packed, v.modes(), numbers);
+  check.require(counts.i8 <= ModeSelection::kMostInt8,
+                "/modes/X8 has " + std::to_string(counts.i8) + " modes",
+                "at most " + std::to_string(ModeSelection::kMostInt8));
+  for (std::size_t row = 0; row < packed.scale.size(); ++row)
+    if (!(std::isfinite(packed.scale[row]) && packed.scale[row] > 0.0F))
+      check.failAt("/modes/scale", row, "is " + text(packed.scale[row]), "more than 0");
+  for (std::size_t mode = counts.f32; mode < v.modes(); ++mode) {
+    const bool half = mode < counts.f32 + counts.f16;
+    const auto kind = half ? ModePrecision::kFloat16 : ModePrecision::kInt8;
+    for (std::size_t i = 0; i < numbers; ++i) {
+      const float x = v.modes_X[mode * numbers + i], found = unpack(packed, counts, mode, i);
+      const float bound = 1.001F * roundingBound(kind, x, packed.scale[mode - counts.f32]);
+      if (!(std::abs(found - x) <= bound))
+        check.failAt(half ? "/modes/X16, of /modes/X" : "/modes/X8, of /modes/X", mode * numbers + i,
+                     "is " + text(found), text(x) + " within " + text(bound));
+    }
+  }
+}
+
 void checkFinite(const ModelView& v, const Checker& check) {
   check.finite("/surface/positions", v.surface_positions);
   check.finite("/contact/force", v.contact_force);
@@ -202,6 +228,7 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   check.require(v.surfaceNodes() > 0 && v.triangles() > 0, "/surface is empty", "a closed surface");
   checkFinite(v, check);
   check.indices("/surface/triangles", v.surface_triangles, v.surfaceNodes());
+  checkPacked(v, check);
   checkPositions(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
   checkNear(v, check);

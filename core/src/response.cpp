@@ -158,9 +158,22 @@ ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, cons
 
 FieldScratch::FieldScratch(const MetaModel& model)
     : amplitudes(static_cast<std::size_t>(model.farField().modes())),
-      near_block(static_cast<std::size_t>(model.nearField().scratchSize())) {}
+      near_block(static_cast<std::size_t>(model.nearField().scratchSize())),
+      selection(model.farField().counts()) {}
 
 namespace {
+
+/// The largest displacement imposed: sources at one place are parts of one tool's.
+double imposed(std::span<const FieldSource> sources) noexcept {
+  double largest = 0.0;
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (i == 0 || !(sources[i].s == sources[i - 1].s)) sum.setZero();
+    sum += sources[i].gain * sources[i].parameter;
+    largest = std::max(largest, lengthOf(sum));
+  }
+  return largest;
+}
 
 /// Visits the sources that the model answers: add(mix, phi, gain).
 template <typename Add>
@@ -198,11 +211,14 @@ double weightOf(const MetaModel& model, std::int32_t node,
 
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING {
-  findAmplitudes(model, sources, scratch.amplitudes);
-  model.farField().expand(scratch.amplitudes, u);
+  std::fill(u.begin(), u.end(), 0.0F);
   forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
     model.nearField().add(mix, phi, gain, scratch.near_block, u);
   });
+  findAmplitudes(model, sources, scratch.amplitudes);
+  const bool displaced = model.attributes().parameters == Parameters::kDisplacement;
+  const double unseen = displaced ? kUnseenShare * imposed(sources) : 0.0;
+  model.farField().expand(scratch.amplitudes, static_cast<float>(unseen), scratch.selection, u);
 }
 
 void evaluateFieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,

@@ -198,8 +198,12 @@ void Tick::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
 
 bool Tick::showSurface(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
   std::vector<float>& u = work_.displacement_;
-  const bool finite = surface.evaluate(work_.scratch_, u);
   const auto weight = static_cast<float>(work_.displacement_blend_);
+  bool finite = true;
+  if (weight > 0.0F || !work_.shown_.isOf(surface.sources())) {
+    finite = surface.evaluate(work_.scratch_, u);
+    work_.shown_.set(surface.sources(), finite && weight == 0.0F);
+  }
   for (std::size_t i = 0; weight > 0.0F && i < u.size(); ++i)
     u[i] += weight * (work_.displacement_from_[i] - u[i]);
   for (std::size_t i = 0; i < kMaxTools; ++i) {

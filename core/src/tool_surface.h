@@ -16,6 +16,8 @@ class ToolSurface {
   ToolSurface(const MetaModel& model,
               std::span<const ToolMemory, kMaxTools> tools) noexcept PALPATE_NONBLOCKING;
 
+  /// What the tools add, at most 2 kMaxTools.
+  [[nodiscard]] std::span<const FieldSource> sources() const noexcept PALPATE_NONBLOCKING;
   /// The whole field. @param[out] u  [Ns][3] m
   /// @return false when the model overflows: u is zero then
   [[nodiscard]] bool evaluate(FieldScratch& scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
@@ -26,8 +28,6 @@ class ToolSurface {
                                      std::span<Vec3, kMaxTools> u) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  [[nodiscard]] std::span<const FieldSource> sources() const noexcept PALPATE_NONBLOCKING;
-
   const MetaModel& model_;
   std::array<ContactPoint, kMaxTools> anchors_;
   std::array<FieldSource, 2 * kMaxTools> sources_;

@@ -15,6 +15,7 @@
 #include "palpate/mesh/checks.h"
 #include "palpate/mesh/mesh_error.h"
 #include "palpate/mesh/read_mesh.h"
+#include "palpate/modelfile/mixed_precision.h"
 #include "palpate/modelfile/model_file.h"
 #include "palpate/offline/build_model.h"
 #include "provenance.h"
@@ -70,15 +71,17 @@ void run(solve::Options options) {
   offline::BuildReport report;
   modelfile::ModelData data =
       offline::buildModel(c, organ, {options.threads, options.scratch, options.quiet}, report);
+  const modelfile::StorageReport storage =
+      modelfile::storeMixed(data, options.storage == "mixed" ? solve::ownError(report) : 0.0);
   // 4. Where it came from, and the file.
-  solve::addProvenance(data, c, report);
+  solve::addProvenance(data, c, report, storage);
   const auto write_start = Clock::now();
   modelfile::writeModel(options.output, data);
   modelfile::writeXdmf(options.output);
   const double write_seconds = secondsSince(write_start);
   // 5. What came out.
   const nlohmann::json s =
-      solve::summarize(options.output, c, data, report, write_seconds, secondsSince(start));
+      solve::summarize(options.output, c, data, report, storage, write_seconds, secondsSince(start));
   solve::print(s);
   if (options.json) std::cout << s.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }

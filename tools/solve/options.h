@@ -17,6 +17,7 @@ struct Options {
   std::filesystem::path output{"model.h5"};
   std::filesystem::path scratch;
   int threads{offline::machineThreads()};
+  std::string storage{"mixed"};  ///< of the modes: "mixed" or "float32"
   bool json{false};
   bool quiet{false};
 

@@ -54,7 +54,8 @@ std::string utcNow() {
 
 }  // namespace
 
-void addProvenance(modelfile::ModelData& data, const offline::Case& c, const offline::BuildReport& report) {
+void addProvenance(modelfile::ModelData& data, const offline::Case& c, const offline::BuildReport& report,
+                   const modelfile::StorageReport& storage) {
   Hash hash;
   hash.add(data.surface_positions);
   hash.add(data.surface_triangles);
@@ -64,6 +65,8 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
   hash.add(data.levels_Z);
   hash.add(data.modes_X);
   hash.add(data.modes_Y);
+  hash.add(data.modes_X16);
+  hash.add(data.modes_X8);
   hash.add(data.near_field);
   data.attributes.model_id = hash.text();
   nlohmann::json provenance{{"program", "palpate-solve"},
@@ -75,6 +78,7 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
                             {"fixed", c.fixed},
                             {"accessible", c.accessible.value_or("")},
                             {"method", toString(c.method)},
+                            {"storage", toJson(storage)},
                             {"seconds", stages(c.method, report)}};
   if (report.fit_errors.empty()) {
     provenance["load"] = loadOf(c, report);

@@ -69,6 +69,15 @@ void printTimes(const json& seconds) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+void printStorage(const json& storage) {
+  std::fprintf(stderr,
+               "modes kept as: %zu float32, %zu float16, %zu int8, %.2f MB; rounding costs %.3f %% of the "
+               "largest displacement\n",
+               storage["float32"].get<std::size_t>(), storage["float16"].get<std::size_t>(),
+               storage["int8"].get<std::size_t>(), 1e-6 * storage["bytes"].get<double>(),
+               100.0 * storage["error_max"].get<double>());
+}
+
 void printRadius(const json& s) {
   const auto line = [](const json& radius, const char* name, double scale, const char* unit) {
     std::fprintf(stderr, "%s: 5 %% quantile %.4g %s, median %.4g %s; ", name,
@@ -91,6 +100,16 @@ void printRadius(const json& s) {
 }
 
 }  // namespace
+
+double ownError(const offline::BuildReport& report) {
+  if (!report.fit_errors.empty()) return report.fit_errors.back();
+  return std::max(report.residual, report.truncation);
+}
+
+json toJson(const modelfile::StorageReport& storage) {
+  return {{"float32", storage.counts.f32},  {"float16", storage.counts.f16},      {"int8", storage.counts.i8},
+          {"error_max", storage.error_max}, {"error_limit", storage.error_limit}, {"bytes", storage.bytes}};
+}
 
 json stages(Method method, const offline::BuildReport& report) {
   if (isSeries(method))
@@ -115,7 +134,8 @@ json loadOf(const offline::Case& c, const offline::BuildReport& report) {
 }
 
 json summarize(const std::filesystem::path& output, const offline::Case& c, const modelfile::ModelData& data,
-               const offline::BuildReport& report, double write_seconds, double total_seconds) {
+               const offline::BuildReport& report, const modelfile::StorageReport& storage,
+               double write_seconds, double total_seconds) {
   json seconds = stages(c.method, report);
   seconds["write"] = write_seconds;
   seconds["total"] = total_seconds;
@@ -129,6 +149,7 @@ json summarize(const std::filesystem::path& output, const offline::Case& c, cons
          {"contact_positions", data.contact_node.size()},
          {"patch_radius", data.attributes.patch_radius},
          {"modes", data.modes_X.size() / (3 * data.surface_mesh_tag.size())},
+         {"storage", toJson(storage)},
          {radiusKey(parameters), radii(data)},
          {"seconds", seconds},
          {"file_bytes", std::filesystem::file_size(output)},
@@ -160,6 +181,7 @@ void print(const json& s) {
   std::fprintf(stderr, "%zu modes\n", s["modes"].get<std::size_t>());
   printTimes(s["seconds"]);
   printRadius(s);
+  printStorage(s["storage"]);
   std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
                1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());
 }

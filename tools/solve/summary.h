@@ -4,11 +4,17 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "palpate/modelfile/mixed_precision.h"
 #include "palpate/modelfile/model_data.h"
 #include "palpate/offline/build_model.h"
 #include "palpate/offline/case_file.h"
 
 namespace palpate::solve {
+
+/// What the model's fields are off by, over the displacement: the fit's RMS error, or what the pairs leave.
+[[nodiscard]] double ownError(const offline::BuildReport& report);
+
+[[nodiscard]] nlohmann::json toJson(const modelfile::StorageReport& storage);
 
 /// Seconds by what was done, in the method's own stages.
 [[nodiscard]] nlohmann::json stages(offline::Method method, const offline::BuildReport& report);
@@ -20,9 +26,10 @@ namespace palpate::solve {
 /// What came out, as --json prints it (tools/solve/README.md). The model has been written.
 [[nodiscard]] nlohmann::json summarize(const std::filesystem::path& output, const offline::Case& c,
                                        const modelfile::ModelData& data, const offline::BuildReport& report,
-                                       double write_seconds, double total_seconds);
+                                       const modelfile::StorageReport& storage, double write_seconds,
+                                       double total_seconds);
 
-/// The same in four lines on standard error.
+/// The same in five lines on standard error.
 void print(const nlohmann::json& summary);
 
 }  // namespace palpate::solve

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_sizes.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
 #include "palpate/core/multi_index.h"
+#include "palpate/core/packed_modes.h"
 #include "palpate/modelfile/model_file.h"
 
 namespace palpate::modelfile {
@@ -61,6 +63,17 @@ void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t 
   expectSize("near/field", d.near_field.size(), 3 * C * d.near_node.size());
 }
 
+void checkPacked(const ModelData& d, std::size_t Ns) {
+  const std::size_t tile_numbers = tilesOf(3 * Ns) * kTile, packed = d.modes_scale.size();
+  if (packed > modeCount(d))
+    throw ModelFileError("/modes/scale has " + std::to_string(packed) + " numbers, expected at most " +
+                         std::to_string(modeCount(d)));
+  expectTuples("modes/X16", d.modes_X16.size(), tile_numbers);
+  const std::size_t halves = std::min(packed, d.modes_X16.size() / tile_numbers);
+  expectSize("modes/X16", d.modes_X16.size(), halves * tile_numbers);
+  expectSize("modes/X8", d.modes_X8.size(), (packed - halves + 3) / 4 * tile_numbers * 4);
+}
+
 void checkMesh(const ModelData& d) {
   expectSize("mesh/nodes", d.mesh_nodes.size(), 3 * d.mesh_node_tag.size());
   expectSize("mesh/tetrahedra", d.mesh_tetrahedra.size(), 4 * d.mesh_tetrahedron_tag.size());
@@ -91,6 +104,7 @@ void checkSizes(const ModelData& data) {
   checkContact(data, M, C);
   checkLevels(data, C);
   checkFields(data, Ns, M, C);
+  checkPacked(data, Ns);
   checkMesh(data);
 }
 

@@ -12,6 +12,7 @@
 #include "check_sizes.h"
 #include "palpate/core/hdf5_handle.h"
 #include "palpate/core/multi_index.h"
+#include "palpate/core/packed_modes.h"
 #include "palpate/modelfile/model_file.h"
 
 namespace palpate::modelfile {
@@ -28,6 +29,14 @@ hid_t fileType(double) {
 hid_t fileType(float) {
   return H5T_IEEE_F32LE;
 }
+hid_t fileType(std::int8_t) {
+  return H5T_STD_I8LE;
+}
+/// IEEE 754 halves: written as they are.
+hid_t fileType(std::uint16_t) {
+  static const hid_t half = halfFloatType();
+  return half;
+}
 hid_t fileType(std::int32_t) {
   return H5T_STD_I32LE;
 }
@@ -42,6 +51,12 @@ hid_t memoryType(double) {
 }
 hid_t memoryType(float) {
   return H5T_NATIVE_FLOAT;
+}
+hid_t memoryType(std::int8_t) {
+  return H5T_NATIVE_INT8;
+}
+hid_t memoryType(std::uint16_t half) {
+  return fileType(half);
 }
 hid_t memoryType(std::int32_t) {
   return H5T_NATIVE_INT32;
@@ -163,10 +178,21 @@ void writeContact(const Hdf5Handle& file, const ModelData& d, hsize_t M, hsize_t
   writeDataset(file, "levels/Z", d.levels_Z, {C, d.levels_Z.size() / C});
 }
 
+/// Modes in mixed precision, where there are any.
+void writePacked(const Hdf5Handle& file, const ModelData& d) {
+  if (d.modes_scale.empty()) return;
+  const hsize_t tiles = tilesOf(d.modes_X.size() / modeCount(d));
+  const hsize_t halves = d.modes_X16.size() / (tiles * kTile),
+                quads = d.modes_X8.size() / (tiles * kTile * 4);
+  writeDataset(file, "modes/X16", d.modes_X16, {tiles, halves, kTile});
+  writeDataset(file, "modes/X8", d.modes_X8, {tiles, quads, kTile, 4});
+  writeDataset(file, "modes/scale", d.modes_scale, {d.modes_scale.size()});
+}
+
 void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
   const hsize_t Ns = d.surface_mesh_tag.size(), M = d.contact_node.size();
   const hsize_t C = fieldCoefficients(d);
-  const hsize_t n = d.modes_X.size() / (3 * Ns);
+  const hsize_t n = modeCount(d);
   writeDataset(file, "surface/positions", d.surface_positions, {Ns, 3});
   writeDataset(file, "surface/triangles", d.surface_triangles, {d.surface_triangles.size() / 3, 3});
   writeDataset(file, "surface/mesh_tag", d.surface_mesh_tag, {Ns});
@@ -174,6 +200,7 @@ void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
   writeContact(file, d, M, C);
   writeDataset(file, "modes/X", d.modes_X, {n, 3 * Ns});
   writeDataset(file, "modes/Y", d.modes_Y, {M, C, n});
+  writePacked(file, d);
   writeDataset(file, "near/offset", d.near_offset, {M + 1});
   writeDataset(file, "near/node", d.near_node, {d.near_node.size()});
   writeDataset(file, "near/field", d.near_field, {d.near_field.size()});

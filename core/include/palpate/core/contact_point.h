@@ -11,6 +11,8 @@ namespace palpate {
 struct ContactPoint {
   std::int32_t triangle{-1};            ///< 0-based into /surface/triangles; -1: none
   std::array<double, 3> barycentric{};  ///< weights of the triangle's nodes, >= 0, sum 1
+
+  [[nodiscard]] bool operator==(const ContactPoint&) const noexcept = default;
 };
 
 /// s in terms of the positions that the model was computed at. Vertices without one are dropped and the

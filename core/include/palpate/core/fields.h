@@ -1,29 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "palpate/core/contact_point.h"
+#include "palpate/core/mode_selection.h"
 #include "palpate/core/model_view.h"
+#include "palpate/core/packed_modes.h"
 #include "palpate/core/types.h"
 
 namespace palpate {
 
 /// The far field, and all of a load-driven model's:                                         DESIGN 2.1, 2.3
 ///   u(X; s, p) = sum_k X_k(X) y_k,   y_k = sum_b lambda_b sum_alpha phi_alpha(p) Y_{k,alpha}(p_b)
-/// Linear in y: the y of several tools add up before the one product with X. Borrows the model's arrays.
+/// Linear in y: the y of several tools add up before the one product with X, which reads the packed modes where the
+/// file has them. Borrows the model's arrays.
 class SeparatedField {
  public:
   explicit SeparatedField(const ModelView& view);
 
   [[nodiscard]] int modes() const noexcept { return modes_; }
+  /// How many of them are kept in which precision.
+  [[nodiscard]] const ModeCounts& counts() const noexcept { return counts_; }
+  /// Bytes of modes that expand() reads when it leaves out none.
+  [[nodiscard]] std::size_t bytes() const noexcept;
   /// y += gain * (the mode amplitudes of one tool), m.
   /// @param phi  [C] ParameterFunctions at p, @param y  [n]. Cost O(C n). Real-time: yes.
   void addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
-  /// u = X^T y, m (overwrites). @param u  [Ns][3]. Cost O(n Ns), bound by reading X. Real-time: yes.
-  void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
+  /// u += X^T y, m; packed modes that together cannot move a node by more than `unseen` are left out. NaN where y is
+  /// too large for numbers. @param unseen  m, 0 for none  @param use  scratch  @param u  [Ns][3]
+  /// Cost O(n Ns). Real-time: yes.
+  void expand(std::span<const float> y, float unseen, ModeSelection& use,
+              std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   /// u of one surface node, m, as expand() gives it but for rounding. Cost O(n), a cache miss a mode. Real-time: yes.
   [[nodiscard]] Vec3 at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING;
 
@@ -31,6 +43,9 @@ class SeparatedField {
   std::span<const float> X_;
   std::span<const float> Y_;
   int modes_;
+  PackedModes packed_;
+  ModeCounts counts_;
+  std::vector<float> peak_;  // [n] largest displacement of a node in each mode
 };
 
 /// The near field: what the modes miss close to s, already windowed to zero at the near radius (DESIGN 2.3).

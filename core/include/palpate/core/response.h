@@ -76,16 +76,25 @@ struct FieldScratch {
   explicit FieldScratch(const MetaModel& model);
   std::vector<float> amplitudes;  ///< [n] y, m
   std::vector<float> near_block;  ///< NearField::scratchSize()
+  ModeSelection selection;        ///< of SeparatedField::expand()
 };
+
+/// What modes that are left out of a field may move a node by, as a share of the largest displacement imposed.
+inline constexpr double kUnseenShare = 5e-4;
 
 /// One tool's part in a field.
 struct FieldSource {
   ContactPoint s;
   Vec3 parameter = Vec3::Zero();  ///< Response::parameter; clamped to the domain
   double gain{1.0};               ///< any finite number
+
+  [[nodiscard]] bool operator==(const FieldSource& other) const noexcept {
+    return s == other.s && parameter == other.parameter && gain == other.gain;
+  }
 };
 
-/// Displacement of the surface nodes, far plus near field, superposed over the tools (DESIGN 2.3).
+/// Displacement of the surface nodes, far plus near field, superposed over the tools (DESIGN 2.3). Of a "displacement"
+/// model, packed modes that together are below kUnseenShare of the largest displacement imposed are left out.
 /// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Real-time: yes.
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -27,6 +29,26 @@ struct ToolMemory {
   CouplingDamper damper;
 };
 
+/// What the displacement of a workspace is the field of.
+class ShownField {
+ public:
+  /// Whether it is the field of just these sources, so that it need not be evaluated again. Real-time: yes.
+  [[nodiscard]] bool isOf(std::span<const FieldSource> sources) const noexcept PALPATE_NONBLOCKING {
+    return known_ && std::equal(sources.begin(), sources.end(), sources_.begin(), sources_.begin() + count_);
+  }
+  /// @param sources  at most 2 kMaxTools  @param known  false: it is no field of any sources. Real-time: yes.
+  void set(std::span<const FieldSource> sources, bool known) noexcept PALPATE_NONBLOCKING {
+    std::copy(sources.begin(), sources.end(), sources_.begin());
+    count_ = static_cast<std::ptrdiff_t>(sources.size());
+    known_ = known;
+  }
+
+ private:
+  std::array<FieldSource, 2 * kMaxTools> sources_{};
+  std::ptrdiff_t count_{0};
+  bool known_{false};
+};
+
 /// All that lives from tick to tick, and all scratch: the loop's only allocation, made before it. One
 /// thread's.
 class Workspace {
@@ -49,6 +71,7 @@ class Workspace {
   ForceLimiter limiter_;
   std::array<ToolMemory, kMaxTools> tools_{};
   FieldScratch scratch_;
+  ShownField shown_;
   std::vector<float> displacement_;
   std::vector<float> displacement_from_;  // the field at the last jump,
   double displacement_blend_{0.0};        // and its weight, 1 at the jump, then falling to 0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct ModelData {
   std::vector<double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
   std::vector<double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::vector<float> modes_X;                      ///< [n][3 Ns]
+  std::vector<std::uint16_t> modes_X16;            ///< PackedModes::X16 (storeMixed()), or empty
+  std::vector<std::int8_t> modes_X8;               ///< PackedModes::X8, or empty
+  std::vector<float> modes_scale;                  ///< PackedModes::scale; empty: the tick reads modes_X
   std::vector<float> modes_Y;                      ///< [M][C][n] m
   std::vector<std::int64_t> near_offset;           ///< [M+1]
   std::vector<std::int32_t> near_node;             ///< [sum K]
@@ -44,5 +48,10 @@ struct ModelData {
   std::vector<std::int32_t> mesh_fixed;            ///< volume nodes
   std::vector<std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
 };
+
+/// n, the number of modes; 0 without a surface.
+[[nodiscard]] inline std::size_t modeCount(const ModelData& d) {
+  return d.surface_mesh_tag.empty() ? 0 : d.modes_X.size() / (3 * d.surface_mesh_tag.size());
+}
 
 }  // namespace palpate::modelfile

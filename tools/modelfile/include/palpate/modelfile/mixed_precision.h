@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "palpate/core/packed_modes.h"
+#include "palpate/modelfile/model_data.h"
+
+namespace palpate::modelfile {
+
+/// What keeping modes in fewer bits cost.
+struct StorageReport {
+  ModeCounts counts;        ///< modes of each kind
+  double error_limit{0.0};  ///< what was allowed, of a field's largest displacement
+  double error_max{
+      0.0};  ///< what it came to: largest error of a node over the largest displacement of its field
+  std::size_t bytes{0};  ///< of modes that a tick reads
+};
+
+/// Rounding may cost this much of the largest displacement, however large the model's own error is.
+inline constexpr double kMostRounding = 5e-4;
+
+/// Chooses for each mode float32, float16 or int8 with a scale, as few bits as keep the rounding of a field under a
+/// tenth of the model's own error and under kMostRounding; measured on fields of random contacts within the domain,
+/// against the modes as they are.                                                                DESIGN 3.3
+/// Orders the modes by kind (modes_X and modes_Y) and fills modes_X16, modes_X8, modes_scale; those stay empty where
+/// all modes need float32. @param data  complete but for these  @param own_error  of the model's fields, over the
+/// displacement; 0 keeps float32. O(samples n Ns).
+StorageReport storeMixed(ModelData& data, double own_error);
+
+/// Modes as they are packed: of modes_X in the order of the file, from counts.f32 on. @param numbers  3 Ns
+void packModes(std::span<const float> X, std::size_t numbers, const ModeCounts& counts, ModelData& data);
+
+}  // namespace palpate::modelfile

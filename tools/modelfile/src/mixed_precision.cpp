@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/modelfile/mixed_precision.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "palpate/core/multi_index.h"
+#include "palpate/core/parameter_functions.h"
+
+namespace palpate::modelfile {
+
+namespace {
+
+using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Eigen::Index;
+
+/// Amplitudes of the modes in fields of random contacts, and how large each field is.
+struct Samples {
+  Eigen::MatrixXf y;           ///< [n][samples], over the largest displacement of the field
+  std::vector<float> typical;  ///< [n] RMS over the samples
+};
+
+float largestNode(const Eigen::VectorXf& u) {
+  const Eigen::Map<const Eigen::Matrix3Xf> nodes(u.data(), 3, u.size() / 3);
+  return std::sqrt(nodes.colwise().squaredNorm().maxCoeff());
+}
+
+/// A parameter within the domain of a position: half of them on its border, where high orders count most.
+Vec3 randomParameter(const ModelData& data, std::size_t position, std::mt19937& random) {
+  std::uniform_real_distribution<double> share(0.05, 2.0);
+  std::normal_distribution<double> normal;
+  const double size = data.contact_domain_radius[position] * std::min(1.0, share(random));
+  if (data.attributes.parameters == Parameters::kLevel) return {size, 0.0, 0.0};
+  const Vec3 way(normal(random), normal(random), normal(random));
+  return size * way.normalized();
+}
+
+Samples sample(const ModelData& data, const Rows& X) {
+  constexpr int kSamples = 128;
+  ModelView view;
+  view.levels_Z = data.levels_Z;
+  view.level_functions =
+      data.levels_Z.empty() ? 0 : data.contact_displacement.size() / (3 * data.contact_node.size());
+  const ParameterFunctions functions(view, data.attributes, data.attributes.order);
+  std::vector<double> phi(static_cast<std::size_t>(functions.size()));
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::size_t> anywhere(0, data.contact_node.size() - 1);
+  Samples samples{Eigen::MatrixXf::Zero(X.rows(), kSamples), {}};
+  for (Index s = 0; s < kSamples; ++s) {
+    const std::size_t m = anywhere(random);
+    functions.evaluate(randomParameter(data, m, random), phi);
+    const Eigen::Map<const Rows> Y(data.modes_Y.data() + m * phi.size() * static_cast<std::size_t>(X.rows()),
+                                   static_cast<Index>(phi.size()), X.rows());
+    const Eigen::VectorXf y =
+        Y.transpose() * Eigen::Map<const Eigen::VectorXd>(phi.data(), Y.rows()).cast<float>();
+    const float size = largestNode(X.transpose() * y);
+    if (size > 0.0F) samples.y.col(s) = y / size;
+  }
+  for (Index k = 0; k < X.rows(); ++k)
+    samples.typical.push_back(samples.y.row(k).norm() / std::sqrt(static_cast<float>(kSamples)));
+  return samples;
+}
+
+using Kinds = std::vector<ModePrecision>;
+
+/// Kind of each mode when rounding errors may have the standard deviation sigma: int8 where it costs least, then
+/// float16. @param size  of each mode's largest number in a typical field
+Kinds chooseKinds(std::span<const float> size, double sigma) {
+  constexpr double kUniform = 0.29;  // standard deviation of a rounding error, in steps
+  Kinds kinds(size.size(), ModePrecision::kFloat32);
+  std::vector<std::size_t> order(size.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return size[a] < size[b]; });
+  std::size_t next = 0;
+  const auto fill = [&](ModePrecision kind, double step, double variance) {
+    for (; next < order.size(); ++next) {
+      const double error = kUniform * step * static_cast<double>(size[order[next]]);
+      if (error * error > variance) return;
+      variance -= error * error;
+      kinds[order[next]] = kind;
+    }
+  };
+  fill(ModePrecision::kInt8, 1.0 / 127.0, 0.8 * sigma * sigma);
+  fill(ModePrecision::kFloat16, std::ldexp(1.0, -11), 0.2 * sigma * sigma);
+  return kinds;
+}
+
+ModeCounts count(const Kinds& kinds) {
+  const auto of = [&](ModePrecision kind) {
+    return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kind));
+  };
+  return {of(ModePrecision::kFloat32), of(ModePrecision::kFloat16), of(ModePrecision::kInt8)};
+}
+
+/// Modes by kind, each kind in the order it had.
+std::vector<Index> orderOf(const Kinds& kinds) {
+  std::vector<Index> order(kinds.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+    return kinds[static_cast<std::size_t>(a)] < kinds[static_cast<std::size_t>(b)];
+  });
+  return order;
+}
+
+/// What the stored modes would be.
+struct Storage {
+  std::vector<Index> order;
+  ModeCounts counts;
+  ModelData packed;  ///< modes_X16, modes_X8, modes_scale only
+  double error{0.0};
+};
+
+Storage store(const Rows& X, const Samples& samples, const Kinds& kinds) {
+  Storage storage{orderOf(kinds), count(kinds), {}, 0.0};
+  const Rows ordered = X(storage.order, Eigen::all);
+  const std::size_t numbers = static_cast<std::size_t>(X.cols());
+  packModes({ordered.data(), static_cast<std::size_t>(ordered.size())}, numbers, storage.counts,
+            storage.packed);
+  const PackedModes packed{storage.packed.modes_X16, storage.packed.modes_X8, storage.packed.modes_scale};
+  Rows error = Rows::Zero(X.rows(), X.cols());
+  for (Index k = static_cast<Index>(storage.counts.f32); k < X.rows(); ++k)
+    for (Index i = 0; i < X.cols(); ++i)
+      error(k, i) = unpack(packed, storage.counts, static_cast<std::size_t>(k), static_cast<std::size_t>(i)) -
+                    ordered(k, i);
+  const Eigen::MatrixXf y = samples.y(storage.order, Eigen::all);
+  for (Index s = 0; s < y.cols(); ++s)
+    storage.error = std::max(storage.error, double(largestNode(error.transpose() * y.col(s))));
+  return storage;
+}
+
+/// The fewest bits that keep the limit: the spread of errors that a largest one of `limit` allows is found by trial.
+Storage search(const Rows& X, const Samples& samples, double limit) {
+  constexpr int kTrials = 6;
+  std::vector<float> size;
+  for (Index k = 0; k < X.rows(); ++k)
+    size.push_back(samples.typical[static_cast<std::size_t>(k)] * X.row(k).cwiseAbs().maxCoeff());
+  Storage best = store(X, samples, Kinds(size.size(), ModePrecision::kFloat32));
+  std::size_t fewest = 4 * size.size();
+  double sigma = limit / 5.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Storage storage = store(X, samples, chooseKinds(size, sigma));
+    const std::size_t bytes = 4 * storage.counts.f32 + 2 * storage.counts.f16 + storage.counts.i8;
+    const double error = std::max(storage.error, 1e-3 * limit);
+    if (storage.error <= limit && bytes < fewest) {
+      fewest = bytes;
+      best = std::move(storage);
+    }
+    sigma *= 0.95 * limit / error;
+  }
+  return best;
+}
+
+void reorder(const Storage& storage, const Rows& X, ModelData& data) {
+  const Rows ordered = X(storage.order, Eigen::all);
+  std::copy_n(ordered.data(), ordered.size(), data.modes_X.begin());
+  const Index columns = static_cast<Index>(data.modes_Y.size()) / X.rows();
+  Eigen::Map<Rows> Y(data.modes_Y.data(), columns, X.rows());
+  for (Index row = 0; row < columns; ++row) {
+    const Eigen::RowVectorXf before = Y.row(row);
+    Y.row(row) = before(storage.order);
+  }
+}
+
+}  // namespace
+
+StorageReport storeMixed(ModelData& data, double own_error) {
+  StorageReport report;
+  const std::size_t n = modeCount(data);
+  report.counts.f32 = n;
+  report.bytes = sizeof(float) * data.modes_X.size();
+  report.error_limit = std::min(0.1 * own_error, kMostRounding);
+  if (n == 0 || !(report.error_limit > 0.0)) return report;
+  const Rows X = Eigen::Map<const Rows>(data.modes_X.data(), static_cast<Index>(n),
+                                        static_cast<Index>(data.modes_X.size() / n));
+  Storage storage = search(X, sample(data, X), report.error_limit);
+  if (storage.packed.modes_scale.empty()) return report;
+  reorder(storage, X, data);
+  data.modes_X16 = std::move(storage.packed.modes_X16);
+  data.modes_X8 = std::move(storage.packed.modes_X8);
+  data.modes_scale = std::move(storage.packed.modes_scale);
+  report.counts = storage.counts;
+  report.error_max = storage.error;
+  report.bytes = 4 * storage.counts.f32 * static_cast<std::size_t>(X.cols()) + 2 * data.modes_X16.size() +
+                 data.modes_X8.size();
+  return report;
+}
+
+}  // namespace palpate::modelfile
