@@ -50,7 +50,7 @@ std::uint16_t toHalf(float value) noexcept {
   if (std::isnan(value)) return static_cast<std::uint16_t>(sign | 0x7E00U);
   int exponent = 0;
   (void)std::frexp(size, &exponent);  // size = m 2^exponent, m in [0.5, 1)
-  exponent = std::max(exponent - 1, kLeastExponent);
+  exponent = size > 0.0F ? std::max(exponent - 1, kLeastExponent) : kLeastExponent;
   const float steps = std::nearbyint(std::ldexp(size, kHalfDigits - 1 - exponent));
   if (!(std::ldexp(steps, exponent - kHalfDigits + 1) <= kLargestHalf))
     return static_cast<std::uint16_t>(sign | 0x7C00U);

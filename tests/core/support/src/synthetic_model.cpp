@@ -7,6 +7,7 @@
 
 #include "icosphere.h"
 #include "palpate/core/multi_index.h"
+#include "palpate/modelfile/mixed_precision.h"
 #include "palpate/modelfile/model_file.h"
 
 namespace palpate::testing {
@@ -199,6 +200,7 @@ ModelData syntheticModel(const SyntheticOptions& o) {
   else
     fillNear(o, sphere, basis, data);
   fillMesh(sphere, data);
+  (void)modelfile::storeMixed(data, o.mixed_error);
   return data;
 }
 

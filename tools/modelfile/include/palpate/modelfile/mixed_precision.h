@@ -20,7 +20,7 @@ struct StorageReport {
 };
 
 /// Rounding may cost this much of the largest displacement, however large the model's own error is.
-inline constexpr double kMostRounding = 5e-4;
+inline constexpr double kMostRounding = 8e-4;
 
 /// Chooses for each mode float32, float16 or int8 with a scale, as few bits as keep the rounding of a field under a
 /// tenth of the model's own error and under kMostRounding; measured on fields of random contacts within the domain,

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/modelfile/mixed_precision.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "palpate/core/fields.h"
+#include "palpate/core/packed_modes.h"
+
+namespace palpate::testing {
+
+namespace {
+
+/// Random modes of mixed sizes, packed, and the view that a field reads.
+class PackedField {
+ public:
+  PackedField(std::size_t nodes, const ModeCounts& counts) : counts_(counts), X_(3 * nodes * modes()) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> number(-1.0F, 1.0F);
+    for (std::size_t k = 0; k < modes(); ++k) {
+      const float size = std::ldexp(1.0F, static_cast<int>(k % 9) - 4);
+      for (std::size_t i = 0; i < 3 * nodes; ++i) X_[k * 3 * nodes + i] = size * number(random);
+    }
+    modelfile::packModes(X_, 3 * nodes, counts, data_);
+    tags_.resize(nodes);
+  }
+
+  [[nodiscard]] std::size_t modes() const { return counts_.f32 + counts_.f16 + counts_.i8; }
+  [[nodiscard]] std::size_t numbers() const { return 3 * tags_.size(); }
+  [[nodiscard]] float x(std::size_t mode, std::size_t i) const { return X_[mode * numbers() + i]; }
+  [[nodiscard]] PackedModes packed() const { return {data_.modes_X16, data_.modes_X8, data_.modes_scale}; }
+  [[nodiscard]] float stored(std::size_t mode, std::size_t i) const {
+    return mode < counts_.f32 ? x(mode, i) : unpack(packed(), counts_, mode, i);
+  }
+  [[nodiscard]] ModelView view() const {
+    ModelView view;
+    view.surface_mesh_tag = tags_;
+    view.modes_X = X_;
+    view.modes_X16 = data_.modes_X16;
+    view.modes_X8 = data_.modes_X8;
+    view.modes_scale = data_.modes_scale;
+    return view;
+  }
+
+ private:
+  ModeCounts counts_;
+  std::vector<float> X_;
+  std::vector<std::int64_t> tags_;
+  modelfile::ModelData data_;
+};
+
+/// Falling like the modes of a model.
+std::vector<float> amplitudes(std::size_t modes) {
+  std::vector<float> y(modes);
+  for (std::size_t k = 0; k < modes; ++k)
+    y[k] = 0.003F * std::pow(0.85F, static_cast<float>(k)) * (k % 3 == 1 ? -1.0F : 1.0F);
+  return y;
+}
+
+std::vector<float> expanded(const SeparatedField& field, std::span<const float> y, float unseen,
+                            std::size_t numbers) {
+  ModeSelection selection(field.counts());
+  std::vector<float> u(numbers, 0.0F);
+  field.expand(y, unseen, selection, u);
+  return u;
+}
+
+/// Every instruction set that this processor has, then all again.
+class Targets {
+ public:
+  Targets() {
+    std::int64_t all = hwy::SupportedTargets();
+    for (; all != 0; all &= all - 1) list_.push_back(all & -all);
+  }
+  Targets(const Targets&) = delete;
+  Targets& operator=(const Targets&) = delete;
+  ~Targets() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+  [[nodiscard]] const std::vector<std::int64_t>& list() const { return list_; }
+
+ private:
+  std::vector<std::int64_t> list_;
+};
+
+}  // namespace
+
+TEST(Half, EveryOneComesBack) {
+  for (unsigned bits = 0; bits < 65536; ++bits) {
+    const auto half = static_cast<std::uint16_t>(bits);
+    const float value = fromHalf(half);
+    if (std::isnan(value)) continue;
+    ASSERT_EQ(toHalf(value), half) << bits;
+  }
+}
+
+TEST(Half, TakesTheNearest) {
+  EXPECT_EQ(fromHalf(toHalf(1.0F + 0x1p-11F)), 1.0F);  // ties go to even
+  EXPECT_EQ(fromHalf(toHalf(1.0F + 0x1.8p-10F)), 1.0F + 0x1p-9F);
+  EXPECT_EQ(fromHalf(toHalf(0x1p-25F)), 0.0F);
+  EXPECT_EQ(fromHalf(toHalf(0x1.8p-25F)), 0x1p-24F);
+  EXPECT_EQ(fromHalf(toHalf(65519.0F)), 65504.0F);
+  EXPECT_TRUE(std::isinf(fromHalf(toHalf(65520.0F))));
+  EXPECT_TRUE(std::isnan(fromHalf(toHalf(std::numeric_limits<float>::quiet_NaN()))));
+}
+
+TEST(PackedModes, NumbersStayWithinHalfAStep) {
+  const ModeCounts counts{1, 3, 7};
+  const PackedField field(71, counts);
+  for (std::size_t mode = counts.f32; mode < field.modes(); ++mode)
+    for (std::size_t i = 0; i < field.numbers(); ++i) {
+      const auto kind = mode < counts.f32 + counts.f16 ? ModePrecision::kFloat16 : ModePrecision::kInt8;
+      const float bound = roundingBound(kind, field.x(mode, i), field.packed().scale[mode - counts.f32]);
+      ASSERT_LE(std::abs(field.stored(mode, i) - field.x(mode, i)), 1.0001F * bound) << mode << ' ' << i;
+    }
+}
+
+TEST(SeparatedField, EveryInstructionSetAddsWhatIsStored) {
+  const Targets targets;
+  ASSERT_FALSE(targets.list().empty());
+  for (const ModeCounts& counts : {ModeCounts{2, 5, 11}, {0, 8, 0}, {0, 0, 9}, {3, 0, 4}, {4, 0, 0}}) {
+    const PackedField packed(71, counts);  // 213 numbers: three tiles and a part of one
+    const std::vector<float> y = amplitudes(packed.modes());
+    for (const std::int64_t target : targets.list()) {
+      hwy::SetSupportedTargetsForTest(target);
+      const SeparatedField field(packed.view());
+      const std::vector<float> u = expanded(field, y, 0.0F, packed.numbers());
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        double expected = 0.0, size = 0.0;
+        for (std::size_t k = 0; k < y.size(); ++k) {
+          expected += double(y[k]) * double(packed.stored(k, i));
+          size += std::abs(double(y[k])) * 8.0;
+        }
+        ASSERT_NEAR(double(u[i]), expected, 4e-5 * size) << hwy::TargetName(target) << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(SeparatedField, WhatIsLeftOutMovesNoNodeByMoreThanIsUnseen) {
+  const PackedField packed(100, {0, 12, 60});
+  const SeparatedField field(packed.view());
+  const std::vector<float> y = amplitudes(packed.modes());
+  const std::vector<float> all = expanded(field, y, 0.0F, packed.numbers());
+  for (const float unseen : {1e-8F, 1e-6F, 1e-4F, 1.0F}) {
+    const std::vector<float> some = expanded(field, y, unseen, packed.numbers());
+    float largest = 0.0F;
+    for (std::size_t i = 0; i < all.size(); i += 3)
+      largest =
+          std::max(largest, std::hypot(all[i] - some[i], all[i + 1] - some[i + 1], all[i + 2] - some[i + 2]));
+    EXPECT_LE(largest, 1.01F * unseen);
+  }
+}
+
+TEST(ModeSelection, LeavesOutAsMuchAsItMay) {
+  const ModeCounts counts{0, 0, 64};
+  ModeSelection selection(counts);
+  std::vector<float> y(64, 1e-6F), peak(64, 1.0F), scale(64, 0.01F);
+  for (std::size_t k = 0; k < 8; ++k) y[k] = 1e-3F;
+  selection.choose(y, peak, scale, 0.0F);
+  EXPECT_EQ(selection.quads8().size(), 16U);
+  selection.choose(y, peak, scale, 1e-4F);
+  EXPECT_EQ(selection.quads8().size(), 2U);  // 56 of 1e-6 m fit into 1e-4 m
+  selection.choose(y, peak, scale, 5e-5F);
+  EXPECT_EQ(selection.quads8().size(), 16U);  // but not into half of that
+}
+
+TEST(ModeSelection, WholeWeightsFitTheirSum) {
+  const std::size_t n = 333;
+  ModeSelection selection({0, 0, n});
+  std::vector<float> peak(n, 1.0F), scale(n, 1.0F);
+  for (const float fall : {1.0F, 0.9F, 0.1F}) {
+    std::vector<float> y(n);
+    for (std::size_t k = 0; k < n; ++k)
+      y[k] = std::pow(fall, static_cast<float>(k)) * (k % 2 == 0 ? 1.0F : -1.0F);
+    selection.choose(y, peak, scale, 0.0F);
+    long sum = 0;
+    for (std::size_t q = 0; q < selection.quads8().size(); ++q) {
+      const QuadWeights& w = selection.weights8()[q];
+      sum += std::abs(w.ac[0]) + std::abs(w.ac[1]) + std::abs(w.bd[0]) + std::abs(w.bd[1]);
+    }
+    EXPECT_LE(sum, 65535);
+    EXPECT_GT(sum, 30000);
+  }
+}
+
+TEST(SeparatedField, AmplitudesThatAreNoNumbersShow) {
+  for (const ModeCounts& counts : {ModeCounts{0, 4, 0}, {0, 0, 4}}) {
+    const PackedField packed(20, counts);
+    const SeparatedField field(packed.view());
+    for (const float wrong :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+      const std::vector<float> y(4, wrong);
+      const std::vector<float> u = expanded(field, y, 1e-6F, packed.numbers());
+      EXPECT_TRUE(std::any_of(u.begin(), u.end(), [](float x) { return !std::isfinite(x); })) << wrong;
+    }
+  }
+}
+
+}  // namespace palpate::testing
