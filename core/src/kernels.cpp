@@ -119,7 +119,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace palpate {
 
-HWY_EXPORT(AddWeightedRows);
+PALPATE_TRUSTED_BEGIN  // the table of instruction sets begins with a function that asks the processor, before the loop
+
+    HWY_EXPORT(AddWeightedRows);
 HWY_EXPORT(DotRows);
 HWY_EXPORT(MixPlacedRows);
 HWY_EXPORT(DotPlacedRows);
@@ -147,6 +149,8 @@ void dotRows(const Rows& rows, const double* y, std::size_t length,
              double* out) noexcept PALPATE_NONBLOCKING {
   HWY_DYNAMIC_DISPATCH(DotPlacedRows)(rows, y, length, out);
 }
+
+PALPATE_TRUSTED_END
 
 }  // namespace palpate
 #endif

@@ -137,12 +137,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace palpate {
 
-HWY_EXPORT(AddTiles);
+PALPATE_TRUSTED_BEGIN  // as in kernels.cpp
+
+    HWY_EXPORT(AddTiles);
 
 void addTiles(const ModeTiles& modes, const TileWeights& weights, std::size_t length,
               float* u) noexcept PALPATE_NONBLOCKING {
   HWY_DYNAMIC_DISPATCH(AddTiles)(modes, weights, length, u);
 }
+
+PALPATE_TRUSTED_END
 
 }  // namespace palpate
 #endif
