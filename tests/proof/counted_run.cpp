@@ -117,7 +117,11 @@ CountedRun countTicks(const CountedOptions& options) {
     wait(options.seconds);
     const bool counted = stopCounting(counts);
     run.tools = tools.take();
-    if (!counted) throw std::runtime_error("no tick was counted; the server said:\n" + server->log());
+    const auto status = tools.status();
+    if (!counted || !status)
+      throw std::runtime_error("no tick was counted; the server said:\n" + server->log());
+    run.memory_locked = status->memory_locked;
+    run.realtime = status->realtime;
   }
   server->signal(SIGTERM);
   (void)server->waitForExit(std::chrono::seconds(20));
@@ -129,8 +133,6 @@ CountedRun countTicks(const CountedOptions& options) {
   run.other_posts = counts->other_posts;
   run.usage = counts->usage;
   run.log = server->log();
-  run.memory_locked = run.log.find("memory: locked") != std::string::npos;
-  run.realtime = run.log.find("real time: SCHED_FIFO") != std::string::npos;
   return run;
 }
 

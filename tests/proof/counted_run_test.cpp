@@ -53,7 +53,6 @@ TEST_F(CountedServer, ItsTickSleepsOnceAndWakesTwoThreads) {
 TEST_F(CountedServer, ItsTickMeetsNoPageFault) {
   if (!run_.memory_locked) GTEST_SKIP() << "memory could not be locked here: page faults are not judged";
   EXPECT_EQ(run_.faults(), 0);
-  EXPECT_NE(run_.log.find("page faults in ticks: 0"), std::string::npos) << run_.log;
 }
 
 // Twins of the server whose tick makes one mistake now and then: each must be found, and by the count that it is about.

@@ -33,7 +33,8 @@ TwoTools::TwoTools(const MetaModel& model, std::uint32_t domain, double tip_radi
       tip_radius_(tip_radius),
       participant_(domain),
       poses_(participant_),
-      forces_(participant_, &TwoTools::onForce, this) {
+      forces_(participant_, &TwoTools::onForce, this),
+      status_(participant_) {
   findPlaces();
   constexpr std::chrono::seconds kLong{20};
   if (!poses_.waitForReaders(1, kLong) || !forces_.waitForWriters(1, kLong))
@@ -115,6 +116,15 @@ void TwoTools::onForce(dds::ReaderView<dds::ToolForce> reader, void* context) no
     if (samples[i].state == dds::tool_state::kSlide) ++answers[2];
     if (samples[i].state == dds::tool_state::kFree) ++answers[3];
   }
+}
+
+std::optional<dds::ServerStatus> TwoTools::status() {
+  for (int i = 0; i < 1000; ++i) {
+    dds::ServerStatus status;
+    if (status_.take({&status, 1}) == 1) return status;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return std::nullopt;
 }
 
 std::array<Answers, 2> TwoTools::take() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <thread>
 
 #include "palpate/core/meta_model.h"
@@ -32,6 +33,8 @@ class TwoTools {
 
   /// Begins to send.
   void start();
+  /// What the server says of itself, or nothing when it says nothing for 10 s.
+  [[nodiscard]] std::optional<dds::ServerStatus> status();
   /// What came back since the last call, by tool.
   [[nodiscard]] std::array<Answers, 2> take();
 
@@ -54,6 +57,7 @@ class TwoTools {
   dds::Participant participant_;
   dds::Writer<dds::ToolPose> poses_;
   dds::Reader<dds::ToolForce> forces_;
+  dds::Reader<dds::ServerStatus> status_;
   std::atomic<bool> stopping_{false};
   std::thread sender_;
 };
