@@ -7,6 +7,7 @@
 
 #include "eigen_product.h"
 #include "ellipsoid.h"
+#include "mode_storage.h"
 #include "plain_read.h"
 #include "reference_field.h"
 #include "scratch_model.h"
@@ -17,6 +18,7 @@ namespace palpate::testing {
 
 namespace {
 
+using bench::storedModel;
 using bench::syntheticModel;
 using modelfile::ModelData;
 
@@ -61,22 +63,30 @@ TEST(BenchEllipsoid, IsClosedAndHasAsManyNodesAsAskedFor) {
 }
 
 TEST(BenchModel, FieldOfTheLoadedModelIsThatOfTheData) {
-  const ModelData data = syntheticModel(kSmall);
+  const ModelData data = storedModel(kSmall);
   const MetaModel model = bench::throughFile(data);
   const double error = errorOf(data, model);
   EXPECT_LT(error, 1e-3);
   EXPECT_GT(error, 0.0) << "float32 is not double: an error of nothing was not measured";
 }
 
+TEST(BenchModel, StorageIsWhatTheTickReads) {
+  const MetaModel model = bench::throughFile(storedModel(kSmall));
+  std::size_t bytes = 0;
+  for (const auto& part : bench::modeStorage(model)) bytes += part.size();
+  EXPECT_EQ(bytes, model.farField().bytes() + model.view().modes_scale.size_bytes());
+  EXPECT_LT(bytes, model.view().modes_X.size_bytes()) << "some mode takes fewer bits";
+}
+
 TEST(BenchModel, ErrorShowsAModeThatIsOff) {
-  ModelData data = syntheticModel(kSmall);
+  ModelData data = storedModel(kSmall);
   const MetaModel model = bench::throughFile(data);
   for (std::size_t i = 0; i < data.surface_positions.size(); ++i) data.modes_X[i] *= 1.05F;
   EXPECT_GT(errorOf(data, model), 1e-3);
 }
 
 TEST(BenchModel, ErrorShowsANearFieldThatIsOff) {
-  ModelData data = syntheticModel(kSmall);
+  ModelData data = storedModel(kSmall);
   const MetaModel model = bench::throughFile(data);
   for (float& u : data.near_field) u *= 1.05F;
   EXPECT_GT(errorOf(data, model), 1e-3);

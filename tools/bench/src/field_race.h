@@ -45,7 +45,7 @@ class FieldRace {
   void ask();
   [[nodiscard]] double worstError(Runner who);
 
-  modelfile::ModelData data_;  ///< float32, before it was stored
+  modelfile::ModelData data_;  ///< modes_X is float32 whatever the model keeps
   MetaModel model_;
   FieldScratch scratch_;
   std::vector<Question> questions_;

@@ -5,13 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "palpate/core/model_view.h"
+#include "palpate/core/meta_model.h"
 
 namespace palpate::bench {
 
-/// The arrays of a model that hold the modes X_k, in whatever precision: what a field evaluation streams through.
-[[nodiscard]] inline std::vector<std::span<const std::byte>> modeStorage(const ModelView& view) {
-  return {std::as_bytes(view.modes_X)};
+/// The arrays of a model that hold the modes X_k as a tick reads them, each in its precision: as many bytes as
+/// SeparatedField::bytes() says.
+[[nodiscard]] inline std::vector<std::span<const std::byte>> modeStorage(const MetaModel& model) {
+  const ModelView& view = model.view();
+  const std::size_t plain = model.farField().counts().f32 * 3 * view.surfaceNodes();
+  return {std::as_bytes(view.modes_X.first(plain)), std::as_bytes(view.modes_X16), std::as_bytes(view.modes_X8),
+          std::as_bytes(view.modes_scale)};
 }
 
 }  // namespace palpate::bench

@@ -20,10 +20,10 @@ constexpr int kPositions = 1000;
 bool fits(int nodes, int modes) {
   constexpr int kWays = 6;
   constexpr double kLength = 0.01;  // m
-  const MetaModel model = throughFile(syntheticModel({nodes, modes, kPositions}));
+  const MetaModel model = throughFile(storedModel({nodes, modes, kPositions}));
   const StepTimes times = timeSteps(model, 1, kWays, kLength);
   double bytes = 0.0;
-  for (const std::span<const std::byte> part : modeStorage(model.view()))
+  for (const std::span<const std::byte> part : modeStorage(model))
     bytes += static_cast<double>(part.size());
   const bool good = times.samples.quantile(0.99) < kPeriod;
   const double near_nodes =

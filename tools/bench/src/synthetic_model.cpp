@@ -7,6 +7,7 @@
 
 #include "ellipsoid.h"
 #include "palpate/core/multi_index.h"
+#include "palpate/modelfile/mixed_precision.h"
 #include "synthetic_fields.h"
 
 namespace palpate::bench {
@@ -19,6 +20,7 @@ const Vec3 kSemiAxes(0.085, 0.075, 0.070);  // m; the default organ's surface is
 constexpr double kStiffness = 500.0;        // N/m
 constexpr double kReference = 0.004;        // d_ref, m
 constexpr double kDomain = 0.0065;          // d_max, m
+constexpr double kOwnError = 0.005;         // of the fields, over the displacement
 constexpr int kOrder = 3, kForceOrder = 6;
 
 /// Distance between neighbours, m, as if each had its share of the area in a triangular grid.
@@ -122,6 +124,12 @@ ModelData syntheticModel(const SyntheticSize& size) {
   fillContact(surface, data);
   fillModes(surface, size.modes, data);
   fillNear(surface, data);
+  return data;
+}
+
+ModelData storedModel(const SyntheticSize& size) {
+  ModelData data = syntheticModel(size);
+  (void)modelfile::storeMixed(data, kOwnError);
   return data;
 }
 
