@@ -89,6 +89,13 @@ TEST(Bench, ScaleNamesTheLargestModelThatFits) {
               MatchesRegex("(.|\n)*largest at 1 kHz: [0-9]+ surface nodes x 20 modes with near field\n"));
 }
 
+TEST(Bench, RunsWithThePriorityOfTheTickOrSaysThatItMayNot) {
+  const Outcome run = bench("--realtime --benchmark_list_tests", "2>&1 >/dev/null");
+  if (run.code == 0) return;
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.output, HasSubstr("palpate-bench: --realtime: SCHED_FIFO 80 is not granted"));
+}
+
 TEST(Bench, RefusesAProcessorThatIsNotThereAndAModelThatIsNone) {
   const Outcome cpu = bench("--cpu 1000 --benchmark_list_tests", "2>&1 >/dev/null");
   EXPECT_EQ(cpu.code, 1);

@@ -24,6 +24,7 @@ namespace {
 struct Options {
   std::string model;
   int cpu{-1};
+  bool realtime{false};
   bool scale{false};
   int modes{100};
 };
@@ -50,6 +51,7 @@ std::optional<std::filesystem::path> chooseModel(const Options& options) {
 int run(const Options& options, double seconds) {
   // 1. One processor, and what disturbs on it.
   const int cpu = pinTo(options.cpu);
+  if (options.realtime) raiseLikeTheTick();
   for (const std::string& what : disturbances(cpu)) std::cerr << "palpate-bench: " << what << "\n";
   benchmark::AddCustomContext("pinned_to_cpu", std::to_string(cpu));
   benchmark::AddCustomContext("eigen_instructions", eigenInstructions());
@@ -86,6 +88,8 @@ int main(int argc, char** argv) {
                  "build/demo/liver.h5, if there is one");
   app.add_option("--cpu", options.cpu, "processor to run on; -1: the last one that may be used")
       ->capture_default_str();
+  app.add_flag("--realtime", options.realtime,
+               "run with the priority of the tick, SCHED_FIFO 80: other work on that processor waits");
   app.add_flag("--scale", options.scale, "instead print the largest synthetic model whose step() fits 1 kHz");
   app.add_option("--modes", options.modes, "modes of these models")
       ->check(CLI::Range(20, 1000))

@@ -10,6 +10,10 @@ namespace palpate::bench {
 /// @return the number. @throw std::runtime_error when it may not run there
 int pinTo(int cpu);
 
+/// Gives this thread the tick's policy and priority, SCHED_FIFO 80: whatever else wants its processor waits.
+/// @throw std::runtime_error when that is not granted
+void raiseLikeTheTick();
+
 /// What on this machine disturbs measurements on that processor, one sentence each: other load, a governor that is not
 /// "performance". Empty: nothing was found.
 [[nodiscard]] std::vector<std::string> disturbances(int cpu);
