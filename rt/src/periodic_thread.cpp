@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <string>
@@ -28,10 +29,11 @@ std::int64_t pageFaultsOfThisThread() noexcept {
 
 }  // namespace
 
-Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns,
-                      std::int64_t now_ns) noexcept PALPATE_NONBLOCKING {
+Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns, std::int64_t now_ns,
+                      std::int64_t shift_ns) noexcept PALPATE_NONBLOCKING {
   const std::int64_t missed = now_ns > last_ns ? (now_ns - last_ns) / period_ns : 0;
-  return {last_ns + (missed + 1) * period_ns, static_cast<std::uint64_t>(missed)};
+  const std::int64_t next_ns = last_ns + (missed + 1) * period_ns + shift_ns;
+  return {std::max(next_ns, now_ns + 1), static_cast<std::uint64_t>(missed)};
 }
 
 PeriodicThread::PeriodicThread(const ThreadOptions& options, std::int64_t period_ns, Function function,
@@ -55,9 +57,9 @@ void PeriodicThread::run(std::int64_t period_ns, Function function, void* contex
   while (!stopping_.load(std::memory_order_relaxed)) {
     sleepUntil(cycle.deadline_ns);
     cycle.woke_ns = monotonicNow();
-    function(context, cycle);
+    const std::int64_t shift_ns = function(context, cycle);
     const std::int64_t now_ns = monotonicNow();
-    const Deadline next = nextDeadline(cycle.deadline_ns, period_ns, now_ns);
+    const Deadline next = nextDeadline(cycle.deadline_ns, period_ns, now_ns, shift_ns);
     cycle.previous_ns = now_ns - cycle.woke_ns;
     cycle.deadline_ns = next.ns;
     cycle.overruns += next.missed;

@@ -21,6 +21,7 @@ struct Given {
   std::optional<std::int64_t> tools;
   std::optional<double> rate;
   std::optional<double> surface_rate;
+  std::optional<bool> phase_lock;
   std::optional<double> tip_radius;
   std::optional<double> friction;
   std::optional<double> force_rate_limit;
@@ -70,6 +71,8 @@ void declare(CLI::App& app, Given& given) {
   app.add_option("--surface-rate", given.surface_rate,
                  "Surface fields per second, 0.1 or more, default inf: with every tick")
       ->type_name("HZ");
+  app.add_flag("--phase-lock,!--no-phase-lock", given.phase_lock,
+               "Ticks follow the poses' arrival, so that a pose waits little for its tick");
   app.add_option("--organ-id", given.organ_id, "Key of the surface topics, default 0");
   app.add_option("--server-id", given.server_id, "Key of the status topic, default 0");
   app.footer(
@@ -135,6 +138,7 @@ ServerConfig combine(const Given& given) {
   overwrite(given.server_id, config.server_id);
   overwrite(given.organ_id, config.organ_id);
   overwrite(given.surface_rate, config.surface_rate);
+  overwrite(given.phase_lock, config.phase_lock);
   combineContact(given, config.step);
   combineDevice(given, config);
   takeWord("--realtime", [&] {

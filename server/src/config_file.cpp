@@ -21,6 +21,10 @@ class KeyReader {
     readAs(key, "a string",
            [&](const toml::node& node) { return assign(node.value_exact<std::string>(), out); });
   }
+  void read(const std::string& key, bool& out) {
+    readAs(key, "true or false",
+           [&](const toml::node& node) { return assign(node.value_exact<bool>(), out); });
+  }
   void read(const std::string& key, std::int64_t& out) {
     readAs(key, "an integer",
            [&](const toml::node& node) { return assign(node.value_exact<std::int64_t>(), out); });
@@ -157,6 +161,7 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   keys.read("server_id", config.server_id);
   keys.read("organ_id", config.organ_id);
   keys.read("surface_rate", config.surface_rate);
+  keys.read("phase_lock", config.phase_lock);
   readTools(keys, config.step);
   readTool(keys, config.step);
   readDevice(keys, config);

@@ -5,6 +5,7 @@
 
 #include "palpate/core/status_flags.h"
 #include "palpate/rt/clock.h"
+#include "palpate/rt/phase_lock.h"
 
 namespace palpate::server {
 namespace {
@@ -46,6 +47,7 @@ constexpr std::uint64_t kChangedKind = kOverrunKind + 4;
 constexpr std::uint64_t kRefusedKind = kOverrunKind + 7;
 constexpr std::uint64_t kRecordingFailedKind = kOverrunKind + 5;
 constexpr std::uint64_t kUnrecordedKind = kOverrunKind + 6;
+constexpr std::uint64_t kPhaseKind = kOverrunKind + 8;
 
 }  // namespace
 
@@ -113,6 +115,7 @@ void Events::noteRecording(std::int64_t now_ns) {
 void Events::noteTick(const TickRecord& record, std::int64_t now_ns) {
   health_.wakeup.add(record.wakeup_ns);
   if (record.ticks > 1) health_.tick.add(record.previous_tick_ns);
+  notePhase(record.phase, now_ns);
   if (record.overruns > health_.last.overruns) {
     warn(kOverrunKind, "ticks missed (" + std::to_string(record.overruns) + " so far)", now_ns);
   }
@@ -127,6 +130,18 @@ void Events::noteTick(const TickRecord& record, std::int64_t now_ns) {
     health_.recent_flags |= record.flags[tool];
   }
   health_.last = record;
+}
+
+// On the way to a phase there is nothing to tell; what it comes to is told, the newest if there is much of it.
+void Events::notePhase(std::uint32_t phase, std::int64_t now_ns) {
+  const auto state = static_cast<rt::PhaseState>(phase);
+  if (phase == told_phase_ || phase == 0 || state == rt::PhaseState::kSeeking) return;
+  if (!isDue(kPhaseKind, now_ns)) return;
+  told_phase_ = phase;
+  if (state == rt::PhaseState::kLocked) info("phase lock: ticks follow the poses");
+  if (state == rt::PhaseState::kFree) info("phase lock: no poses to follow, ticks keep their phase");
+  if (state == rt::PhaseState::kWaiting)
+    info("phase lock: poses come unevenly or not at the ticks' rate, ticks keep their phase for a while");
 }
 
 void Events::noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns) {

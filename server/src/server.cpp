@@ -43,7 +43,7 @@ std::int64_t periodOf(const ServerConfig& config) {
 
 TickPlan planOf(const ServerConfig& config) {
   const double surface_rate = std::min(config.surface_rate, config.rate);
-  return {periodOf(config), std::llround(1e9 / surface_rate)};
+  return {periodOf(config), std::llround(1e9 / surface_rate), config.phase_lock};
 }
 
 record::SessionFacts sessionOf(const Facts& facts) {

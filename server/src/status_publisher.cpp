@@ -53,6 +53,7 @@ dds::ServerStatus toWire(const Facts& facts, const Health& health, std::uint32_t
   status.flags = health.recent_flags;
   status.tick_us = percentiles(health.tick);
   status.wakeup_us = percentiles(health.wakeup);
+  status.phase_lock = health.last.phase;
   dds::assignText(status.message, health.message);
   return status;
 }

@@ -18,7 +18,7 @@ bool isZero(const std::array<double, 3>& force) noexcept PALPATE_NONBLOCKING {
 
 }  // namespace
 
-void Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   // 1. What the tools want: the newest pose of each, and its age by our clock.
   readPoses(cycle);
   // 2. What the organ answers.
@@ -31,10 +31,13 @@ void Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   writeSurface(cycle);
   // 5. What went in and came out, for a session that is recorded.
   writeRecording(cycle);
-  // 6. How it went, for whoever watches.
+  // 6. When the next tick is to be.
+  followPoses(cycle);
+  // 7. How it went, for whoever watches.
   writeRecord(cycle);
-  // 7. At the end of the server: tell when nothing pushes any more.
+  // 8. At the end of the server: tell when nothing pushes any more.
   reportZeroForce();
+  return shift_ns_;
 }
 
 void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
@@ -54,8 +57,8 @@ void Tick::readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONB
   const std::uint64_t known = ledger.pose.received;
   const std::uint64_t unordered = ledger.pose.unordered;
   (void)channels_.poses[tool].read(ledger.pose);
-  ledger.fresh = ledger.pose.received != known;  // what is read may tell of a second publisher only
-  if (ledger.fresh) ledger.superseded += ledger.pose.received - known - 1;
+  ledger.came = ledger.pose.received - known;  // what is read may tell of a second publisher only
+  if (ledger.came > 0) ledger.superseded += ledger.came - 1;
   ToolInput& input = input_.tools[tool];
   input.present = seen(tool) ? 1 : 0;
   input.position = ledger.pose.position;
@@ -76,7 +79,7 @@ std::uint32_t Tick::noticed(const PoseSample& pose, std::uint64_t unordered_befo
 void Tick::countRejectedPoses() noexcept PALPATE_NONBLOCKING {
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
     const std::uint32_t flags = result_.tools[tool].flags;
-    if (ledgers_[tool].fresh && (flags & (kNonFinitePose | kNonUnitQuaternion)) != 0) ++rejected_;
+    if (ledgers_[tool].came > 0 && (flags & (kNonFinitePose | kNonUnitQuaternion)) != 0) ++rejected_;
   }
 }
 
@@ -153,10 +156,25 @@ void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 
+// The tool that came first keeps the phase until its poses end; then the first of those whose poses come has it.
+void Tick::followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  const auto comes = [&](std::size_t tool) {
+    return seen(tool) && cycle.woke_ns - ledgers_[tool].pose.arrival_ns <= kRecent;
+  };
+  for (std::size_t tool = 0; tool < ledgers_.size() && !comes(followed_); ++tool) {
+    if (!comes(tool)) continue;
+    followed_ = tool;
+    phase_.restart();
+  }
+  const Ledger& ledger = ledgers_[followed_];
+  if (plan_.phase_lock) shift_ns_ = phase_.follow(cycle.deadline_ns, {ledger.came, ledger.pose.arrival_ns});
+}
+
 void Tick::writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   TickRecord record;
   record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
   record.previous_tick_ns = cycle.previous_ns;
+  record.phase = plan_.phase_lock ? static_cast<std::uint32_t>(phase_.state()) : 0;
   record.ticks = cycle.index + 1;
   record.overruns = cycle.overruns;
   record.rejected = rejected_;

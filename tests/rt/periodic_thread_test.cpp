@@ -33,23 +33,38 @@ TEST(NextDeadline, IsNeverInThePast) {
     EXPECT_GT(nextDeadline(0, kPeriod, now).ns, now);
 }
 
+TEST(NextDeadline, AShiftMovesTheGridAndIsNeverAReasonToMissAPeriod) {
+  for (const std::int64_t shift : {-10'000, 10'000}) {
+    const Deadline next = nextDeadline(5 * kPeriod, kPeriod, 5 * kPeriod + kPeriod / 3, shift);
+    EXPECT_EQ(next.ns, 6 * kPeriod + shift);
+    EXPECT_EQ(next.missed, 0U);
+  }
+  const std::int64_t busy_until = 6 * kPeriod - 4'000;  // later than the shifted deadline
+  const Deadline next = nextDeadline(5 * kPeriod, kPeriod, busy_until, -10'000);
+  EXPECT_EQ(next.ns, busy_until + 1);
+  EXPECT_EQ(next.missed, 0U);
+  EXPECT_EQ(nextDeadline(5 * kPeriod, kPeriod, 8 * kPeriod + 1, 10'000).missed, 3U);
+}
+
 struct Log {
   static constexpr std::size_t kCycles = 40;
   std::array<Cycle, kCycles> cycles;
   std::size_t count{0};
+  bool pause{true};
   Semaphore done;
 };
 
 // Cycle 10 blocks for 5.5 periods: the overrun that the test is about.
-void logCycle(void* context, const Cycle& cycle) noexcept {
+std::int64_t logCycle(void* context, const Cycle& cycle) noexcept {
   auto& log = *static_cast<Log*>(context);
-  if (log.count == Log::kCycles) return;
+  if (log.count == Log::kCycles) return 0;
   log.cycles[log.count] = cycle;
-  if (log.count == 10) {
+  if (log.count == 10 && log.pause) {
     const timespec pause = toTimespec(5 * kPeriod + kPeriod / 2);
     nanosleep(&pause, nullptr);
   }
   if (++log.count == Log::kCycles) log.done.post();
+  return 0;
 }
 
 // The compiler knows that this cycle may block: the test is about what happens then.
@@ -78,6 +93,32 @@ TEST(PeriodicThread, MissedPeriodsAreCountedAndNeverBunched) {
   }
   EXPECT_GE(log.cycles[11].overruns - log.cycles[10].overruns, 5U);
   EXPECT_GE(log.cycles[11].previous_ns, 5 * kPeriod);
+}
+
+// Asks for another 1 % of a period each time: the grid moves by just that, and no period is missed for it.
+std::int64_t shiftCycle(void* context, const Cycle& cycle) noexcept {
+  (void)logCycle(context, cycle);
+  return cycle.index < 20 ? 10'000 : -10'000;
+}
+
+PALPATE_TRUSTED_BEGIN
+constexpr PeriodicThread::Function kShiftCycle = shiftCycle;
+PALPATE_TRUSTED_END
+
+TEST(PeriodicThread, MovesItsGridByWhatTheCycleAsksFor) {
+  Log log;
+  log.pause = false;
+  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kPeriod, kShiftCycle, &log);
+  log.done.wait();
+  thread.stop();
+  for (std::size_t i = 1; i < Log::kCycles; ++i) {
+    const Cycle &last = log.cycles[i - 1], &cycle = log.cycles[i];
+    const auto periods = static_cast<std::int64_t>(1 + cycle.overruns - last.overruns);
+    if (last.woke_ns + cycle.previous_ns >= cycle.deadline_ns - 1)
+      continue;  // a stall ended in the last microseconds
+    const std::int64_t shift = cycle.deadline_ns - last.deadline_ns - periods * kPeriod;
+    EXPECT_EQ(shift, last.index < 20 ? 10'000 : -10'000) << i;
+  }
 }
 
 TEST(PeriodicThread, RefusesAPeriodOfZero) {

@@ -40,13 +40,15 @@ class ConfigFile : public ::testing::Test {
 
 TEST_F(ConfigFile, SetsWhatItNamesAndLeavesTheRest) {
   const ServerConfig config = read(
-      "model = \"organ.h5\"\ndomain = 7\nrate = 500\nrealtime = \"off\"\nsurface_rate = 60\n"
+      "model = \"organ.h5\"\ndomain = 7\nrate = 500\nrealtime = \"off\"\nsurface_rate = 60\nphase_lock = "
+      "true\n"
       "[tool]\nforce_limit = 2.5\n");
   EXPECT_EQ(config.model, path_.parent_path() / "organ.h5") << "relative to the file";
   EXPECT_EQ(config.domain, 7);
   EXPECT_EQ(config.rate, 500.0) << "an integer is a number too";
   EXPECT_EQ(config.realtime, rt::RealtimePolicy::kOff);
   EXPECT_EQ(config.surface_rate, 60.0);
+  EXPECT_TRUE(config.phase_lock);
   EXPECT_EQ(config.step.force_limit, 2.5);
   EXPECT_EQ(config.step.tip_radius, StepConfig{}.tip_radius);
 }
@@ -63,6 +65,7 @@ TEST_F(ConfigFile, TheSampleHoldsTheDefaults) {
   EXPECT_EQ(sample.rate, defaults.rate);
   EXPECT_EQ(sample.realtime, defaults.realtime);
   EXPECT_EQ(sample.surface_rate, defaults.surface_rate);
+  EXPECT_EQ(sample.phase_lock, defaults.phase_lock);
   EXPECT_EQ(sample.step.tip_radius, defaults.step.tip_radius);
   EXPECT_EQ(sample.step.force_limit, defaults.step.force_limit);
   EXPECT_EQ(sample.step.stale_timeout, defaults.step.stale_timeout);
@@ -97,6 +100,7 @@ TEST_F(ConfigFile, RefusesEmptyWordsByNameAndLine) {
 TEST_F(ConfigFile, RefusesAWrongTypeByNameAndLine) {
   EXPECT_EQ(refusal("rate = \"fast\""), ":1: rate is of type string, expected a number");
   EXPECT_EQ(refusal("\ndomain = 1.5"), ":2: domain is of type floating-point, expected an integer");
+  EXPECT_EQ(refusal("phase_lock = 1"), ":1: phase_lock is of type integer, expected true or false");
   EXPECT_EQ(refusal("rate = true"), ":1: rate is of type boolean, expected a number");
   EXPECT_EQ(refusal("model = 3"), ":1: model is of type integer, expected a string");
   EXPECT_EQ(refusal("tool = 3"), ":1: tool is not a table");

@@ -58,6 +58,24 @@ TEST_F(EventsTest, GathersTheTimesOfEveryTick) {
   EXPECT_EQ(events_.health().last.ticks, 100U);
 }
 
+TEST_F(EventsTest, TellsWhereThePhaseCameToAndNotTheWayThere) {
+  const auto come = [&](rt::PhaseState state, std::int64_t now_ns) {
+    TickRecord record;
+    record.phase = static_cast<std::uint32_t>(state);
+    ASSERT_TRUE(channels_->ticks.push(record));
+    events_.drain(now_ns);
+  };
+  come(rt::PhaseState::kFree, kSecond);
+  come(rt::PhaseState::kSeeking, kSecond);
+  EXPECT_EQ(takeLog(), "");
+  come(rt::PhaseState::kLocked, kSecond + 1);
+  come(rt::PhaseState::kSeeking, kSecond + 2);
+  come(rt::PhaseState::kLocked, kSecond + 3);
+  EXPECT_EQ(takeLog(), "phase lock: ticks follow the poses\n");
+  come(rt::PhaseState::kFree, 3 * kSecond);
+  EXPECT_EQ(takeLog(), "phase lock: no poses to follow, ticks keep their phase\n");
+}
+
 TEST_F(EventsTest, AFlagIsLoggedWhenItBeginsAndAtMostOnceASecond) {
   TickRecord record;
   record.seen[1] = 1;

@@ -300,5 +300,17 @@ TEST_F(ServerEndToEnd, StopsWithZeroForceWhenNobodyReadsItsLog) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, ServerStops, ::testing::Values(SIGINT, SIGTERM));
 
+TEST_F(ServerEndToEnd, WithPhaseLockTheTicksFollowTheClient) {
+  start({"--phase-lock", "--surface-rate", "50"});
+  client_->startSending(atDepth(-0.002));
+  const auto locked = client_->waitForStatus(
+      [](const dds::ServerStatus& status) { return status.phase_lock == dds::phase::kLocked; });
+  ASSERT_TRUE(locked.has_value()) << server_->log();
+  client_->stopSending();
+  const auto free = client_->waitForStatus(
+      [](const dds::ServerStatus& status) { return status.phase_lock == dds::phase::kFree; });
+  EXPECT_TRUE(free.has_value()) << server_->log();
+}
+
 }  // namespace
 }  // namespace palpate::server::testing

@@ -63,7 +63,7 @@ class TickTest : public ::testing::Test {
     now_ns_ += kPeriod;
     cycle_.deadline_ns = now_ns_;
     cycle_.woke_ns = now_ns_ + 7;
-    tick_.run(cycle_);
+    shift_ns_ = tick_.run(cycle_);
     ++cycle_.index;
     cycle_.previous_ns = 50'000;
   }
@@ -98,6 +98,8 @@ class TickTest : public ::testing::Test {
   Tick tick_{model_, work_, *channels_, {kPeriod}};
   rt::Cycle cycle_;
   std::int64_t now_ns_{1'000'000'000};
+  std::int64_t shift_ns_{0};
+  std::int64_t last_pose_ns_{0};
   std::uint64_t pose_seq_{0};
   Vec3 place_;
   Vec3 normal_;
@@ -282,7 +284,7 @@ TEST_F(TickTest, WritesTheSurfaceAsOftenAsAskedInTheMeanAndTheForceEveryTick) {
     send(poseAtDepth(0, 0.000001 * i));
     now_ns_ += kPeriod;
     cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
-    seldom.run(cycle_);
+    (void)seldom.run(cycle_);
     ++cycle_.index;
     EXPECT_EQ(takeForces().size(), 1U);
     if (!channels_->surface.update()) continue;
@@ -301,7 +303,7 @@ TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
   const auto run = [&](int ticks) {
     for (int i = 0; i < ticks; ++i, now_ns_ += kPeriod) {
       cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
-      seldom.run(cycle_);
+      (void)seldom.run(cycle_);
     }
     (void)channels_->surface.update();
     return channels_->surface.front().seq;
@@ -309,6 +311,47 @@ TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
   EXPECT_EQ(run(20), 2U);
   now_ns_ += 500 * kPeriod;
   EXPECT_EQ(run(20), 4U);
+}
+
+// Two tools send at phases of their own, at 0.3 and 0.8 ms of each millisecond; the one that came first keeps its phase until it ends.
+TEST_F(TickTest, TheTicksFollowThePosesOfTheToolThatCameFirst) {
+  Tick tick(model_, work_, *channels_, {kPeriod, 0, true});
+  last_pose_ns_ = now_ns_;
+  const auto sendAt = [&](std::uint32_t tool, std::int64_t at_ns) {
+    if (at_ns > last_pose_ns_ && at_ns <= now_ns_) intake_.accept(poseAtDepth(tool, -0.01), kSender, at_ns);
+  };
+  const auto run = [&](int ticks, bool first, bool second) {
+    for (int i = 0; i < ticks; ++i) {
+      for (std::int64_t ms_ns = last_pose_ns_ / kPeriod * kPeriod; ms_ns <= now_ns_; ms_ns += kPeriod) {
+        if (first) sendAt(0, ms_ns + 300'000);
+        if (second) sendAt(1, ms_ns + 800'000);
+      }
+      last_pose_ns_ = now_ns_;
+      cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
+      now_ns_ += kPeriod + tick.run(cycle_);
+      ++cycle_.index;
+      (void)takeForces();
+    }
+    return takeLastRecord();
+  };
+  const auto lead = [&](std::int64_t at_ns) { return static_cast<double>(now_ns_ % kPeriod - at_ns); };
+  const auto locked = static_cast<std::uint32_t>(rt::PhaseState::kLocked);
+  EXPECT_EQ(run(300, true, true).phase, locked);
+  EXPECT_NEAR(lead(300'000), 80e3, 60e3) << "after the first tool's poses";
+  EXPECT_EQ(run(300, false, true).phase, locked);
+  EXPECT_NEAR(lead(800'000), 80e3, 60e3) << "after the second's, now that the first is gone";
+  EXPECT_EQ(run(300, true, true).phase, locked);
+  EXPECT_NEAR(lead(800'000), 80e3, 60e3) << "and so it stays";
+  EXPECT_EQ(run(300, false, false).phase, static_cast<std::uint32_t>(rt::PhaseState::kFree));
+}
+
+TEST_F(TickTest, WithoutPhaseLockTheTicksStayWhereTheyAre) {
+  for (int i = 0; i < 300; ++i) {
+    send(poseAtDepth(0, -0.01));
+    runOneTick();
+    ASSERT_EQ(shift_ns_, 0);
+  }
+  EXPECT_EQ(takeLastRecord().phase, 0U);
 }
 
 TEST_F(TickTest, TellsWhenZeroForceWasSent) {

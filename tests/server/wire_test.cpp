@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "palpate/rt/phase_lock.h"
 #include "palpate/server/force_publisher.h"
 #include "palpate/server/status_publisher.h"
 
@@ -58,6 +59,7 @@ TEST(StatusOnTheWire, SaysTimesInMicrosecondsAndCutsLongTexts) {
   facts.model_id = std::string(500, 'x');
   Health health;
   health.tick.add(2'000);
+  health.last.phase = static_cast<std::uint32_t>(rt::PhaseState::kLocked);
   health.last.dropped = 2;
   health.failed_writes = 3;
   const dds::ServerStatus status = toWire(facts, health, dds::server_state::kRunning);
@@ -66,8 +68,17 @@ TEST(StatusOnTheWire, SaysTimesInMicrosecondsAndCutsLongTexts) {
   EXPECT_EQ(status.tick_us.p50, 2.0);
   EXPECT_EQ(status.tick_us.max, 2.0);
   EXPECT_EQ(status.tick_us.count, 1U);
+  EXPECT_EQ(status.phase_lock, dds::phase::kLocked);
   EXPECT_EQ(status.dropped, 5U);
   EXPECT_EQ(std::string(status.model_id), std::string(sizeof status.model_id - 1, 'x'));
+}
+
+TEST(StatusOnTheWire, PhasesAreThoseOfTheLock) {
+  EXPECT_EQ(dds::phase::kOff, 0U);
+  EXPECT_EQ(dds::phase::kFree, static_cast<std::uint32_t>(rt::PhaseState::kFree));
+  EXPECT_EQ(dds::phase::kSeeking, static_cast<std::uint32_t>(rt::PhaseState::kSeeking));
+  EXPECT_EQ(dds::phase::kLocked, static_cast<std::uint32_t>(rt::PhaseState::kLocked));
+  EXPECT_EQ(dds::phase::kWaiting, static_cast<std::uint32_t>(rt::PhaseState::kWaiting));
 }
 
 TEST(StatusOnTheWire, SaysWhatTheHandFeels) {

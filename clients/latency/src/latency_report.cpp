@@ -18,6 +18,21 @@ std::string rowOf(const char* name, const client::TimeSummary& s) {
   return text.data();
 }
 
+const char* phaseName(const dds::ServerStatus& server) {
+  switch (server.phase_lock) {
+    case dds::phase::kFree:
+      return "free";
+    case dds::phase::kSeeking:
+      return "seeking";
+    case dds::phase::kLocked:
+      return "locked";
+    case dds::phase::kWaiting:
+      return "waiting";
+    default:
+      return "off";
+  }
+}
+
 report::Series barsOf(const char* name, const client::Histogram& histogram) {
   report::Series series{name, {}, {}, {}};
   for (const auto& bar : histogram.bars(10)) {
@@ -49,7 +64,8 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
   text += counters.data();
   text += std::string("real-time priority: server ") + (server.realtime ? "yes" : "no") + ", sender " +
           (sender.realtime ? "yes" : "no") +
-          "; server's memory locked: " + (server.memory_locked ? "yes" : "no") + "\n\n";
+          "; server's memory locked: " + (server.memory_locked ? "yes" : "no") + "\n";
+  text += std::string("phase lock: ") + phaseName(server) + "\n\n";
   return text + "pose to force:\n" + report::textHistogram(log.poseToForce());
 }
 
@@ -59,6 +75,7 @@ nlohmann::json jsonOf(const LatencyLog& log, const SenderStats& sender, const dd
           {"pose_to_force_less_wait_us", report::toJson(log.poseToForceLessWait().summary())},
           {"wakeup_us", report::toJson(log.wakeup().summary())},
           {"tick_us", report::toJson(log.tick().summary())},
+          {"phase_lock", phaseName(server)},
           {"client_wakeup_us", report::toJson(sender.wakeup.summary())},
           {"overruns", log.overruns()},
           {"lost", log.lost()},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-latency: how long a pose takes to become a force, and how steadily the server ticks.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <iostream>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "palpate/client/error.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/idl/reader.h"
 #include "palpate/report/program.h"
 
 namespace palpate::latency {
@@ -43,6 +45,16 @@ void addOptions(CLI::App& app, Options& options) {
   app.set_version_flag("--version", PALPATE_VERSION);
 }
 
+// What the server says by now, for the status is sent once a second.
+dds::ServerStatus newest(const dds::Reader<dds::ServerStatus>& statuses, const dds::ServerStatus& before) {
+  std::array<dds::ServerStatus, dds::kMaxTake> taken;
+  dds::ServerStatus status = before;
+  const std::size_t count = statuses.take(taken);
+  for (std::size_t i = 0; i < count; ++i)
+    if (taken[i].server_id == before.server_id) status = taken[i];
+  return status;
+}
+
 int body(int argc, char** argv) {
   // 1. What to do.
   CLI::App app("Sends poses to a palpate-server and measures round trip, tick time and wake-up lateness.");
@@ -57,7 +69,8 @@ int body(int argc, char** argv) {
   const dds::Participant participant(options.domain);
   std::cerr << "waiting for a server on DDS domain " << options.domain << "\n";
   const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
-  const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+  client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+  const dds::Reader<dds::ServerStatus> statuses(participant);
   const client::Spot spot = client::chooseSpot(server.surface, at);
   options.measure.tip_radius = server.status.tip_radius;
 
@@ -68,6 +81,8 @@ int body(int argc, char** argv) {
     std::cerr << "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
   if (log.received() == 0)
     throw client::ClientError("no force came back for " + std::to_string(sender.sent) + " poses");
+
+  server.status = newest(statuses, server.status);
 
   // 4. Tell.
   (options.json ? std::cerr : std::cout) << textOf(log, sender, server.status) << std::flush;

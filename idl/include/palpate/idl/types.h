@@ -66,6 +66,15 @@ inline constexpr std::uint32_t kRunning = palpate_SERVER_RUNNING;
 inline constexpr std::uint32_t kStopping = palpate_SERVER_STOPPING;
 }  // namespace server_state
 
+/// ServerStatus::phase_lock.
+namespace phase {
+inline constexpr std::uint32_t kOff = palpate_PHASE_OFF;
+inline constexpr std::uint32_t kFree = palpate_PHASE_FREE;
+inline constexpr std::uint32_t kSeeking = palpate_PHASE_SEEKING;
+inline constexpr std::uint32_t kLocked = palpate_PHASE_LOCKED;
+inline constexpr std::uint32_t kWaiting = palpate_PHASE_WAITING;
+}  // namespace phase
+
 /// Writes a text into a bounded IDL string, cut to fit, always terminated.
 /// Real-time: yes.
 template <std::size_t N>

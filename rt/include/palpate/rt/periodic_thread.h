@@ -29,9 +29,11 @@ struct Deadline {
 /// @param[in] last_ns    deadline of the cycle that just ended
 /// @param[in] period_ns  > 0
 /// @param[in] now_ns     time after the cycle
+/// @param[in] shift_ns   by how much the grid moves, less than a period either way. It is no reason for a missed period:
+///            where it would put the deadline into the past, the deadline is now, and the rest of the shift is dropped
 /// @return the first point of the grid after now_ns. Real-time: yes.
-[[nodiscard]] Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns,
-                                    std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
+[[nodiscard]] Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns, std::int64_t now_ns,
+                                    std::int64_t shift_ns = 0) noexcept PALPATE_NONBLOCKING;
 
 /// Calls a function once a period, paced by absolute sleeps on CLOCK_MONOTONIC.
 /// Threads: the function runs on the thread; the other members belong to the creator.
@@ -39,7 +41,8 @@ class PeriodicThread {
  public:
   /// A plain pointer and context: what it calls is visible, calling it cannot allocate, and where the compiler knows the
   /// effect a function that may block is refused.
-  using Function = void (*)(void* context, const Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  /// @return by how much the grid is to move, less than a period either way, ns; 0 keeps it where it is
+  using Function = std::int64_t (*)(void* context, const Cycle& cycle) noexcept PALPATE_NONBLOCKING;
 
   /// Starts at once.
   /// @param[in] period_ns  > 0

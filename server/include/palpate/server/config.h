@@ -44,6 +44,7 @@ struct ServerConfig {
   std::int64_t server_id{0};                                 ///< key of ServerStatus, in [0, 2^32 - 1]
   std::int64_t organ_id{0};                                  ///< key of the surface topics, in [0, 2^32 - 1]
   double surface_rate{kEveryTick};     ///< surface fields per second, Hz, in [0.1, kEveryTick]
+  bool phase_lock{false};              ///< ticks follow the poses' arrival
   std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
   std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
   DeviceOverrides said;                ///< of the file and the command line

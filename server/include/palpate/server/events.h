@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"
 #include "palpate/server/health.h"
 #include "palpate/server/parameter_service.h"
@@ -37,6 +38,7 @@ class Events {
   void noteUnknownTools(std::int64_t now_ns);
   void noteRecording(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
+  void notePhase(std::uint32_t phase, std::int64_t now_ns);
   void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
   /// Whether a line of this kind may be written: once a second.
   [[nodiscard]] bool isDue(std::uint64_t kind, std::int64_t now_ns);
@@ -52,6 +54,7 @@ class Events {
   std::map<std::uint64_t, std::int64_t> last_told_ns_;  // by kind of event; a fixed, small set
   bool changed_{true};                                  // since the last status
   std::int64_t published_ns_{0};
+  std::uint32_t told_phase_{static_cast<std::uint32_t>(rt::PhaseState::kFree)};
   bool recording_failed_{false};
   std::uint64_t unrecorded_{0};
 };

@@ -66,6 +66,7 @@ struct SurfaceFrame {
 struct TickRecord {
   std::int64_t wakeup_ns{0};
   std::int64_t previous_tick_ns{0};  ///< 0 in the first tick, which has none before it
+  std::uint32_t phase{0};            ///< rt::PhaseState; 0: the ticks' phase follows nobody
   std::uint64_t ticks{0};            ///< this one included
   std::uint64_t overruns{0};
   std::uint64_t superseded{0};

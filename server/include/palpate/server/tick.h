@@ -7,6 +7,7 @@
 
 #include "palpate/core/step.h"
 #include "palpate/rt/periodic_thread.h"
+#include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"
 
 namespace palpate::server {
@@ -15,7 +16,8 @@ namespace palpate::server {
 struct TickPlan {
   std::int64_t period_ns{1'000'000};  ///< of the loop
   std::int64_t surface_period_ns{
-      0};  ///< from one surface field to the next; up to period_ns: every tick has one
+      0};                  ///< from one surface field to the next; up to period_ns: every tick has one
+  bool phase_lock{false};  ///< ticks follow the poses' arrival
 };
 
 /// One tick: newest poses in, one step of the engine, forces and surface out (DESIGN 3.1, 3.3).
@@ -26,15 +28,16 @@ class Tick {
  public:
   /// The three references must outlive the tick.
   Tick(const MetaModel& model, Workspace& work, Channels& channels, const TickPlan& plan)
-      : model_(model), work_(work), channels_(channels), plan_(plan) {
+      : model_(model), work_(work), channels_(channels), plan_(plan), phase_(plan.period_ns) {
     input_.period_ns = plan.period_ns;
   }
 
-  void run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  /// @return by how much the ticks' grid is to move, ns
+  [[nodiscard]] std::int64_t run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
 
   /// run() for a PeriodicThread; context is the Tick.
-  static void onCycle(void* context, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
-    static_cast<Tick*>(context)->run(cycle);
+  static std::int64_t onCycle(void* context, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+    return static_cast<Tick*>(context)->run(cycle);
   }
 
  private:
@@ -43,7 +46,7 @@ class Tick {
     PoseSample pose;              // newest that a tick knew
     std::uint64_t force_seq{0};   // forces sent
     std::uint64_t superseded{0};  // poses that no tick ever knew
-    bool fresh{false};            // a pose came in since the last tick
+    std::uint64_t came{0};        // poses since the last tick
   };
 
   void readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
@@ -57,6 +60,7 @@ class Tick {
   void writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportZeroForce() noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool seen(std::size_t tool) const noexcept PALPATE_NONBLOCKING {
@@ -77,6 +81,9 @@ class Tick {
   std::int64_t last_woke_ns_{0};
   std::uint64_t last_overruns_{0};
   bool overrun_{false};  // ticks were missed before this one
+  rt::PhaseLock phase_;
+  std::size_t followed_{0};  // the tool whose poses set the phase
+  std::int64_t shift_ns_{0};
   std::uint64_t surface_seq_{0};
   std::int64_t next_surface_ns_{0};
   std::uint64_t rejected_{0};
