@@ -11,7 +11,7 @@ namespace palpate::rt {
 
 std::mutex mutex;
 
-void cycle(void*, const Cycle&) noexcept PALPATE_NONBLOCKING {
+std::int64_t cycle(void*, const Cycle&) noexcept PALPATE_NONBLOCKING {
 #if defined(kAllocates)
   std::free(std::malloc(100));
 #elif defined(kLocks)
@@ -20,10 +20,11 @@ void cycle(void*, const Cycle&) noexcept PALPATE_NONBLOCKING {
   const timespec pause{0, 1000};
   nanosleep(&pause, nullptr);
 #endif
+  return 0;
 }
 
 #if defined(kCycleThatMayBlock)
-void mayBlock(void*, const Cycle&) noexcept;
+std::int64_t mayBlock(void*, const Cycle&) noexcept;
 PeriodicThread::Function chosen = mayBlock;
 #else
 PeriodicThread::Function chosen = cycle;

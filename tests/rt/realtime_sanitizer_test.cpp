@@ -42,9 +42,10 @@ void innocent() noexcept {
   delete new int volatile(1);
 }
 
-void cycleThatAllocatesInside(void* context, const Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+std::int64_t cycleThatAllocatesInside(void* context, const Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (cycle.index == 3) innocent();
   if (cycle.index == 10) static_cast<Semaphore*>(context)->post();
+  return 0;
 }
 PALPATE_TRUSTED_END
 
@@ -78,6 +79,7 @@ TEST(RealtimeSanitizerDeathTest, FindsAnAllocationDeepInACycle) {
 TEST(RealtimeSanitizer, HasNothingAgainstAClockAndAPost) {
   const auto cycle = [](void* context, const Cycle& now) noexcept PALPATE_NONBLOCKING {
     if (now.index == 5 && monotonicNow() > 0) static_cast<Semaphore*>(context)->post();
+    return std::int64_t{0};
   };
   runCycles(cycle);
 }
