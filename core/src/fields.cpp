@@ -37,8 +37,8 @@ SeparatedField::SeparatedField(const ModelView& view)
     : X_(view.modes_X),
       Y_(view.modes_Y),
       modes_(static_cast<int>(view.modes())),
-      packed_{view.modes_X16, view.modes_X8, view.modes_scale},
-      counts_(countModes(packed_, view.modes(), 3 * view.surfaceNodes())),
+      packed_(view.modes_packed),
+      counts_(countModes(packed_, view.modes())),
       peak_(view.modes(), 0.0F) {
   const std::size_t numbers = 3 * view.surfaceNodes();
   for (std::size_t k = 0; k < peak_.size(); ++k) {
@@ -68,13 +68,11 @@ void SeparatedField::expand(std::span<const float> y, float unseen, ModeSelectio
                             std::span<float> u) const noexcept PALPATE_NONBLOCKING {
   addWeightedRows(X_.data(), u.size(), y.data(), counts_.f32, u.size(), u.data());
   if (packed_.empty()) return;
-  use.choose(y, peak_, packed_.scale, unseen);
+  use.choose(y, peak_, packed_, unseen);
   if (!use.finite()) std::fill(u.begin(), u.end(), std::numeric_limits<float>::quiet_NaN());
-  const ModeTiles tiles{packed_.X16.data(), counts_.f16, packed_.X8.data(), (counts_.i8 + 3) / 4};
-  const TileWeights weights{use.rows16().data(), use.weights16(), use.rows16().size(),
-                            use.quads8().data(), use.weights8(),  use.quads8().size(),
-                            use.unit8()};
-  addTiles(tiles, weights, u.size(), u.data());
+  const TileWeights weights{use.pairs16().data(), use.weights16(), use.pairs16().size(), use.unit16(),
+                            use.quads8().data(),  use.weights8(),  use.quads8().size(),  use.unit8()};
+  addTiles(packed_, counts_.pairs(), counts_.quads(), weights, u);
 }
 
 Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING {

@@ -69,11 +69,8 @@ struct FileType<std::int8_t> {
   static hid_t id() { return H5T_STD_I8LE; }
 };
 template <>
-struct FileType<std::uint16_t> {  // IEEE 754 halves; there are no other sixteen bits in a model file
-  static hid_t id() {
-    static const hid_t half = halfFloatType();  // HDF5 closes it at exit
-    return half;
-  }
+struct FileType<std::int16_t> {
+  static hid_t id() { return H5T_STD_I16LE; }
 };
 template <>
 struct FileType<std::int32_t> {
@@ -98,14 +95,6 @@ std::string describeType(hid_t type) {
 }
 
 }  // namespace
-
-std::int64_t halfFloatType() {
-  const hid_t type = H5Tcopy(H5T_IEEE_F32LE);
-  H5Tset_fields(type, 15, 10, 5, 0, 10);  // sign, exponent and its bits, mantissa and its bits
-  H5Tset_ebias(type, 15);
-  H5Tset_size(type, 2);
-  return type;
-}
 
 Hdf5Silence::Hdf5Silence() {
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
@@ -306,8 +295,8 @@ template std::span<const std::int64_t> Hdf5Reader::dataset(const std::string&,
                                                            std::initializer_list<Length*>) const;
 template std::span<const std::uint8_t> Hdf5Reader::dataset(const std::string&,
                                                            std::initializer_list<Length*>) const;
-template std::span<const std::uint16_t> Hdf5Reader::dataset(const std::string&,
-                                                            std::initializer_list<Length*>) const;
+template std::span<const std::int16_t> Hdf5Reader::dataset(const std::string&,
+                                                           std::initializer_list<Length*>) const;
 template std::span<const std::int8_t> Hdf5Reader::dataset(const std::string&,
                                                           std::initializer_list<Length*>) const;
 

@@ -26,13 +26,14 @@ int bucketOf(float share) noexcept {
 
 ModeSelection::ModeSelection(const ModeCounts& counts)
     : counts_(counts),
-      amount_(counts.f32 + counts.f16 + counts.i8),
-      row16_(counts.f16),
-      weight16_(counts.f16),
-      quad8_((counts.i8 + 3) / 4),
-      weight8_(quad8_.size()) {}
+      amount_(counts.f32 + counts.i16 + counts.i8),
+      whole_(4 * std::max(counts.pairs(), counts.quads())),
+      pair16_(counts.pairs()),
+      weight16_(counts.pairs()),
+      quad8_(counts.quads()),
+      weight8_(counts.quads()) {}
 
-int ModeSelection::firstSeen(float per_tolerance) const noexcept {
+int ModeSelection::firstSeen(float per_tolerance) const noexcept PALPATE_NONBLOCKING {
   std::array<float, kBuckets + 1> sum{};  // of shares of the tolerance
   for (const float amount : amount_) {
     const float share = amount * per_tolerance;
@@ -46,51 +47,54 @@ int ModeSelection::firstSeen(float per_tolerance) const noexcept {
   return kBuckets;
 }
 
-void ModeSelection::choose(std::span<const float> y, std::span<const float> peak,
-                           std::span<const float> scale, float unseen) noexcept PALPATE_NONBLOCKING {
-  for (std::size_t k = 0; k < y.size(); ++k) amount_[k] = std::abs(y[k]) * peak[k];
-  const float per_tolerance = unseen > 0.0F ? 1.0F / unseen : 0.0F;
-  const int first = unseen > 0.0F ? firstSeen(per_tolerance) : 0;
-  const auto seen = [&](std::size_t k) noexcept {
-    return amount_[k] != 0.0F && bucketOf(amount_[k] * per_tolerance) >= first;
-  };
-  count16_ = 0;
-  for (std::size_t row = 0; row < counts_.f16; ++row) {
-    const std::size_t k = counts_.f32 + row;
-    if (!seen(k)) continue;
-    row16_[count16_] = static_cast<std::uint32_t>(row);
-    weight16_[count16_++] = y[k] * scale[row];
-  }
-  chooseQuads(y.subspan(counts_.f32 + counts_.f16), scale.subspan(std::min(scale.size(), counts_.f16)), seen);
+bool ModeSelection::anySeen(std::size_t first, std::size_t count) const noexcept PALPATE_NONBLOCKING {
+  for (std::size_t k = first; k < std::min(first + count, amount_.size()); ++k)
+    if (amount_[k] != 0.0F && bucketOf(amount_[k] * per_tolerance_) >= first_seen_) return true;
+  return false;
 }
 
-template <typename Seen>
-void ModeSelection::chooseQuads(std::span<const float> y, std::span<const float> scale,
-                                const Seen& seen) noexcept {
-  const std::size_t first = counts_.f32 + counts_.f16;
+/// Weights in units of what is returned; 0: all of them are none, or no numbers.
+float ModeSelection::findWeights(std::span<const float> y, std::span<const float> scale,
+                                 std::span<std::int16_t> weight) noexcept PALPATE_NONBLOCKING {
   float sum = 0.0F, most = 0.0F;
-  for (std::size_t k = 0; k < y.size(); ++k) {
-    const float weight = std::abs(y[k] * scale[k]);
-    sum += weight;
-    most = std::max(most, weight);
+  for (std::size_t k = 0; k < scale.size(); ++k) {
+    const float amount = std::abs(y[k] * scale[k]);
+    sum += amount;
+    most = std::max(most, amount);
   }
-  count8_ = 0;
-  unit8_ = 0.0F;
-  finite_ = sum <= std::numeric_limits<float>::max();
-  const float whole = std::max(sum / static_cast<float>(kLargestSum - y.size()), most / 32767.0F);
-  if (!finite_ || !(whole >= std::numeric_limits<float>::min())) return;
-  unit8_ = whole / 256.0F;
-  const float per_whole = 1.0F / whole;
-  const auto weight = [&](std::size_t k) noexcept {
-    const float amount = k < y.size() ? y[k] * scale[k] * per_whole : 0.0F;
-    return static_cast<std::int16_t>(static_cast<int>(amount + (amount < 0.0F ? -0.5F : 0.5F)));
-  };
-  for (std::size_t k = 0; k < y.size(); k += 4) {
-    bool any = false;
-    for (std::size_t m = k; m < std::min(k + 4, y.size()); ++m) any = any || seen(first + m);
-    if (!any) continue;
-    quad8_[count8_] = static_cast<std::uint32_t>(k / 4);
-    weight8_[count8_++] = {{weight(k + 1), weight(k + 3)}, {weight(k), weight(k + 2)}};
+  const float unit = std::max(sum / static_cast<float>(kLargestSum - scale.size()), most / 32767.0F);
+  if (!(sum <= std::numeric_limits<float>::max())) finite_ = false;
+  if (!finite_ || !(unit >= std::numeric_limits<float>::min())) return 0.0F;
+  const float per_unit = 1.0F / unit;
+  for (std::size_t k = 0; k < scale.size(); ++k) {
+    const float amount = y[k] * scale[k] * per_unit;
+    weight[k] = static_cast<std::int16_t>(static_cast<int>(amount + (amount < 0.0F ? -0.5F : 0.5F)));
+  }
+  for (std::size_t k = scale.size(); k < weight.size(); ++k) weight[k] = 0;
+  return unit;
+}
+
+void ModeSelection::choose(std::span<const float> y, std::span<const float> peak, const PackedModes& packed,
+                           float unseen) noexcept PALPATE_NONBLOCKING {
+  for (std::size_t k = 0; k < y.size(); ++k) amount_[k] = std::abs(y[k]) * peak[k];
+  per_tolerance_ = unseen > 0.0F ? 1.0F / unseen : 0.0F;
+  first_seen_ = unseen > 0.0F ? firstSeen(per_tolerance_) : 0;
+  finite_ = true;
+  count16_ = count8_ = 0;
+  const std::size_t first16 = counts_.f32, first8 = counts_.f32 + counts_.i16;
+  unit16_ = findWeights(y.subspan(first16), packed.scale16, std::span(whole_).first(2 * counts_.pairs()));
+  for (std::size_t pair = 0; unit16_ > 0.0F && pair < counts_.pairs(); ++pair) {
+    if (!anySeen(first16 + 2 * pair, 2)) continue;
+    pair16_[count16_] = static_cast<std::uint32_t>(pair);
+    weight16_[count16_++] = {whole_[2 * pair], whole_[2 * pair + 1]};
+  }
+  unit8_ =
+      findWeights(y.subspan(first8), packed.scale8, std::span(whole_).first(4 * counts_.quads())) / 256.0F;
+  for (std::size_t quad = 0; unit8_ > 0.0F && quad < counts_.quads(); ++quad) {
+    if (!anySeen(first8 + 4 * quad, 4)) continue;
+    const std::int16_t* const w = whole_.data() + 4 * quad;
+    quad8_[count8_] = static_cast<std::uint32_t>(quad);
+    weight8_[count8_++] = {{w[1], w[3]}, {w[0], w[2]}};
   }
 }
 

@@ -167,24 +167,27 @@ void checkNear(const ModelView& v, const Checker& check) {
 
 /// What the tick reads is what X says, rounded.
 void checkPacked(const ModelView& v, const Checker& check) {
-  const PackedModes packed{v.modes_X16, v.modes_X8, v.modes_scale};
+  const PackedModes& packed = v.modes_packed;
   const std::size_t numbers = 3 * v.surfaceNodes();
-  const ModeCounts counts = countModes(packed, v.modes(), numbers);
-  check.require(counts.i8 <= ModeSelection::kMostInt8,
-                "/modes/X8 has " + std::to_string(counts.i8) + " modes",
-                "at most " + std::to_string(ModeSelection::kMostInt8));
-  for (std::size_t row = 0; row < packed.scale.size(); ++row)
-    if (!(std::isfinite(packed.scale[row]) && packed.scale[row] > 0.0F))
-      check.failAt("/modes/scale", row, "is " + text(packed.scale[row]), "more than 0");
+  const ModeCounts counts = countModes(packed, v.modes());
+  check.require(
+      std::max(counts.i16, counts.i8) <= ModeSelection::kMostModes,
+      "/modes/scale16 or scale8 has " + std::to_string(std::max(counts.i16, counts.i8)) + " numbers",
+      "at most " + std::to_string(ModeSelection::kMostModes));
+  const auto positive = [&](const char* dataset, std::span<const float> scale) {
+    for (std::size_t k = 0; k < scale.size(); ++k)
+      if (!(std::isfinite(scale[k]) && scale[k] > 0.0F))
+        check.failAt(dataset, k, "is " + text(scale[k]), "more than 0");
+  };
+  positive("/modes/scale16", packed.scale16);
+  positive("/modes/scale8", packed.scale8);
   for (std::size_t mode = counts.f32; mode < v.modes(); ++mode) {
-    const bool half = mode < counts.f32 + counts.f16;
-    const auto kind = half ? ModePrecision::kFloat16 : ModePrecision::kInt8;
+    const float bound = 0.51F * scaleOf(packed, counts, mode);
     for (std::size_t i = 0; i < numbers; ++i) {
       const float x = v.modes_X[mode * numbers + i], found = unpack(packed, counts, mode, i);
-      const float bound = 1.001F * roundingBound(kind, x, packed.scale[mode - counts.f32]);
       if (!(std::abs(found - x) <= bound))
-        check.failAt(half ? "/modes/X16, of /modes/X" : "/modes/X8, of /modes/X", mode * numbers + i,
-                     "is " + text(found), text(x) + " within " + text(bound));
+        check.failAt(mode < counts.f32 + counts.i16 ? "/modes/X16, of /modes/X" : "/modes/X8, of /modes/X",
+                     mode * numbers + i, "is " + text(found), text(x) + " within " + text(bound));
     }
   }
 }

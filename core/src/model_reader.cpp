@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model_reader.h"
 
-#include <algorithm>
-
 #include "hdf5_reader.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
@@ -88,24 +86,24 @@ void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size
 }
 
 /// Modes in mixed precision, of files that have them.
-void readPacked(const Hdf5Reader& file, const Lengths& size, ModelView& v) {
-  if (!file.hasDataset("modes/scale")) return;
-  Length tiles(tilesOf(3 * size.Ns.value)), halves("n16"), packed("n16 + n8"), tile(kTile), four(4);
-  v.modes_X16 = file.dataset<std::uint16_t>("modes/X16", {&tiles, &halves, &tile});
-  v.modes_scale = file.dataset<float>("modes/scale", {&packed});
-  if (packed.value == 0 || packed.value > size.n.value || packed.value < halves.value)
-    file.fail("/modes/scale has " + std::to_string(packed.value) + " numbers, expected " +
-              std::to_string(std::max<std::uint64_t>(halves.value, 1)) + " to " +
-              std::to_string(size.n.value));
-  Length quads((packed.value - halves.value + 3) / 4);
-  v.modes_X8 = file.dataset<std::int8_t>("modes/X8", {&tiles, &quads, &tile, &four});
+void readPacked(const Hdf5Reader& file, const Lengths& size, PackedModes& packed) {
+  if (!file.hasDataset("modes/scale8")) return;
+  Length tiles(tilesOf(3 * size.Ns.value)), tile(kTile), two(2), four(4), i16("n16"), i8("n8");
+  packed.scale16 = file.dataset<float>("modes/scale16", {&i16});
+  packed.scale8 = file.dataset<float>("modes/scale8", {&i8});
+  if (i16.value + i8.value > size.n.value)
+    file.fail("/modes/scale16 and scale8 have " + std::to_string(i16.value + i8.value) +
+              " numbers, expected at most " + size.n.text());
+  Length pairs((i16.value + 1) / 2), quads((i8.value + 3) / 4);
+  packed.X16 = file.dataset<std::int16_t>("modes/X16", {&tiles, &pairs, &tile, &two});
+  packed.X8 = file.dataset<std::int8_t>("modes/X8", {&tiles, &quads, &tile, &four});
 }
 
 void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   Length components(3 * size.Ns.value), offsets(size.M.value + 1), near("sum K");
   v.modes_X = file.dataset<float>("modes/X", {&size.n, &components});
   v.modes_Y = file.dataset<float>("modes/Y", {&size.M, &size.C, &size.n});
-  readPacked(file, size, v);
+  readPacked(file, size, v.modes_packed);
   v.near_offset = file.dataset<std::int64_t>("near/offset", {&offsets});
   v.near_node = file.dataset<std::int32_t>("near/node", {&near});
   Length field(3 * size.C.value * near.value);

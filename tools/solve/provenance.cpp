@@ -65,8 +65,8 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
   hash.add(data.levels_Z);
   hash.add(data.modes_X);
   hash.add(data.modes_Y);
-  hash.add(data.modes_X16);
-  hash.add(data.modes_X8);
+  hash.add(data.modes_packed.X16);
+  hash.add(data.modes_packed.X8);
   hash.add(data.near_field);
   data.attributes.model_id = hash.text();
   nlohmann::json provenance{{"program", "palpate-solve"},

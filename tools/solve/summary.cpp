@@ -71,9 +71,9 @@ void printTimes(const json& seconds) {
 
 void printStorage(const json& storage) {
   std::fprintf(stderr,
-               "modes kept as: %zu float32, %zu float16, %zu int8, %.2f MB; rounding costs %.3f %% of the "
+               "modes kept as: %zu float32, %zu int16, %zu int8, %.2f MB; rounding costs %.3f %% of the "
                "largest displacement\n",
-               storage["float32"].get<std::size_t>(), storage["float16"].get<std::size_t>(),
+               storage["float32"].get<std::size_t>(), storage["int16"].get<std::size_t>(),
                storage["int8"].get<std::size_t>(), 1e-6 * storage["bytes"].get<double>(),
                100.0 * storage["error_max"].get<double>());
 }
@@ -107,7 +107,7 @@ double ownError(const offline::BuildReport& report) {
 }
 
 json toJson(const modelfile::StorageReport& storage) {
-  return {{"float32", storage.counts.f32},  {"float16", storage.counts.f16},      {"int8", storage.counts.i8},
+  return {{"float32", storage.counts.f32},  {"int16", storage.counts.i16},        {"int8", storage.counts.i8},
           {"error_max", storage.error_max}, {"error_limit", storage.error_limit}, {"bytes", storage.bytes}};
 }
 

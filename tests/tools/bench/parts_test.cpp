@@ -74,7 +74,7 @@ TEST(BenchModel, StorageIsWhatTheTickReads) {
   const MetaModel model = bench::throughFile(storedModel(kSmall));
   std::size_t bytes = 0;
   for (const auto& part : bench::modeStorage(model)) bytes += part.size();
-  EXPECT_EQ(bytes, model.farField().bytes() + model.view().modes_scale.size_bytes());
+  EXPECT_EQ(bytes, model.farField().bytes());
   EXPECT_LT(bytes, model.view().modes_X.size_bytes()) << "some mode takes fewer bits";
 }
 

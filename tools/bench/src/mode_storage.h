@@ -14,8 +14,8 @@ namespace palpate::bench {
 [[nodiscard]] inline std::vector<std::span<const std::byte>> modeStorage(const MetaModel& model) {
   const ModelView& view = model.view();
   const std::size_t plain = model.farField().counts().f32 * 3 * view.surfaceNodes();
-  return {std::as_bytes(view.modes_X.first(plain)), std::as_bytes(view.modes_X16), std::as_bytes(view.modes_X8),
-          std::as_bytes(view.modes_scale)};
+  const PackedModes& packed = view.modes_packed;
+  return {std::as_bytes(view.modes_X.first(plain)), std::as_bytes(packed.X16), std::as_bytes(packed.X8)};
 }
 
 }  // namespace palpate::bench

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_sizes.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -64,14 +63,15 @@ void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t 
 }
 
 void checkPacked(const ModelData& d, std::size_t Ns) {
-  const std::size_t tile_numbers = tilesOf(3 * Ns) * kTile, packed = d.modes_scale.size();
-  if (packed > modeCount(d))
-    throw ModelFileError("/modes/scale has " + std::to_string(packed) + " numbers, expected at most " +
-                         std::to_string(modeCount(d)));
-  expectTuples("modes/X16", d.modes_X16.size(), tile_numbers);
-  const std::size_t halves = std::min(packed, d.modes_X16.size() / tile_numbers);
-  expectSize("modes/X16", d.modes_X16.size(), halves * tile_numbers);
-  expectSize("modes/X8", d.modes_X8.size(), (packed - halves + 3) / 4 * tile_numbers * 4);
+  const PackedModesData& packed = d.modes_packed;
+  const std::size_t i16 = packed.scale16.size(), i8 = packed.scale8.size();
+  if (i16 + i8 > modeCount(d))
+    throw ModelFileError("/modes/scale16 and scale8 have " + std::to_string(i16 + i8) +
+                         " numbers, expected at most " + std::to_string(modeCount(d)));
+  const ModeCounts counts = countModes(packed.view(), modeCount(d));
+  const std::size_t tile_numbers = tilesOf(3 * Ns) * kTile;
+  expectSize("modes/X16", packed.X16.size(), counts.pairs() * tile_numbers * 2);
+  expectSize("modes/X8", packed.X8.size(), counts.quads() * tile_numbers * 4);
 }
 
 void checkMesh(const ModelData& d) {

@@ -68,7 +68,7 @@ Samples sample(const ModelData& data, const Rows& X) {
 using Kinds = std::vector<ModePrecision>;
 
 /// Kind of each mode when rounding errors may have the standard deviation sigma: int8 where it costs least, then
-/// float16. @param size  of each mode's largest number in a typical field
+/// int16. @param size  of each mode's largest number in a typical field
 Kinds chooseKinds(std::span<const float> size, double sigma) {
   constexpr double kUniform = 0.29;  // standard deviation of a rounding error, in steps
   Kinds kinds(size.size(), ModePrecision::kFloat32);
@@ -86,7 +86,7 @@ Kinds chooseKinds(std::span<const float> size, double sigma) {
     }
   };
   fill(ModePrecision::kInt8, 1.0 / 127.0, 0.8 * sigma * sigma);
-  fill(ModePrecision::kFloat16, std::ldexp(1.0, -11), 0.2 * sigma * sigma);
+  fill(ModePrecision::kInt16, 1.0 / 32767.0, 0.2 * sigma * sigma);
   return kinds;
 }
 
@@ -94,7 +94,7 @@ ModeCounts count(const Kinds& kinds) {
   const auto of = [&](ModePrecision kind) {
     return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kind));
   };
-  return {of(ModePrecision::kFloat32), of(ModePrecision::kFloat16), of(ModePrecision::kInt8)};
+  return {of(ModePrecision::kFloat32), of(ModePrecision::kInt16), of(ModePrecision::kInt8)};
 }
 
 /// Modes by kind, each kind in the order it had.
@@ -111,7 +111,7 @@ std::vector<Index> orderOf(const Kinds& kinds) {
 struct Storage {
   std::vector<Index> order;
   ModeCounts counts;
-  ModelData packed;  ///< modes_X16, modes_X8, modes_scale only
+  PackedModesData packed;
   double error{0.0};
 };
 
@@ -119,9 +119,9 @@ Storage store(const Rows& X, const Samples& samples, const Kinds& kinds) {
   Storage storage{orderOf(kinds), count(kinds), {}, 0.0};
   const Rows ordered = X(storage.order, Eigen::all);
   const std::size_t numbers = static_cast<std::size_t>(X.cols());
-  packModes({ordered.data(), static_cast<std::size_t>(ordered.size())}, numbers, storage.counts,
-            storage.packed);
-  const PackedModes packed{storage.packed.modes_X16, storage.packed.modes_X8, storage.packed.modes_scale};
+  storage.packed =
+      packModes({ordered.data(), static_cast<std::size_t>(ordered.size())}, numbers, storage.counts);
+  const PackedModes packed = storage.packed.view();
   Rows error = Rows::Zero(X.rows(), X.cols());
   for (Index k = static_cast<Index>(storage.counts.f32); k < X.rows(); ++k)
     for (Index i = 0; i < X.cols(); ++i)
@@ -144,7 +144,7 @@ Storage search(const Rows& X, const Samples& samples, double limit) {
   double sigma = limit / 5.0;
   for (int trial = 0; trial < kTrials; ++trial) {
     Storage storage = store(X, samples, chooseKinds(size, sigma));
-    const std::size_t bytes = 4 * storage.counts.f32 + 2 * storage.counts.f16 + storage.counts.i8;
+    const std::size_t bytes = 4 * storage.counts.f32 + 2 * storage.counts.i16 + storage.counts.i8;
     const double error = std::max(storage.error, 1e-3 * limit);
     if (storage.error <= limit && bytes < fewest) {
       fewest = bytes;
@@ -178,15 +178,13 @@ StorageReport storeMixed(ModelData& data, double own_error) {
   const Rows X = Eigen::Map<const Rows>(data.modes_X.data(), static_cast<Index>(n),
                                         static_cast<Index>(data.modes_X.size() / n));
   Storage storage = search(X, sample(data, X), report.error_limit);
-  if (storage.packed.modes_scale.empty()) return report;
+  if (storage.packed.view().empty()) return report;
   reorder(storage, X, data);
-  data.modes_X16 = std::move(storage.packed.modes_X16);
-  data.modes_X8 = std::move(storage.packed.modes_X8);
-  data.modes_scale = std::move(storage.packed.modes_scale);
+  data.modes_packed = std::move(storage.packed);
   report.counts = storage.counts;
   report.error_max = storage.error;
-  report.bytes = 4 * storage.counts.f32 * static_cast<std::size_t>(X.cols()) + 2 * data.modes_X16.size() +
-                 data.modes_X8.size();
+  report.bytes = 4 * storage.counts.f32 * static_cast<std::size_t>(X.cols()) +
+                 2 * data.modes_packed.X16.size() + data.modes_packed.X8.size();
   return report;
 }
 

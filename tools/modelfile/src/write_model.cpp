@@ -32,10 +32,8 @@ hid_t fileType(float) {
 hid_t fileType(std::int8_t) {
   return H5T_STD_I8LE;
 }
-/// IEEE 754 halves: written as they are.
-hid_t fileType(std::uint16_t) {
-  static const hid_t half = halfFloatType();
-  return half;
+hid_t fileType(std::int16_t) {
+  return H5T_STD_I16LE;
 }
 hid_t fileType(std::int32_t) {
   return H5T_STD_I32LE;
@@ -55,8 +53,8 @@ hid_t memoryType(float) {
 hid_t memoryType(std::int8_t) {
   return H5T_NATIVE_INT8;
 }
-hid_t memoryType(std::uint16_t half) {
-  return fileType(half);
+hid_t memoryType(std::int16_t) {
+  return H5T_NATIVE_INT16;
 }
 hid_t memoryType(std::int32_t) {
   return H5T_NATIVE_INT32;
@@ -180,13 +178,14 @@ void writeContact(const Hdf5Handle& file, const ModelData& d, hsize_t M, hsize_t
 
 /// Modes in mixed precision, where there are any.
 void writePacked(const Hdf5Handle& file, const ModelData& d) {
-  if (d.modes_scale.empty()) return;
+  const PackedModesData& packed = d.modes_packed;
+  if (packed.view().empty()) return;
+  const ModeCounts counts = countModes(packed.view(), modeCount(d));
   const hsize_t tiles = tilesOf(d.modes_X.size() / modeCount(d));
-  const hsize_t halves = d.modes_X16.size() / (tiles * kTile),
-                quads = d.modes_X8.size() / (tiles * kTile * 4);
-  writeDataset(file, "modes/X16", d.modes_X16, {tiles, halves, kTile});
-  writeDataset(file, "modes/X8", d.modes_X8, {tiles, quads, kTile, 4});
-  writeDataset(file, "modes/scale", d.modes_scale, {d.modes_scale.size()});
+  writeDataset(file, "modes/X16", packed.X16, {tiles, counts.pairs(), kTile, 2});
+  writeDataset(file, "modes/X8", packed.X8, {tiles, counts.quads(), kTile, 4});
+  writeDataset(file, "modes/scale16", packed.scale16, {counts.i16});
+  writeDataset(file, "modes/scale8", packed.scale8, {counts.i8});
 }
 
 void writeDatasets(const Hdf5Handle& file, const ModelData& d) {

@@ -29,7 +29,4 @@ class Hdf5Handle {
   Close close_;
 };
 
-/// A new HDF5 type for IEEE 754 halves, little-endian, which HDF5 1.10 has not by itself; the caller closes it.
-[[nodiscard]] std::int64_t halfFloatType();
-
 }  // namespace palpate

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "palpate/core/packed_modes.h"
+
 namespace palpate {
 
 /// What is prescribed at the contact: the parameter of a model beside s.                       DESIGN 2.1, 2.2
@@ -67,9 +69,7 @@ struct ModelView {
   std::span<const double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::size_t level_functions{0};                      ///< C of a "level" model, else 0
   std::span<const float> modes_X;                      ///< [n][Ns][3] dimensionless
-  std::span<const std::uint16_t> modes_X16;            ///< PackedModes::X16, or empty
-  std::span<const std::int8_t> modes_X8;               ///< PackedModes::X8, or empty
-  std::span<const float> modes_scale;                  ///< PackedModes::scale, or empty
+  PackedModes modes_packed;                            ///< the modes as the tick reads them, or empty
   std::span<const float> modes_Y;                      ///< [M][C][n] scaled, m
   std::span<const std::int64_t> near_offset;           ///< [M+1] prefix sums of the near nodes' counts
   std::span<const std::int32_t> near_node;             ///< [sum K] surface nodes

@@ -22,15 +22,16 @@ struct StorageReport {
 /// Rounding may cost this much of the largest displacement, however large the model's own error is.
 inline constexpr double kMostRounding = 8e-4;
 
-/// Chooses for each mode float32, float16 or int8 with a scale, as few bits as keep the rounding of a field under a
+/// Chooses for each mode float32, int16 or int8 with a scale, as few bits as keep the rounding of a field under a
 /// tenth of the model's own error and under kMostRounding; measured on fields of random contacts within the domain,
 /// against the modes as they are.                                                                DESIGN 3.3
-/// Orders the modes by kind (modes_X and modes_Y) and fills modes_X16, modes_X8, modes_scale; those stay empty where
-/// all modes need float32. @param data  complete but for these  @param own_error  of the model's fields, over the
+/// Orders the modes by kind (modes_X and modes_Y) and fills modes_packed, which stays empty where all
+/// modes need float32. @param data  complete but for these  @param own_error  of the model's fields, over the
 /// displacement; 0 keeps float32. O(samples n Ns).
 StorageReport storeMixed(ModelData& data, double own_error);
 
-/// Modes as they are packed: of modes_X in the order of the file, from counts.f32 on. @param numbers  3 Ns
-void packModes(std::span<const float> X, std::size_t numbers, const ModeCounts& counts, ModelData& data);
+/// @param X  modes in the order of the file, of which those from counts.f32 on are packed  @param numbers  3 Ns
+[[nodiscard]] PackedModesData packModes(std::span<const float> X, std::size_t numbers,
+                                        const ModeCounts& counts);
 
 }  // namespace palpate::modelfile

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palpate/core/model_view.h"
+#include "palpate/core/packed_modes.h"
 
 namespace palpate::modelfile {
 
@@ -13,6 +14,16 @@ namespace palpate::modelfile {
 [[nodiscard]] inline int forceOrder(const ModelAttributes& a) {
   return a.force_order == 0 ? a.order : a.force_order;
 }
+
+/// What PackedModes views.
+struct PackedModesData {
+  std::vector<std::int16_t> X16;
+  std::vector<std::int8_t> X8;
+  std::vector<float> scale16;
+  std::vector<float> scale8;
+
+  [[nodiscard]] PackedModes view() const { return {X16, X8, scale16, scale8}; }
+};
 
 /// Everything that a model file holds, as vectors. Shapes are row-major as in core/README.md "The model
 /// file"; Ns surface nodes, T triangles, M contact positions, C coefficients of the fields
@@ -34,9 +45,7 @@ struct ModelData {
   std::vector<double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
   std::vector<double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::vector<float> modes_X;                      ///< [n][3 Ns]
-  std::vector<std::uint16_t> modes_X16;            ///< PackedModes::X16 (storeMixed()), or empty
-  std::vector<std::int8_t> modes_X8;               ///< PackedModes::X8, or empty
-  std::vector<float> modes_scale;                  ///< PackedModes::scale; empty: the tick reads modes_X
+  PackedModesData modes_packed;                    ///< storeMixed(), or empty: the tick reads modes_X
   std::vector<float> modes_Y;                      ///< [M][C][n] m
   std::vector<std::int64_t> near_offset;           ///< [M+1]
   std::vector<std::int32_t> near_node;             ///< [sum K]
