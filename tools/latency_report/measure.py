@@ -63,11 +63,8 @@ class Setup:
 
     def _affinity_of_the_tick(self):
         """Processors that the server's tick thread may use: cyclictest gets the same."""
-        server = Server(self, locked=False)
-        try:
+        with Server(self, locked=False) as server:
             return server.tick_cpus()
-        finally:
-            server.end()
 
     def _other_cpus(self):
         """Where the load goes: every processor but one that the tick may use."""
@@ -147,15 +144,18 @@ class Server:
         command = [setup.bin / "palpate-server", "--model", setup.model, "--domain", setup.domain, *setup.server_arguments]
         self._process = processes.start(command + (["--phase-lock"] if locked else []), setup.log("server"), setup.env)
 
-    def end(self):
-        code = processes.end(self._process)
-        if code != 0:
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        code = processes.end(self._process, patience=30.0)
+        if code != 0 and kind is None:  # else something else went wrong before
             raise Failure(f"palpate-server ended with code {code}: {processes.last_line(self._setup.log('server'))}")
 
     def tick_cpus(self):
-        """@throw Failure when no thread named tick comes up within 10 s"""
+        """@throw Failure when no thread named tick comes up within a minute"""
         tasks = pathlib.Path(f"/proc/{self._process.pid}/task")
-        for _ in range(100):
+        for _ in range(600):
             time.sleep(0.1)
             if self._process.poll() is not None:
                 break
@@ -175,7 +175,7 @@ def _name_of(task):
 
 def latency(setup, rate):
     """palpate-latency's report while a server runs. @param rate  of the poses, Hz"""
-    command = [setup.bin / "palpate-latency", "--domain", setup.domain, "--seconds", setup.seconds, "--rate", rate, "--json"]
+    command = [setup.bin / "palpate-latency", "--domain", setup.domain, "--seconds", setup.seconds, "--rate", rate, "--wait", 60, "--json"]
     report = json.loads(processes.output_of(command, setup.log("latency"), setup.seconds + 60, setup.env))
     names = {"wakeup": "wakeup_us", "tick": "tick_us", "pose_to_force": "pose_to_force_us",
              "pose_to_force_less_wait": "pose_to_force_less_wait_us"}

@@ -21,11 +21,8 @@ def _force(setup, name):
 
 
 def _palpate(setup):
-    server = measure.Server(setup, locked=False)
-    try:
+    with measure.Server(setup, locked=False):
         watched = {name: _force(setup, name) for name in VIEWERS}
-    finally:
-        server.end()
     found = dict(watched["0"])
     found["force_with_viewers"] = {name: one["pose_to_force"] for name, one in watched.items()}
     found["force_less_wait_with_viewers"] = {name: one["pose_to_force_less_wait"] for name, one in watched.items()}
@@ -35,11 +32,8 @@ def _palpate(setup):
 def _locked(setup):
     if not setup.phase_lock:
         return None
-    server = measure.Server(setup, locked=True)
-    try:
+    with measure.Server(setup, locked=True):
         return measure.latency(setup, LOCKED_RATE)["pose_to_force"]
-    finally:
-        server.end()
 
 
 def one_round(setup):

@@ -15,7 +15,7 @@ class Viewers:
     def __init__(self, setup, count, hampered=False):
         self._setup = setup
         seconds = setup.seconds + 5.0
-        command = [setup.bin / "palpate-watch", "--domain", setup.domain, "--seconds", seconds, "--json"]
+        command = [setup.bin / "palpate-watch", "--domain", setup.domain, "--seconds", seconds, "--wait", 60, "--json"]
         self._all = [processes.start(command, setup.log("watch"), setup.env, stdout=subprocess.PIPE) for _ in range(count)]
         self._slow = None
         if count > 0:
