@@ -9,28 +9,20 @@
 #include <limits>
 #include <utility>
 
-#include "driver.h"
+#include "round_organ.h"
 
 namespace palpate::testing {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 const MetaModel& organ() {
-  static const MetaModel model = loadSynthetic();
-  return model;
+  return roundOrgan();
 }
 
 StepConfig open() {
   StepConfig config;
   config.friction = config.force_limit = kInfinity;
   return config;
-}
-
-/// Tip centre `depth` deep over the top of the organ, and drawn aside.
-Vec3 above(double depth, double aside = 0.0) {
-  return organ().surface().closestPoint(Vec3(0.0, 0.0, 1.0)).position + Vec3(aside, 0.0, 0.005 - depth);
 }
 
 void press(Driver& driver, double depth, double aside) {
@@ -157,6 +149,22 @@ TEST(LiveBlend, TheDampingFitsTheCouplingOnTheWayToo) {
     ASSERT_EQ(firstComplaint(blend.now()), "") << ms << " ms";
   }
   EXPECT_EQ(blend.now().coupling_damping, 0.05);
+}
+
+TEST(LiveParameters, ForceScalesWithTheModulusAndNeverJumps) {
+  Driver driver(organ(), bare(kInfinity));
+  for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
+  const double before = vec(driver.at(over(0.0, 0.002)).force).norm();
+  driver.input().has_live = 1;
+  driver.input().live = liveParameters(bare(kInfinity));
+  driver.input().live.youngs_modulus = 2.0 * organ().attributes().E;
+  double last = before;
+  for (int ms = 0; ms < 150; ++ms) {
+    const double now = vec(driver.at(over(0.0, 0.002)).force).norm();
+    ASSERT_LT(std::abs(now - last), 0.02 * before);
+    last = now;
+  }
+  EXPECT_NEAR(last, 2.0 * before, 1e-6 * before);
 }
 
 }  // namespace palpate::testing

@@ -14,7 +14,6 @@ namespace palpate::testing {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kOrdinary = kInContact | kRamping;
 
 const MetaModel& organ() {

@@ -2,10 +2,23 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "driver.h"
 
 namespace palpate::testing {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Nothing but the contact: no limiter, ramps or speed limit. @param coupling  K_vc, N/m
+inline StepConfig bare(double friction, double coupling = kInfinity) {
+  StepConfig config;
+  config.friction = friction;
+  config.coupling_stiffness = coupling;
+  config.force_limit = config.speed_limit = kInfinity;
+  config.ramp_time = 0.0;
+  return config;
+}
 
 /// The synthetic organ: a ball of 50 mm.
 inline const MetaModel& roundOrgan() {
@@ -18,6 +31,19 @@ inline Vec3 over(double angle, double depth, double azimuth = 0.3) {
   const double organ = 0.05, tip = StepConfig{}.tip_radius;
   return (organ + tip - depth) *
          Vec3(std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle));
+}
+
+/// Tip centre `depth` deep, m, over the highest point of the round organ, and drawn aside.
+inline Vec3 above(double depth, double aside = 0.0) {
+  const Vec3 top = roundOrgan().surface().closestPoint(Vec3(0.0, 0.0, 1.0)).position;
+  return top + Vec3(aside, 0.0, StepConfig{}.tip_radius - depth);
+}
+
+/// Goes down to a depth at 0.1 m/s and waits there.
+inline void press(Driver& driver, double depth) {
+  driver.settle(above(-0.002));
+  for (double z = -0.002; z < depth; z += 1e-4) driver.at(above(z));
+  driver.settle(above(depth));
 }
 
 /// n at the anchor; of a free tool at the nearest point.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Anchors that slide, the coupling, the contact surface: physics on the synthetic organ.
+// Anchors that slide, and poses and tools that jump: physics on the synthetic organ.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -8,36 +8,15 @@
 #include <limits>
 #include <random>
 
-#include "driver.h"
 #include "palpate/core/contact_solver.h"
-#include "palpate/core/coupling.h"
-#include "palpate/core/coupling_damper.h"
+#include "round_organ.h"
 
 namespace palpate::testing {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 const MetaModel& organ() {
-  static const MetaModel model = loadSynthetic();
-  return model;
-}
-
-/// Nothing but the contact: no limiter, ramps, coupling or speed limit.
-StepConfig bare(double friction) {
-  StepConfig config;
-  config.friction = friction;
-  config.force_limit = config.speed_limit = kInfinity;
-  config.ramp_time = 0.0;
-  return config;
-}
-
-/// Tip centre `depth` deep over the organ at an angle from the top.
-Vec3 over(double angle, double depth, double azimuth = 0.3) {
-  const Vec3 direction(std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
-                       std::cos(angle));
-  return (0.05 + 0.005 - depth) * direction;
+  return roundOrgan();
 }
 
 /// Presses at the top and drags to an angle, 0.05 mm a tick.
@@ -47,8 +26,7 @@ void drag(Driver& driver, double angle, double depth) {
 }
 
 Vec3 normalAt(const ToolResult& r) {
-  const ContactSurface& surface = organ().contactSurface();
-  return surface.mesh().normal(surface.fine(organ().surface().closestPoint(vec(r.anchor)).s));
+  return testing::normalAt(organ(), r);
 }
 
 }  // namespace
@@ -162,54 +140,6 @@ TEST(Sliding, StopsAtTheBorderOfTheAccessiblePartAndSaysSo) {
   EXPECT_TRUE(flagged);
 }
 
-TEST(Coupling, SpringAndOrganCarryTheSameForce) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const ContactPoint s = organ().surface().closestPoint(Vec3(0.01, 0.02, 0.05)).s;
-  const PatchResponse patch(organ(), s);
-  for (int trial = 0; trial < 200; ++trial) {
-    ContactLaw law;
-    law.compliance = 1.0 / std::pow(10.0, 3.0 + 1.5 * uniform(random));
-    law.stiffness_scale = std::pow(10.0, uniform(random));
-    const Vec3 g = 0.02 * Vec3(uniform(random), uniform(random), uniform(random));
-    CoupledResponse out;
-    ASSERT_NE(couple(patch, g, Carried{}, law, out), ResponseStatus::kNoAnswer);
-    EXPECT_LT((out.response.force - (g - out.displacement) / law.compliance).norm(),
-              1e-6 * (1.0 + out.response.force.norm()));
-    EXPECT_LE(out.stiffness.norm(), 1.01 * std::sqrt(3.0) / law.compliance)
-        << "never stiffer than the spring";
-  }
-}
-
-TEST(Coupling, RenderedStiffnessNeverExceedsTheSprings) {
-  StepConfig config = bare(kInfinity);
-  config.coupling_stiffness = 300.0;
-  config.youngs_modulus = 1e6;
-  Driver driver(organ(), config);
-  for (double d = -0.001; d < 0.006; d += 1e-4) {
-    const ToolResult& r = driver.at(over(0.0, d));
-    const Mat3 K = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.stiffness.data());
-    ASSERT_LE(K.operatorNorm(), 300.0 * 1.001) << d;
-  }
-  EXPECT_GT(vec(driver.result().tools[0].force).norm(), 1.0);
-}
-
-TEST(LiveParameters, ForceScalesWithTheModulusAndNeverJumps) {
-  Driver driver(organ(), bare(kInfinity));
-  for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
-  const double before = vec(driver.at(over(0.0, 0.002)).force).norm();
-  driver.input().has_live = 1;
-  driver.input().live = liveParameters(bare(kInfinity));
-  driver.input().live.youngs_modulus = 2.0 * organ().attributes().E;
-  double last = before;
-  for (int ms = 0; ms < 150; ++ms) {
-    const double now = vec(driver.at(over(0.0, 0.002)).force).norm();
-    ASSERT_LT(std::abs(now - last), 0.02 * before);
-    last = now;
-  }
-  EXPECT_NEAR(last, 2.0 * before, 1e-6 * before);
-}
-
 TEST(Safety, APoseThatJumpsIsFlaggedAndEngagedAnew) {
   StepConfig config;
   Driver driver(organ(), config);
@@ -235,22 +165,6 @@ TEST(Safety, ForceChangesNoFasterThanItsRateLimit) {
     last = vec(r.force);
   }
   EXPECT_TRUE(flagged);
-}
-
-TEST(Coupling, DamperTakesTheTimeThatPassedWithoutAForce) {
-  const auto after = [](int ticks) {  // the force rises by 1 N in so many ms, and only its end is seen
-    CouplingDamper damper;
-    Contact contact;
-    contact.state = ContactState::kStick;
-    contact.normal = Vec3::UnitZ();
-    contact.coupled.response.force = Vec3(0.0, 0.0, -1.0);
-    (void)damper.force(contact, 0.003, 1e-3);
-    for (int i = 1; i < ticks; ++i) damper.wait(1e-3);
-    contact.coupled.response.force = Vec3(0.0, 0.0, -2.0);
-    return -damper.force(contact, 0.003, 1e-3).z() - 2.0;
-  };
-  EXPECT_NEAR(after(1), 0.003 * 1000.0 / 3.0, 1e-12);
-  EXPECT_NEAR(after(10), 0.003 * 100.0 * 10.0 / 12.0, 1e-12);
 }
 
 TEST(Safety, WhatOneToolDoesAtOnceTheOtherDoesNotFeelAtOnce) {
@@ -293,43 +207,6 @@ TEST(Sliding, AnAnchorThatSnapsIsAJumpAndOneThatSlidesIsNone) {
   EXPECT_TRUE(contact.jumped) << "5 mm at once, with the tip at rest";
   solver.update(organ(), {0.0, 0.0, 1.0}, over(0.3, 0.002), contact);
   EXPECT_FALSE(contact.jumped);
-}
-
-TEST(ContactSurface, PointsGoToTheRestSurfaceAndBack) {
-  const ContactSurface& surface = organ().contactSurface();
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  for (int trial = 0; trial < 500; ++trial) {
-    const double a = uniform(random), b = uniform(random) * (1.0 - a);
-    const ContactPoint s{
-        static_cast<std::int32_t>(random() % static_cast<unsigned>(organ().surface().triangles())),
-        {1.0 - a - b, a, b}};
-    const ContactPoint back = surface.rest(surface.fine(s));
-    EXPECT_EQ(back.triangle, s.triangle);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back.barycentric[k], s.barycentric[k], 1e-12);
-  }
-}
-
-TEST(ContactSurface, IsRounderThanTheTriangles) {
-  const SurfaceMesh& fine = organ().contactSurface().mesh();
-  double flat = 0.0, rounded = 0.0;
-  for (int t = 0; t < organ().surface().triangles(); ++t) {
-    const ContactPoint middle{t, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
-    flat = std::max(flat, std::abs(organ().surface().position(middle).norm() - 0.05));
-    rounded = std::max(rounded, std::abs(fine.position(organ().contactSurface().fine(middle)).norm() - 0.05));
-  }
-  EXPECT_LT(rounded, 0.1 * flat);
-}
-
-TEST(Projection, FindsThePointThatTheTipLiesStraightAbove) {
-  const SurfaceMesh& fine = organ().contactSurface().mesh();
-  for (double angle = 0.0; angle < 2.0; angle += 0.013) {
-    const Vec3 c = over(angle, 0.001);
-    ContactPoint s = fine.closestPoint(c).s;
-    double h = 0.0;
-    ASSERT_TRUE(fine.project(c, s, h)) << angle;
-    EXPECT_LT((fine.position(s) + h * fine.normal(s) - c).norm(), 1e-9);
-  }
 }
 
 }  // namespace palpate::testing

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "driver.h"
+#include "round_organ.h"
 
 namespace palpate::testing {
 
@@ -16,13 +16,7 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000;  // ns
 
 const MetaModel& organ() {
-  static const MetaModel model = loadSynthetic();
-  return model;
-}
-
-/// Tip centre `depth` deep over the top of the organ.
-Vec3 above(double depth) {
-  return organ().surface().closestPoint(Vec3(0.0, 0.0, 1.0)).position + Vec3(0.0, 0.0, 0.005 - depth);
+  return roundOrgan();
 }
 
 /// Force and field, tick by tick after a stall of so many ns, at one place. @return largest step of the force

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "driver.h"
 #include "load_driven.h"
+#include "round_organ.h"
 
 namespace palpate::testing {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShared = 0.8;  // of what a tool does to its patch, the whole organ does
 
 /// An organ that goes along as a whole, as a soft one with a clamp far away does.
@@ -35,15 +34,6 @@ const MetaModel& softOrgan() {
     std::fill(data.near_field.begin(), data.near_field.end(), 0.0F);
   });
   return model;
-}
-
-StepConfig bare(double friction, double coupling) {
-  StepConfig config;
-  config.friction = friction;
-  config.coupling_stiffness = coupling;
-  config.force_limit = config.force_rate_limit = config.speed_limit = kInfinity;
-  config.ramp_time = 0.0;
-  return config;
 }
 
 /// Where tool i of a few presses, and how the surface lies there.
@@ -142,6 +132,24 @@ TEST(ToolsTogether, ASurfaceThatAnotherLiftedHoldsTheTool) {
     last = state;
   }
   EXPECT_EQ(changes, 1) << "caught once, and never let go";
+}
+
+TEST(ToolsTogether, WhatIsNoNumberOfOneToolDoesNotStayWithTheOthers) {
+  const MetaModel overflows = spoiled({}, [](modelfile::ModelData& data) {
+    for (float& x : data.modes_X) x *= 1e30F;
+    for (float& y : data.modes_Y) y *= 1e30F;
+  });
+  Driver driver(overflows, bare(0.3));
+  press(driver, 1, 0.002);
+  place(driver, 1, -0.001);  // in the air, beside it
+  for (int ms = 0; ms < 5; ++ms) {
+    const ToolResult& other = (driver.tick(), driver.result().tools[1]);
+    ASSERT_TRUE(vec(other.anchor).allFinite() && vec(other.proxy).allFinite()) << ms << " ms";
+  }
+  place(driver, 0, -0.005);
+  for (int ms = 0; ms < 5; ++ms) driver.tick();
+  for (double depth = -0.001; depth < 0.002; depth += 2e-5) place(driver, 1, depth), driver.tick();
+  EXPECT_GT(forceOn(driver, 1).norm(), 0.5) << "alone it is answered again";
 }
 
 }  // namespace palpate::testing
