@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "index.h"
 #include "kernels.h"
 #include "mode_tiles.h"
+#include "node_by_node.h"
 #include "palpate/core/multi_index.h"
 
 namespace palpate {
@@ -39,7 +41,8 @@ SeparatedField::SeparatedField(const ModelView& view)
       modes_(static_cast<int>(view.modes())),
       packed_(view.modes_packed),
       counts_(countModes(packed_, view.modes())),
-      peak_(view.modes(), 0.0F) {
+      peak_(view.modes(), 0.0F),
+      by_node_(nodeByNode(X_, view.modes())) {
   const std::size_t numbers = 3 * view.surfaceNodes();
   for (std::size_t k = 0; k < peak_.size(); ++k) {
     const float* const x = X_.data() + k * numbers;
@@ -76,12 +79,9 @@ void SeparatedField::expand(std::span<const float> y, float unseen, ModeSelectio
 }
 
 Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING {
-  const std::size_t length = X_.size() / std::max<std::size_t>(y.size(), 1);
-  const float* X = X_.data() + 3 * index(node);
   std::array<float, 3> u{};
-  for (std::size_t k = 0; k < y.size(); ++k, X += length)
-    for (std::size_t axis = 0; axis < 3; ++axis) u[axis] += y[k] * X[axis];
-  return Vec3(double(u[0]), double(u[1]), double(u[2]));
+  dotRows(by_node_.data() + 3 * index(node) * y.size(), y.size(), y.data(), u.size(), y.size(), u.data());
+  return {u[0], u[1], u[2]};
 }
 
 NearField::NearField(const ModelView& view)
@@ -106,6 +106,20 @@ NearField::Block NearField::block(std::int32_t position, std::span<const double>
   const float* const field = field_.data() + 3 * phi.size() * first;
   addWeightedRows(field, 3 * nodes, weight.data(), used(phi), 3 * nodes, u.data());
   return {node_.subspan(first, nodes), u};
+}
+
+Vec3 NearField::at(std::int32_t position, std::span<const double> phi,
+                   std::int32_t node) const noexcept PALPATE_NONBLOCKING {
+  const std::span<const std::int32_t> list = nodes(position);
+  const auto place = std::find(list.begin(), list.end(), node) - list.begin();
+  Vec3 u = Vec3::Zero();
+  if (place == std::ssize(list)) return u;
+  const float* field = field_.data() + 3 * (phi.size() * index(offset_[index(position)]) + index(place));
+  for (const double weight : phi.first(used(phi))) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) u[axis] += weight * double(field[axis]);
+    field += 3 * list.size();
+  }
+  return u;
 }
 
 void NearField::add(const PositionMix& mix, std::span<const double> phi, double gain,

@@ -9,6 +9,7 @@
 
 #include "index.h"
 #include "kernels.h"
+#include "node_by_node.h"
 #include "palpate/core/surface_distance.h"
 
 namespace palpate {
@@ -21,15 +22,6 @@ std::vector<bool> freeNodes(const ModelView& view) {
   for (const std::int32_t node : view.mesh_fixed) fixed[index(node)] = true;
   for (const std::int32_t node : view.mesh_surface_node) free.push_back(!fixed[index(node)]);
   return free;
-}
-
-/// The modes node by node: [Ns][3][n] from [n][Ns][3].
-std::vector<float> nodeByNode(std::span<const float> X, std::size_t modes) {
-  const std::size_t rows = X.size() / std::max<std::size_t>(modes, 1);
-  std::vector<float> by_node(X.size());
-  for (std::size_t k = 0; k < modes; ++k)
-    for (std::size_t row = 0; row < rows; ++row) by_node[row * modes + k] = X[k * rows + row];
-  return by_node;
 }
 
 }  // namespace

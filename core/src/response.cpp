@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "field_parts.h"
 #include "index.h"
 #include "load_driven.h"
 #include "palpate/core/length.h"
@@ -190,6 +191,18 @@ void forEachAnswered(const MetaModel& model, std::span<const FieldSource> source
   }
 }
 
+/// u of one corner of a triangle, near field alone.
+Vec3 nearAt(const MetaModel& model, std::span<const FieldSource> sources, std::int32_t node) noexcept {
+  Vec3 u = Vec3::Zero();
+  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
+    for (std::size_t b = 0; b < index(mix.count); ++b)
+      u += gain * mix.weight[b] * model.nearField().at(mix.position[b], phi, node);
+  });
+  return u;
+}
+
+}  // namespace
+
 void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources,
                     std::span<float> y) noexcept PALPATE_NONBLOCKING {
   std::fill(y.begin(), y.end(), 0.0F);
@@ -198,51 +211,32 @@ void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources
   });
 }
 
-/// Barycentric weight of a surface node at s; 0 when it is none of the triangle's.
-double weightOf(const MetaModel& model, std::int32_t node,
-                const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
-  const std::int32_t* const corner = model.view().surface_triangles.data() + 3 * index(s.triangle);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (corner[k] == node) return s.barycentric[k];
-  return 0.0;
-}
-
-}  // namespace
-
-void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
-                   std::span<float> u) noexcept PALPATE_NONBLOCKING {
+void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+             std::span<float> u) noexcept PALPATE_NONBLOCKING {
   std::fill(u.begin(), u.end(), 0.0F);
   forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
     model.nearField().add(mix, phi, gain, scratch.near_block, u);
   });
-  findAmplitudes(model, sources, scratch.amplitudes);
   const bool displaced = model.attributes().parameters == Parameters::kDisplacement;
   const double unseen = displaced ? kUnseenShare * imposed(sources) : 0.0;
   model.farField().expand(scratch.amplitudes, static_cast<float>(unseen), scratch.selection, u);
 }
 
-void evaluateFieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
-                     std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
-  findAmplitudes(model, sources, scratch.amplitudes);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    u[i] = Vec3::Zero();
-    if (points[i].triangle < 0) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int node = model.view().surface_triangles[3 * index(points[i].triangle) + k];
-      u[i] += points[i].barycentric[k] * model.farField().at(scratch.amplitudes, node);
-    }
+Vec3 fieldAt(const MetaModel& model, std::span<const FieldSource> sources, const FieldScratch& scratch,
+             const ContactPoint& point) noexcept PALPATE_NONBLOCKING {
+  Vec3 u = Vec3::Zero();
+  for (std::size_t k = 0; point.triangle >= 0 && k < 3; ++k) {
+    const std::int32_t node = model.view().surface_triangles[3 * index(point.triangle) + k];
+    u +=
+        point.barycentric[k] * (model.farField().at(scratch.amplitudes, node) + nearAt(model, sources, node));
   }
-  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
-    for (std::size_t b = 0; b < index(mix.count); ++b) {
-      const NearField::Block near =
-          model.nearField().block(mix.position[b], phi, gain * mix.weight[b], scratch.near_block);
-      for (std::size_t j = 0; j < near.nodes.size(); ++j)
-        for (std::size_t i = 0; i < points.size(); ++i)
-          if (points[i].triangle >= 0)
-            u[i] += weightOf(model, near.nodes[j], points[i]) *
-                    Eigen::Map<const Eigen::Vector3f>(near.u.data() + 3 * j).cast<double>();
-    }
-  });
+  return u;
+}
+
+void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+                   std::span<float> u) noexcept PALPATE_NONBLOCKING {
+  findAmplitudes(model, sources, scratch.amplitudes);
+  fieldOf(model, sources, scratch, u);
 }
 
 void evaluateField(const MetaModel& model, const ContactPoint& s, const Vec3& d, FieldScratch& scratch,

@@ -24,6 +24,7 @@ class Tick {
         shaken_(std::exchange(work.shaken_, false)) {}
 
   [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
+  static void showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING;
 
  private:
   [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING;
@@ -37,7 +38,6 @@ class Tick {
   void grow(const ToolInput& tool, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING;
   void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept PALPATE_NONBLOCKING;
   void deform(StepResult& result) noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool showSurface(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING;
   void report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING;
 
@@ -189,33 +189,17 @@ void Tick::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
   }
   const double ramp_time = work_.config_.ramp_time;
   blend = ramp_time > 0.0 ? std::max(0.0, blend - ramp_dt_ / ramp_time) : 0.0;
-  const ToolSurface surface(model_, work_.tools_);
-  const bool finite = input_.skip_surface == 0 ? showSurface(surface) : showAnchors(surface);
+  const ToolSurface surface(model_, work_.tools_, work_.scratch_);
+  work_.sources_.keep(surface.sources());
+  const bool finite = showAnchors(surface) && !work_.overflowed_;
   if (finite) return;
   for (ToolResult& out : result.tools)
     if ((out.flags & kInContact) != 0) out.flags |= kNonFiniteForce;
 }
 
-bool Tick::showSurface(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
-  std::vector<float>& u = work_.displacement_;
-  const auto weight = static_cast<float>(work_.displacement_blend_);
-  bool finite = true;
-  if (weight > 0.0F || !work_.shown_.isOf(surface.sources())) {
-    finite = surface.evaluate(work_.scratch_, u);
-    work_.shown_.set(surface.sources(), finite && weight == 0.0F);
-  }
-  for (std::size_t i = 0; weight > 0.0F && i < u.size(); ++i)
-    u[i] += weight * (work_.displacement_from_[i] - u[i]);
-  for (std::size_t i = 0; i < kMaxTools; ++i) {
-    const ContactPoint& s = work_.tools_[i].contact.s;
-    if (s.triangle >= 0) shown_[i] = model_.surface().interpolate(u, s);
-  }
-  return finite;
-}
-
-/// The same where it is reported, when nobody takes the rest.
+/// The surface where it is reported.
 bool Tick::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
-  const bool finite = surface.evaluateAnchors(work_.scratch_, shown_);
+  const bool finite = surface.atAnchors(shown_);
   const double weight = work_.displacement_blend_;
   for (std::size_t i = 0; weight > 0.0 && i < kMaxTools; ++i) {
     const ContactPoint& s = work_.tools_[i].contact.s;
@@ -224,6 +208,17 @@ bool Tick::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING 
     shown_[i] += weight * (from - shown_[i]);
   }
   return finite;
+}
+
+void Tick::showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
+  std::vector<float>& u = work.displacement_;
+  const auto weight = static_cast<float>(work.displacement_blend_);
+  if (weight == 0.0F && work.shown_known_ && work.shown_ == work.sources_) return;
+  work.overflowed_ = !evaluateSurface(model, work.sources_.all(), work.scratch_, u);
+  work.shown_ = work.sources_;
+  work.shown_known_ = weight == 0.0F && !work.overflowed_;
+  for (std::size_t i = 0; weight > 0.0F && i < u.size(); ++i)
+    u[i] += weight * (work.displacement_from_[i] - u[i]);
 }
 
 void Tick::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING {
@@ -258,9 +253,20 @@ StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   return (flags & ~kInContact) == 0 ? StepStatus::kOk : StepStatus::kFlagged;
 }
 
+StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& input,
+                      StepResult& result) noexcept PALPATE_NONBLOCKING {
+  return Tick(model, work, input).run(result);
+}
+
+void stepSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
+  Tick::showSurface(model, work);
+}
+
 StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                 StepResult& result) noexcept PALPATE_NONBLOCKING {
-  return Tick(model, work, input).run(result);
+  const StepStatus status = stepForces(model, work, input, result);
+  if (input.skip_surface == 0) stepSurface(model, work);
+  return status;
 }
 
 }  // namespace palpate

@@ -30,7 +30,8 @@ void ToolGroup::approach() noexcept PALPATE_NONBLOCKING {
     for (std::size_t i = 0; i < count_; ++i)
       for (const FieldSource& source : ownField(model_, s_[i], d_[i], own_[i]))
         contact.carried.constant += patchDisplacement(model_, source, contact.s, scratch_);
-    if (!contact.carried.constant.allFinite()) contact.carried = {};  // else it would be sought nowhere, for good
+    if (!contact.carried.constant.allFinite())
+      contact.carried = {};  // else it would be sought nowhere, for good
   }
 }
 

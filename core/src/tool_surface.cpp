@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "field_parts.h"
 #include "palpate/core/tool_coupling.h"
 
 namespace palpate {
@@ -20,9 +21,9 @@ bool isFinite(std::span<const float> values) noexcept PALPATE_NONBLOCKING {
 
 }  // namespace
 
-ToolSurface::ToolSurface(const MetaModel& model,
-                         std::span<const ToolMemory, kMaxTools> tools) noexcept PALPATE_NONBLOCKING
-    : model_(model) {
+ToolSurface::ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools,
+                         FieldScratch& scratch) noexcept PALPATE_NONBLOCKING : model_(model),
+                                                                               scratch_(scratch) {
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const Contact& contact = tools[i].contact;
     const double gain = tools[i].rendering.gain;
@@ -39,33 +40,32 @@ ToolSurface::ToolSurface(const MetaModel& model,
       sources_[count_++] = source;
     }
   }
+  findAmplitudes(model_, sources(), scratch.amplitudes);
 }
 
 std::span<const FieldSource> ToolSurface::sources() const noexcept PALPATE_NONBLOCKING {
   return std::span(sources_).first(count_);
 }
 
-bool ToolSurface::evaluate(FieldScratch& scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
-  if (count_ > 0) {
-    evaluateField(model_, sources(), scratch, u);
-    if (isFinite(u)) return true;
-  }
-  std::fill(u.begin(), u.end(), 0.0F);
-  return count_ == 0;
-}
-
-bool ToolSurface::evaluateAnchors(FieldScratch& scratch,
-                                  std::span<Vec3, kMaxTools> u) const noexcept PALPATE_NONBLOCKING {
-  std::fill(u.begin(), u.end(), Vec3::Zero());
-  if (count_ == 0) return true;
-  evaluateFieldAt(model_, sources(), scratch, anchors_, u);
+bool ToolSurface::atAnchors(std::span<Vec3, kMaxTools> u) const noexcept PALPATE_NONBLOCKING {
   bool finite = true;
-  for (Vec3& shown : u) {
-    if (shown.allFinite()) continue;
-    shown.setZero();
+  for (std::size_t i = 0; i < kMaxTools; ++i) {
+    u[i] = count_ > 0 ? fieldAt(model_, sources(), scratch_, anchors_[i]) : Vec3::Zero();
+    if (u[i].allFinite()) continue;
+    u[i].setZero();
     finite = false;
   }
   return finite;
+}
+
+bool evaluateSurface(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+                     std::span<float> u) noexcept PALPATE_NONBLOCKING {
+  if (!sources.empty()) {
+    fieldOf(model, sources, scratch, u);
+    if (isFinite(u)) return true;
+  }
+  std::fill(u.begin(), u.end(), 0.0F);
+  return sources.empty();
 }
 
 }  // namespace palpate

@@ -21,13 +21,13 @@ bool isZero(const std::array<double, 3>& force) noexcept PALPATE_NONBLOCKING {
 std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   // 1. What the tools want: the newest pose of each, and its age by our clock.
   readPoses(cycle);
-  // 2. What the organ answers.
-  (void)step(model_, work_, input_, result_);
+  // 2. What the tools feel.
+  (void)stepForces(model_, work_, input_, result_);
   countRejectedPoses();
   // 3. Forces, one to each tool that was ever seen, and the thread that sends them wakes.
   writeForces(cycle);
   channels_.force_ready.post();
-  // 4. The surface, likewise.
+  // 4. What the organ looks like, likewise.
   writeSurface(cycle);
   // 5. What went in and came out, for a session that is recorded.
   writeRecording(cycle);
@@ -141,6 +141,7 @@ bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 
 void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (input_.skip_surface != 0) return;
+  stepSurface(model_, work_);
   SurfaceFrame& frame = channels_.surface.back();
   frame.seq = ++surface_seq_;
   frame.stamp_ns = cycle.woke_ns;

@@ -36,7 +36,7 @@ class SeparatedField {
   /// Cost O(n Ns). Real-time: yes.
   void expand(std::span<const float> y, float unseen, ModeSelection& use,
               std::span<float> u) const noexcept PALPATE_NONBLOCKING;
-  /// u of one surface node, m, as expand() gives it but for rounding. Cost O(n), a cache miss a mode. Real-time: yes.
+  /// u of one surface node, m, as expand() gives it but for rounding and what it leaves out. Cost O(n). Real-time: yes.
   [[nodiscard]] Vec3 at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING;
 
  private:
@@ -45,7 +45,8 @@ class SeparatedField {
   int modes_;
   PackedModes packed_;
   ModeCounts counts_;
-  std::vector<float> peak_;  // [n] largest displacement of a node in each mode
+  std::vector<float> peak_;     // [n] largest displacement of a node in each mode
+  std::vector<float> by_node_;  // [Ns][3][n] X, so that one node's numbers lie together
 };
 
 /// The near field: what the modes miss close to s, already windowed to zero at the near radius (DESIGN 2.3).
@@ -67,6 +68,9 @@ class NearField {
   /// @param scratch  scratchSize(), its beginning overwritten. Real-time: yes.
   [[nodiscard]] Block block(std::int32_t position, std::span<const double> phi, double factor,
                             std::span<float> scratch) const noexcept PALPATE_NONBLOCKING;
+  /// What block() gives at one node, m; zero where the block has it not. Cost O(C + K_m). Real-time: yes.
+  [[nodiscard]] Vec3 at(std::int32_t position, std::span<const double> phi,
+                        std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   /// u += gain * (the near blocks of one tool), m.
   /// @param phi  [C] ParameterFunctions at p, @param scratch  scratchSize(), @param u  [Ns][3]. Real-time: yes.
   void add(const PositionMix& mix, std::span<const double> phi, double gain, std::span<float> scratch,

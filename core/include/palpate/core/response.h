@@ -99,12 +99,6 @@ struct FieldSource {
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;
 
-/// The same field at single points of the surface, without the rest of it.
-/// @param[in]  points  of this model's surface; triangle -1: u is zero there
-/// @param[out] u  [points] m. Cost O(C n + n points). Real-time: yes.
-void evaluateFieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
-                     std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING;
-
 /// The same for one tool that imposes d: the field of respond()'s parameter. @param d  W, m
 void evaluateField(const MetaModel& model, const ContactPoint& s, const Vec3& d, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;

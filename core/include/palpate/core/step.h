@@ -31,9 +31,9 @@ struct StepInput {
   std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
   /// not 0: go over to `live`, within LiveBlend::kSeconds. 0: the parameters stay as they are (at first StepConfig's)
   std::uint32_t has_live{0};
-  /// not 0: nobody takes the surface of this tick. Workspace::displacement() stays the last one that was taken. Forces and
-  /// anchors are the same as with it, proxies too but for rounding, and but for ramp_time after a jump, in which they
-  /// come from the last surface that was taken
+  /// not 0: nobody takes the surface of this tick. Workspace::displacement() stays the last one that was taken. Forces,
+  /// anchors and proxies are the same, but for proxies within ramp_time after a jump, which begins at the last surface
+  /// that was taken
   std::uint32_t skip_surface{0};
   LiveParameters live;  ///< checked by the caller: firstComplaint() is empty
 };
@@ -62,10 +62,19 @@ static_assert(std::is_trivially_copyable_v<StepInput> && std::is_trivially_copya
 /// kFlagged: some tool has a flag other than kInContact; its answer is safe but not simply the model's.
 enum class StepStatus { kOk, kFlagged };
 
-/// One tick: poses in, forces and the surface's displacement out (DESIGN 3.1, 3.2). Bad input never stops it and
-/// never comes out: each has a defined, safe, continuous answer and a flag. Cost O(C n + n Ns), without surface O(C n). Allocates
-/// nothing, takes no lock, throws nothing. Real-time: yes. Threads: one per Workspace.
+/// One tick: poses in, forces and the surface's displacement out (DESIGN 3.1, 3.2): stepForces(), then stepSurface()
+/// unless it is skipped. Bad input never stops it and never comes out: each has a defined, safe, continuous answer and a
+/// flag; kNonFiniteForce of a surface that overflows where no tool is comes with the next tick. Allocates nothing, takes
+/// no lock, throws nothing. Real-time: yes. Threads: one per Workspace.
 [[nodiscard]] StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                               StepResult& result) noexcept PALPATE_NONBLOCKING;
+
+/// All of a tick but the surface: whoever waits for a force need not wait for what is shown. Cost O(C n). Real-time: yes.
+[[nodiscard]] StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& input,
+                                    StepResult& result) noexcept PALPATE_NONBLOCKING;
+
+/// The surface under what the last stepForces() found, into Workspace::displacement(). At most once after each of them.
+/// Cost O(n Ns), nothing when nothing moved. Real-time: yes.
+void stepSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

@@ -29,24 +29,26 @@ struct ToolMemory {
   CouplingDamper damper;
 };
 
-/// What the displacement of a workspace is the field of.
-class ShownField {
+/// The sources of a field, kept from one part of a tick to the next and from tick to tick.
+class KeptSources {
  public:
-  /// Whether it is the field of just these sources, so that it need not be evaluated again. Real-time: yes.
-  [[nodiscard]] bool isOf(std::span<const FieldSource> sources) const noexcept PALPATE_NONBLOCKING {
-    return known_ && std::equal(sources.begin(), sources.end(), sources_.begin(), sources_.begin() + count_);
+  [[nodiscard]] std::span<const FieldSource> all() const noexcept PALPATE_NONBLOCKING {
+    return std::span(sources_).first(count_);
   }
-  /// @param sources  at most 2 kMaxTools  @param known  false: it is no field of any sources. Real-time: yes.
-  void set(std::span<const FieldSource> sources, bool known) noexcept PALPATE_NONBLOCKING {
+  /// @param sources  at most 2 kMaxTools. Real-time: yes.
+  void keep(std::span<const FieldSource> sources) noexcept PALPATE_NONBLOCKING {
     std::copy(sources.begin(), sources.end(), sources_.begin());
-    count_ = static_cast<std::ptrdiff_t>(sources.size());
-    known_ = known;
+    count_ = sources.size();
+  }
+  /// Bit for bit the same. Real-time: yes.
+  [[nodiscard]] bool operator==(const KeptSources& other) const noexcept PALPATE_NONBLOCKING {
+    const auto a = all(), b = other.all();
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }
 
  private:
   std::array<FieldSource, 2 * kMaxTools> sources_{};
-  std::ptrdiff_t count_{0};
-  bool known_{false};
+  std::size_t count_{0};
 };
 
 /// All that lives from tick to tick, and all scratch: the loop's only allocation, made before it. One
@@ -71,7 +73,10 @@ class Workspace {
   ForceLimiter limiter_;
   std::array<ToolMemory, kMaxTools> tools_{};
   FieldScratch scratch_;
-  ShownField shown_;
+  KeptSources sources_;      // of this tick's field,
+  KeptSources shown_;        // and of the one that displacement_ shows,
+  bool shown_known_{false};  // if that is the field of just these
+  bool overflowed_{false};   // the last field that was evaluated was no number somewhere
   std::vector<float> displacement_;
   std::vector<float> displacement_from_;  // the field at the last jump,
   double displacement_blend_{0.0};        // and its weight, 1 at the jump, then falling to 0

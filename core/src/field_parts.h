@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "palpate/core/response.h"
+
+namespace palpate {
+
+// evaluateField() in two parts: a tick reports the field where its tools are before it evaluates the rest.
+
+/// @param[out] y  [n] amplitudes of the modes, m. Cost O(C n). Real-time: yes.
+void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources,
+                    std::span<float> y) noexcept PALPATE_NONBLOCKING;
+
+/// The whole field. @param scratch  its amplitudes found  @param[out] u  [Ns][3] m. Cost O(n Ns). Real-time: yes.
+void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+             std::span<float> u) noexcept PALPATE_NONBLOCKING;
+
+/// The field at one point of the surface, m; zero at triangle -1. @param scratch  its amplitudes found
+/// Cost O(C + n). Real-time: yes.
+[[nodiscard]] Vec3 fieldAt(const MetaModel& model, std::span<const FieldSource> sources,
+                           const FieldScratch& scratch,
+                           const ContactPoint& point) noexcept PALPATE_NONBLOCKING;
+
+}  // namespace palpate
