@@ -23,8 +23,7 @@ bool fits(int nodes, int modes) {
   const MetaModel model = throughFile(storedModel({nodes, modes, kPositions}));
   const StepTimes times = timeSteps(model, 1, kWays, kLength);
   double bytes = 0.0;
-  for (const std::span<const std::byte> part : modeStorage(model))
-    bytes += static_cast<double>(part.size());
+  for (const std::span<const std::byte> part : modeStorage(model)) bytes += static_cast<double>(part.size());
   const bool good = times.samples.quantile(0.99) < kPeriod;
   const double near_nodes =
       static_cast<double>(model.view().near_node.size()) / static_cast<double>(model.view().positions());

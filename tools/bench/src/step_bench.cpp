@@ -52,8 +52,7 @@ void stepDefault(benchmark::State& state, const MetaModel& model, int tools) {
   state.SetItemsProcessed(static_cast<std::int64_t>(all.samples.count()));
   state.counters["in_contact"] = all.in_contact;
   double bytes = 0.0;
-  for (const std::span<const std::byte> part : modeStorage(model))
-    bytes += static_cast<double>(part.size());
+  for (const std::span<const std::byte> part : modeStorage(model)) bytes += static_cast<double>(part.size());
   state.counters["bytes"] = bytes;
 }
 

@@ -19,7 +19,7 @@ struct SyntheticSize {
 /// invented energy; field and contact do not belong together.
 [[nodiscard]] modelfile::ModelData syntheticModel(const SyntheticSize& size);
 
-/// The same with its modes in mixed precision, as palpate-solve stores them when a model's own error is 0.5 %
+/// The same with its modes in mixed precision, as palpate-solve stores them when a model's own error is 1 %
 /// of the displacement. The order of the modes changes.
 [[nodiscard]] modelfile::ModelData storedModel(const SyntheticSize& size);
 
