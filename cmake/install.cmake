@@ -30,4 +30,6 @@ foreach(program IN LISTS PALPATE_PROGRAMS)
   endif()
 endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
-install(FILES server/server.toml DESTINATION ${PALPATE_DATA_DIR} COMPONENT programs)
+configure_file(server/palpate-server.service.in ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service @ONLY)
+install(FILES server/server.toml server/palpate-limits.conf server/palpate-cpu-latency.rules
+  ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service DESTINATION ${PALPATE_DATA_DIR} COMPONENT programs)

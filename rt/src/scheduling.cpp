@@ -31,6 +31,10 @@ std::size_t raiseThreadsNamed(std::span<const std::string_view> names, int prior
     sched_param parameters{};
     parameters.sched_priority = priority;
     const pid_t tid = std::atoi(task.path().filename().c_str());
+    sched_param now{};
+    if (sched_getscheduler(tid) == SCHED_FIFO && sched_getparam(tid, &now) == 0 &&
+        now.sched_priority == priority)
+      continue;
     if (sched_setscheduler(tid, SCHED_FIFO, &parameters) == 0) ++raised;
   }
   return raised;

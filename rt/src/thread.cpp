@@ -8,13 +8,18 @@
 #include <utility>
 
 #include "palpate/rt/memory.h"
+#include "palpate/rt/process_threads.h"
 
 namespace palpate::rt {
 namespace {
 
-/// Name, priority and stack of the calling thread. @return 0, or the errno that refused the priority
+/// Name, CPUs, priority and stack of the calling thread.
+/// @return 0, the errno that refused the priority, or less the errno that refused the CPUs
 int settle(const ThreadOptions& options) {
   pthread_setname_np(pthread_self(), options.name.substr(0, 15).c_str());
+  if (!options.cpus.empty()) {
+    if (const int error = useCpus(options.cpus); error != 0) return -error;
+  }
   prefaultStack();
   const bool wanted = options.priority > 0 && options.policy != RealtimePolicy::kOff;
   return wanted ? raiseThisThread(options.priority) : 0;
@@ -29,12 +34,15 @@ Thread::Thread(const ThreadOptions& options, std::function<void()> body) {
   thread_ = std::thread([options, required, settled = std::move(settled), body = std::move(body)]() mutable {
     const int error = settle(options);
     settled.set_value(error);
-    if (error == 0 || !required) body();
+    if (error == 0 || (error > 0 && !required)) body();
   });
   const int error = refusal.get();
   realtime_ = error == 0 && options.priority > 0 && options.policy != RealtimePolicy::kOff;
-  if (error == 0 || !required) return;
+  if (error == 0 || (error > 0 && !required)) return;
   join();
+  if (error < 0)
+    throw RealtimeError("thread " + options.name + ": CPUs " + cpuList(options.cpus) + " refused (" +
+                        std::strerror(-error) + ")");
   throw RealtimeError("thread " + options.name + ": SCHED_FIFO priority " + std::to_string(options.priority) +
                       " refused (" + std::strerror(error) + "); grant CAP_SYS_NICE or raise RLIMIT_RTPRIO");
 }

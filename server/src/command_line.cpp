@@ -22,6 +22,8 @@ struct Given {
   std::optional<double> rate;
   std::optional<double> surface_rate;
   std::optional<bool> phase_lock;
+  std::optional<std::int64_t> tick_cpu;
+  std::optional<bool> tick_cpu_alone;
   std::optional<double> tip_radius;
   std::optional<double> friction;
   std::optional<double> force_rate_limit;
@@ -73,6 +75,9 @@ void declare(CLI::App& app, Given& given) {
       ->type_name("HZ");
   app.add_flag("--phase-lock,!--no-phase-lock", given.phase_lock,
                "Ticks follow the poses' arrival, so that a pose waits little for its tick");
+  app.add_option("--tick-cpu", given.tick_cpu,
+                 "CPU that the tick runs on, default -1: where the scheduler puts it");
+  app.add_flag("--tick-cpu-alone", given.tick_cpu_alone, "Nothing else of the server runs on the tick's CPU");
   app.add_option("--organ-id", given.organ_id, "Key of the surface topics, default 0");
   app.add_option("--server-id", given.server_id, "Key of the status topic, default 0");
   app.footer(
@@ -139,6 +144,8 @@ ServerConfig combine(const Given& given) {
   overwrite(given.organ_id, config.organ_id);
   overwrite(given.surface_rate, config.surface_rate);
   overwrite(given.phase_lock, config.phase_lock);
+  overwrite(given.tick_cpu, config.tick_cpu);
+  overwrite(given.tick_cpu_alone, config.tick_cpu_alone);
   combineContact(given, config.step);
   combineDevice(given, config);
   takeWord("--realtime", [&] {
@@ -147,6 +154,8 @@ ServerConfig combine(const Given& given) {
   takeWord("--device", [&] { checkDevice(config.device); });
   if (const auto complaint = firstComplaint(config)) refuse(*complaint);
   if (const auto complaint = deviceComplaint(config)) refuse(*complaint);
+  if (config.tick_cpu_alone && config.tick_cpu == kAnyCpu)
+    throw ConfigError("--tick-cpu-alone without --tick-cpu: which CPU is it?");
   if (config.model.empty()) throw ConfigError("--model is missing: name a model file here or in --config");
   return config;
 }

@@ -5,6 +5,9 @@
 #include <array>
 #include <limits>
 #include <sstream>
+#include <vector>
+
+#include "palpate/rt/process_threads.h"
 
 namespace palpate::server {
 namespace {
@@ -56,6 +59,15 @@ std::optional<Complaint> rateComplaint(const ServerConfig& config) {
   text << "is " << config.rate << ", expected at least " << slowest
        << " Hz: a period has to fit into tool.stale_timeout, " << config.step.stale_timeout << " s";
   return Complaint{"rate", text.str()};
+}
+
+std::optional<Complaint> cpuComplaint(const ServerConfig& config) {
+  if (config.tick_cpu == kAnyCpu) return std::nullopt;
+  const std::vector<int> usable = rt::usableCpus();
+  if (std::find(usable.begin(), usable.end(), config.tick_cpu) != usable.end()) return std::nullopt;
+  return Complaint{"tick_cpu",
+                   "is " + std::to_string(config.tick_cpu) +
+                       ", expected one of the CPUs that this process may use: " + rt::cpuList(usable)};
 }
 
 std::string deviceNames() {
@@ -111,6 +123,7 @@ std::optional<Complaint> firstComplaint(const ServerConfig& config) {
     // Written so that NaN complains too.
     if (!(range.value >= range.low && range.value <= range.high)) return Complaint{range.key, outOf(range)};
   }
+  if (auto complaint = cpuComplaint(config)) return complaint;
   if (auto complaint = firstToolComplaint(config.step)) return complaint;
   return rateComplaint(config);
 }

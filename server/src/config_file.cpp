@@ -162,6 +162,8 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   keys.read("organ_id", config.organ_id);
   keys.read("surface_rate", config.surface_rate);
   keys.read("phase_lock", config.phase_lock);
+  keys.read("tick_cpu", config.tick_cpu);
+  keys.read("tick_cpu_alone", config.tick_cpu_alone);
   readTools(keys, config.step);
   readTool(keys, config.step);
   readDevice(keys, config);

@@ -6,6 +6,8 @@
 #include "palpate/core/status_flags.h"
 #include "palpate/rt/clock.h"
 #include "palpate/rt/phase_lock.h"
+#include "palpate/rt/scheduling.h"
+#include "palpate/server/startup.h"
 
 namespace palpate::server {
 namespace {
@@ -58,6 +60,7 @@ void Events::run() noexcept {
     stopping = channels_.stopping.load(std::memory_order_acquire);  // SYNC STOP
     const std::int64_t now_ns = rt::monotonicNow();
     drain(now_ns);
+    raiseLateThreads(now_ns);
     if (!stopping) publishIfDue(now_ns);
   }
   info("stopping: zero force was sent");
@@ -130,6 +133,14 @@ void Events::noteTick(const TickRecord& record, std::int64_t now_ns) {
     health_.recent_flags |= record.flags[tool];
   }
   health_.last = record;
+}
+
+// DDS may make receive threads after the start: for another interface, or for a participant of its own.
+void Events::raiseLateThreads(std::int64_t now_ns) {
+  if (!raise_receive_threads_ || now_ns - raised_ns_ < kStatusPeriod) return;
+  raised_ns_ = now_ns;
+  const std::size_t late = rt::raiseThreadsNamed(kReceiveThreads, kReceivePriority);
+  if (late > 0) spdlog::info("real time: {} more receive threads of DDS raised", late);
 }
 
 // On the way to a phase there is nothing to tell; what it comes to is told, the newest if there is much of it.

@@ -9,6 +9,7 @@
 #include "command_line.h"
 #include "log_sink.h"
 #include "palpate/server/server.h"
+#include "palpate/server/startup.h"
 
 namespace palpate::server {
 namespace {
@@ -62,6 +63,8 @@ int serve(int argc, char** argv) {
   if (!config) return 0;
   // 2. Signals wait for us, before any thread exists.
   prepareProcess();
+  // before any thread exists too: what is made from here on stays off the tick's CPU.
+  if (config->tick_cpu_alone) leaveCpuToTheTick(static_cast<int>(config->tick_cpu));
   // 3. The organ: immutable, checked, mapped.
   const MetaModel model = MetaModel::load(config->model);
   logModel(model, *config);

@@ -13,17 +13,10 @@
 #include <utility>
 
 #include "palpate/rt/memory.h"
+#include "palpate/server/startup.h"
 
 namespace palpate::server {
 namespace {
-
-// DESIGN 3.3.
-constexpr int kTickPriority = 80;
-constexpr int kForcePriority = 75;
-constexpr int kReceivePriority = 70;
-constexpr int kSurfacePriority = 40;
-
-constexpr std::string_view kReceiveThreads[] = {"recv", "recvUC", "recvMC"};  // Cyclone DDS 0.10
 
 Facts factsOf(const MetaModel& model, const ServerConfig& config) {
   Facts facts;
@@ -56,9 +49,8 @@ const char* reasonNotLocked(const rt::MemoryLock& lock) {
   return lock.future ? "the model is not" : "under a limit, only what exists by now is";
 }
 
-// Locks what exists by now and what comes. @return whether all of it and the model are locked
-bool lockAll(const MetaModel& model) {
-  const rt::MemoryLock lock = rt::lockMemory();
+// @return whether all that exists, what comes and the model are locked
+bool isLocked(const MetaModel& model, const rt::MemoryLock& lock) {
   const bool locked = lock.present && lock.future && model.locked();
   if (locked) {
     spdlog::info("memory: locked");
@@ -72,7 +64,7 @@ bool lockAll(const MetaModel& model) {
 // What a tick's thread gets, tried once before any thread exists. @throw rt::RealtimeError under policy
 // require
 bool probeRealtime(rt::RealtimePolicy policy) {
-  const rt::Thread probe({"tick", kTickPriority, policy}, [] {});
+  const rt::Thread probe({"tick", kTickPriority, policy, {}}, [] {});
   return probe.realtime();
 }
 
@@ -99,7 +91,8 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       poses_in_(participant_, channels_, config.step),
       ramp_time_(config.step.ramp_time) {
   if (!config.record.empty()) recorder_.emplace(channels_, config.record, sessionOf(facts_));
-  facts_.memory_locked = lockAll(model);
+  Startup startup{config.realtime, rt::lockMemory(), model.locked(), false, {}};
+  facts_.memory_locked = isLocked(model, startup.memory);
   settleRealtime(config.realtime);
   try {
     startThreads(config);
@@ -107,6 +100,10 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
     stop();
     throw;
   }
+  startup.awake = awake_ && awake_->held();
+  startup.threads = rt::threadsOfThisProcess();
+  for (const std::string& line : startupTable(startup)) spdlog::info(line);
+  for (const std::string& line : remedies(startup)) spdlog::warn(line);
 }
 
 void Server::settleRealtime(rt::RealtimePolicy policy) {
@@ -118,6 +115,7 @@ void Server::settleRealtime(rt::RealtimePolicy policy) {
     spdlog::warn("real time: {}", facts_.realtime_detail);
   }
   if (!facts_.realtime) return;
+  events_.raiseReceiveThreads();
   awake_.emplace();
   if (!awake_->held()) spdlog::warn("real time: /dev/cpu_dma_latency cannot be held, wake-ups may be late");
   if (rt::raiseThreadsNamed(kReceiveThreads, kReceivePriority) == 0) {
@@ -128,14 +126,15 @@ void Server::settleRealtime(rt::RealtimePolicy policy) {
 void Server::startThreads(const ServerConfig& config) {
   const rt::RealtimePolicy policy = config.realtime;
   const auto start = [policy](const char* name, int priority, std::function<void()> body) {
-    return std::make_unique<rt::Thread>(rt::ThreadOptions{name, priority, policy}, std::move(body));
+    return std::make_unique<rt::Thread>(rt::ThreadOptions{name, priority, policy, {}}, std::move(body));
   };
   force_thread_ = start("force-out", kForcePriority, [this] { force_out_.run(); });
   surface_thread_ = start("surface-out", kSurfacePriority, [this] { surface_out_.run(); });
   events_thread_ = start("events", 0, [this] { events_.run(); });
   if (recorder_) recorder_thread_ = start("recorder", 0, [this] { recorder_->run(); });
-  tick_thread_ = std::make_unique<rt::PeriodicThread>(rt::ThreadOptions{"tick", kTickPriority, policy},
-                                                      periodOf(config), &Tick::onCycle, &tick_);
+  rt::ThreadOptions tick{"tick", kTickPriority, policy, {}};
+  if (config.tick_cpu != kAnyCpu) tick.cpus = {static_cast<int>(config.tick_cpu)};
+  tick_thread_ = std::make_unique<rt::PeriodicThread>(tick, periodOf(config), &Tick::onCycle, &tick_);
 }
 
 void Server::stop() {

@@ -7,11 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "palpate/rt/memory.h"
+#include "palpate/rt/process_threads.h"
 #include "palpate/rt/semaphore.h"
 #include "palpate/rt/thread.h"
 
@@ -105,12 +108,51 @@ TEST(RaiseThreadsNamed, RaisesExactlyTheNamedOnes) {
   });
   const std::array<std::string_view, 2> names{"test-recvUC", "no-such-thread"};
   EXPECT_EQ(raiseThreadsNamed(names, 5), 1U);
+  EXPECT_EQ(raiseThreadsNamed(names, 5), 0U) << "it is there";
   go_first.post();
   go_second.post();
   first.join();
   second.join();
   EXPECT_EQ(policy[0], SCHED_FIFO);
   EXPECT_EQ(policy[1], SCHED_OTHER);
+}
+
+TEST(Thread, RunsOnItsCpuAndNoOther) {
+  const int cpu = usableCpus().back();
+  std::vector<int> cpus;
+  Thread thread({"test-cpu", 0, RealtimePolicy::kOff, {cpu}}, [&] { cpus = usableCpus(); });
+  thread.join();
+  EXPECT_EQ(cpus, std::vector<int>{cpu});
+}
+
+TEST(Thread, RefusesACpuThatIsNotThereAndNeverRunsTheBody) {
+  bool ran = false;
+  try {
+    Thread thread({"test-cpu", 0, RealtimePolicy::kOff, {CPU_SETSIZE - 1}}, [&] { ran = true; });
+    FAIL() << "accepted";
+  } catch (const RealtimeError& error) {
+    EXPECT_EQ(std::string(error.what()).find("thread test-cpu: CPUs 1023 refused ("), 0U) << error.what();
+  }
+  EXPECT_FALSE(ran);
+}
+
+TEST(ThreadsOfThisProcess, AreListedAsTheKernelHasThem) {
+  const int cpu = usableCpus().front();
+  Semaphore go;
+  Thread thread({"test-listed", 0, RealtimePolicy::kOff, {cpu}}, [&] { go.wait(); });
+  const std::vector<ThreadFacts> threads = threadsOfThisProcess();
+  go.post();
+  const auto found = std::find_if(threads.begin(), threads.end(),
+                                  [](const ThreadFacts& t) { return t.name == "test-listed"; });
+  ASSERT_NE(found, threads.end());
+  EXPECT_EQ(found->fifo_priority, 0);
+  EXPECT_EQ(found->cpus, std::vector<int>{cpu});
+  EXPECT_EQ(threads.front().id, getpid());
+}
+
+TEST(CpuList, ShortensRuns) {
+  EXPECT_EQ(cpuList({}), "");
+  EXPECT_EQ(cpuList(std::vector<int>{0, 1, 2, 3, 6, 8, 9}), "0-3,6,8-9");
 }
 
 TEST(LockMemory, SaysWhyWhenRefused) {

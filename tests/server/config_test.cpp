@@ -66,6 +66,8 @@ TEST_F(ConfigFile, TheSampleHoldsTheDefaults) {
   EXPECT_EQ(sample.realtime, defaults.realtime);
   EXPECT_EQ(sample.surface_rate, defaults.surface_rate);
   EXPECT_EQ(sample.phase_lock, defaults.phase_lock);
+  EXPECT_EQ(sample.tick_cpu, defaults.tick_cpu);
+  EXPECT_EQ(sample.tick_cpu_alone, defaults.tick_cpu_alone);
   EXPECT_EQ(sample.step.tip_radius, defaults.step.tip_radius);
   EXPECT_EQ(sample.step.force_limit, defaults.step.force_limit);
   EXPECT_EQ(sample.step.stale_timeout, defaults.step.stale_timeout);
@@ -101,6 +103,9 @@ TEST_F(ConfigFile, RefusesAWrongTypeByNameAndLine) {
   EXPECT_EQ(refusal("rate = \"fast\""), ":1: rate is of type string, expected a number");
   EXPECT_EQ(refusal("\ndomain = 1.5"), ":2: domain is of type floating-point, expected an integer");
   EXPECT_EQ(refusal("phase_lock = 1"), ":1: phase_lock is of type integer, expected true or false");
+  EXPECT_EQ(refusal("tick_cpu = 5000")
+                .find(":1: tick_cpu is 5000, expected one of the CPUs that this process may use: "),
+            0U);
   EXPECT_EQ(refusal("rate = true"), ":1: rate is of type boolean, expected a number");
   EXPECT_EQ(refusal("model = 3"), ":1: model is of type integer, expected a string");
   EXPECT_EQ(refusal("tool = 3"), ":1: tool is not a table");

@@ -13,6 +13,21 @@
 
 namespace palpate::watch {
 
+/// Which fields a viewer looks at that wants fewer than come: at most `rate_hz` in the mean, evenly. Threads: one.
+class FieldPace {
+ public:
+  /// @param[in] rate_hz  above 0; 0: all of them
+  explicit FieldPace(double rate_hz) noexcept
+      : period_ns_(rate_hz > 0.0 ? static_cast<std::int64_t>(1e9 / rate_hz) : 0) {}
+
+  /// @param[in] now_ns  on any clock that does not go back
+  [[nodiscard]] bool admits(std::int64_t now_ns) noexcept;
+
+ private:
+  std::int64_t period_ns_;
+  std::int64_t next_ns_{0};
+};
+
 /// The displacement of one node.
 struct NodeDisplacement {
   std::size_t node{0};
@@ -23,10 +38,11 @@ struct NodeDisplacement {
 /// What the fields showed since the log began, or since the last look.
 struct FieldSummary {
   std::uint64_t received{0};
-  std::uint64_t superseded{0};  ///< sent by the server but replaced or lost before they came here
-  std::uint64_t refused{0};     ///< of another model, of the wrong size, or with a number that is not finite
-  NodeDisplacement largest;     ///< of the newest field
-  NodeDisplacement peak;        ///< of all fields so far
+  std::uint64_t superseded{
+      0};                    ///< sent by the server but replaced, lost, or not admitted before they came here
+  std::uint64_t refused{0};  ///< of another model, of the wrong size, or with a number that is not finite
+  NodeDisplacement largest;  ///< of the newest field
+  NodeDisplacement peak;     ///< of all fields so far
 };
 
 /// Follows an organ's displacement field. Threads: take() on the receive thread, the rest on one other; they

@@ -21,13 +21,24 @@ struct Options {
   double seconds{10.0};
   std::uint32_t domain{0};
   double wait_s{10.0};
+  double rate_hz{0.0};
   bool json{false};
   std::string vtk;
+};
+
+// What the reader's callbacks work on.
+struct Watch {
+  FieldLog& log;
+  FieldPace pace;
 };
 
 void addOptions(CLI::App& app, Options& options) {
   app.add_option("--seconds", options.seconds, "how long to watch, s")
       ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
+  app.add_option("--rate", options.rate_hz,
+                 "look at no more than so many fields a second; 0: at all that come")
+      ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str();
   app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
   app.add_option("--wait", options.wait_s, "how long to wait for a server, s")
@@ -102,10 +113,14 @@ int body(int argc, char** argv) {
 
   // 3. Follow the field.
   FieldLog log(surface);
+  Watch watch{log, FieldPace(options.rate_hz)};
   const auto on_data = [](dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept {
-    static_cast<FieldLog*>(context)->take(reader);
+    static_cast<Watch*>(context)->log.take(reader);
   };
-  const dds::Reader<dds::SurfaceDisplacement> reader(participant, on_data, &log);
+  const auto admits = [](const dds::SurfaceDisplacement&, void* context) noexcept {
+    return static_cast<Watch*>(context)->pace.admits(client::nowNs());
+  };
+  const dds::Reader<dds::SurfaceDisplacement> reader(participant, on_data, &watch, admits);
   const double seconds = follow(log, surface, options.seconds, options.json ? std::cerr : std::cout);
 
   // 4. Tell.

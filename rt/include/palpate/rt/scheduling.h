@@ -33,7 +33,7 @@ class RealtimeError : public std::runtime_error {
 /// configuration).
 /// @param[in] names     exact names, as the kernel keeps them: at most 15 characters
 /// @param[in] priority  1 to 99
-/// @return how many threads were raised
+/// @return how many threads were raised that were not there yet
 /// Real-time: no (reads /proc).
 [[nodiscard]] std::size_t raiseThreadsNamed(std::span<const std::string_view> names, int priority);
 

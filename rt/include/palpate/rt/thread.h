@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "palpate/rt/scheduling.h"
 
@@ -14,6 +15,7 @@ struct ThreadOptions {
   std::string name{"palpate"};                     ///< as in top and /proc, at most 15 characters
   int priority{0};                                 ///< SCHED_FIFO priority, in [1, 99]; 0: an ordinary thread
   RealtimePolicy policy{RealtimePolicy::kPrefer};  ///< what to do when the priority is refused
+  std::vector<int> cpus{};                         ///< the CPUs that it may use; empty: those of its creator
 };
 
 /// A named thread with a priority, joined by its destructor.
@@ -21,7 +23,7 @@ class Thread {
  public:
   /// Starts the thread and waits until its priority is settled. The thread's stack is touched beforehand.
   /// @param[in] body  runs once on the new thread; must not throw
-  /// @throw RealtimeError  the policy is kRequire and the system refuses; body does not run then
+  /// @throw RealtimeError  the policy is kRequire and the system refuses, or it refuses the CPUs; body does not run then
   Thread(const ThreadOptions& options, std::function<void()> body);
   ~Thread() { join(); }
   Thread(const Thread&) = delete;

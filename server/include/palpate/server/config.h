@@ -35,6 +35,9 @@ struct DeviceOverrides {
 /// A surface rate: with each tick.
 inline constexpr double kEveryTick = std::numeric_limits<double>::infinity();
 
+/// The tick runs where the scheduler puts it.
+inline constexpr std::int64_t kAnyCpu = -1;
+
 /// What the server is told, by defaults, a file and the command line, in this order.
 struct ServerConfig {
   std::filesystem::path model;                               ///< model file; no default
@@ -45,6 +48,8 @@ struct ServerConfig {
   std::int64_t organ_id{0};                                  ///< key of the surface topics, in [0, 2^32 - 1]
   double surface_rate{kEveryTick};     ///< surface fields per second, Hz, in [0.1, kEveryTick]
   bool phase_lock{false};              ///< ticks follow the poses' arrival
+  std::int64_t tick_cpu{kAnyCpu};      ///< CPU of the tick, one that this process may use
+  bool tick_cpu_alone{false};          ///< nothing else of this process runs there
   std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
   std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
   DeviceOverrides said;                ///< of the file and the command line

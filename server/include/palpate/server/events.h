@@ -25,6 +25,9 @@ class Events {
     noteParameters();
   }
 
+  /// Also raise receive threads that DDS makes later. Before run().
+  void raiseReceiveThreads() noexcept { raise_receive_threads_ = true; }
+
   /// Body of the events thread. Publishes that the server is stopping, and returns, once it stops.
   void run() noexcept;
 
@@ -38,6 +41,7 @@ class Events {
   void noteUnknownTools(std::int64_t now_ns);
   void noteRecording(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
+  void raiseLateThreads(std::int64_t now_ns);
   void notePhase(std::uint32_t phase, std::int64_t now_ns);
   void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
   /// Whether a line of this kind may be written: once a second.
@@ -55,6 +59,8 @@ class Events {
   bool changed_{true};                                  // since the last status
   std::int64_t published_ns_{0};
   std::uint32_t told_phase_{static_cast<std::uint32_t>(rt::PhaseState::kFree)};
+  bool raise_receive_threads_{false};
+  std::int64_t raised_ns_{0};
   bool recording_failed_{false};
   std::uint64_t unrecorded_{0};
 };

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palpate/rt/memory.h"
+#include "palpate/rt/process_threads.h"
+#include "palpate/rt/scheduling.h"
+
+namespace palpate::server {
+
+// DESIGN 3.3.
+inline constexpr int kTickPriority = 80;
+inline constexpr int kForcePriority = 75;
+inline constexpr int kReceivePriority = 70;
+inline constexpr int kSurfacePriority = 40;
+
+inline constexpr std::string_view kReceiveThreads[] = {"recv", "recvUC", "recvMC"};  // Cyclone DDS 0.10
+
+/// What the system gave us, once all threads run.
+struct Startup {
+  rt::RealtimePolicy policy{rt::RealtimePolicy::kPrefer};
+  rt::MemoryLock memory;
+  bool model_locked{false};
+  bool awake{false};  ///< /dev/cpu_dma_latency is held at 0
+  std::vector<rt::ThreadFacts> threads;
+};
+
+/// SCHED_FIFO priority that a thread is to have, by its name; 0: none.
+[[nodiscard]] int wantedPriority(std::string_view thread) noexcept;
+
+/// What was wanted beside what was had, one line for each thread and each other thing.
+[[nodiscard]] std::vector<std::string> startupTable(const Startup& startup);
+
+/// How to get what could not be had; empty when all was.
+[[nodiscard]] std::vector<std::string> remedies(const Startup& startup);
+
+/// Keeps the whole process off the tick's CPU, but for the tick: call it before any other thread is made.
+/// @throw std::runtime_error  no other CPU is left, or the system refuses
+void leaveCpuToTheTick(int tick_cpu);
+
+}  // namespace palpate::server
