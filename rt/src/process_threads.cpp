@@ -60,8 +60,9 @@ std::string cpuList(std::span<const int> cpus) {
   for (std::size_t i = 0; i < cpus.size(); ++i) {
     const std::size_t first = i;
     while (i + 1 < cpus.size() && cpus[i + 1] == cpus[i] + 1) ++i;
-    list += (list.empty() ? "" : ",") + std::to_string(cpus[first]);
-    if (i > first) list += "-" + std::to_string(cpus[i]);
+    if (!list.empty()) list += ',';
+    list += std::to_string(cpus[first]);
+    if (i > first) list.append("-").append(std::to_string(cpus[i]));
   }
   return list;
 }
