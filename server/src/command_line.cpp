@@ -56,6 +56,13 @@ void declareContact(CLI::App& app, Given& given) {
   app.add_option("--tools", given.tools, "Tools that are answered, ids 0 to this less 1; 1 to 4, default 4");
 }
 
+// CLI11 2.1.2 writes false into an optional<bool> whose flag is absent, which would overrule the file.
+void declareFlag(CLI::App& app, const std::string& names, std::optional<bool>& given,
+                 const std::string& text) {
+  app.add_flag_function(
+      names, [&given](std::int64_t count) { given = count > 0; }, text);
+}
+
 void declare(CLI::App& app, Given& given) {
   app.set_version_flag("--version", std::string("palpate-server ") + PALPATE_VERSION);
   app.add_option("--model", given.model, "Model file made by palpate-solve")->type_name("FILE");
@@ -73,11 +80,12 @@ void declare(CLI::App& app, Given& given) {
   app.add_option("--surface-rate", given.surface_rate,
                  "Surface fields per second, 0.1 or more, default inf: with every tick")
       ->type_name("HZ");
-  app.add_flag("--phase-lock,!--no-phase-lock", given.phase_lock,
-               "Ticks follow the poses' arrival, so that a pose waits little for its tick");
+  declareFlag(app, "--phase-lock,!--no-phase-lock", given.phase_lock,
+              "Ticks follow the poses' arrival, so that a pose waits little for its tick");
   app.add_option("--tick-cpu", given.tick_cpu,
                  "CPU that the tick runs on, default -1: where the scheduler puts it");
-  app.add_flag("--tick-cpu-alone", given.tick_cpu_alone, "Nothing else of the server runs on the tick's CPU");
+  declareFlag(app, "--tick-cpu-alone,!--no-tick-cpu-alone", given.tick_cpu_alone,
+              "Nothing else of the server runs on the tick's CPU");
   app.add_option("--organ-id", given.organ_id, "Key of the surface topics, default 0");
   app.add_option("--server-id", given.server_id, "Key of the status topic, default 0");
   app.footer(

@@ -97,6 +97,11 @@ TEST_F(ServerRefuses, AConfigurationByFileAndLine) {
   EXPECT_EQ(refusal({"--config", file_.string()}), file_.string() + ":2: unknown key speed");
 }
 
+TEST_F(ServerRefuses, AFlagOfTheFileCountsWhereTheCommandLineSaysNothing) {
+  std::ofstream(file_) << "model = \"m.h5\"\ntick_cpu_alone = true\n";
+  EXPECT_EQ(refusal({"--config", file_.string()}), "--tick-cpu-alone without --tick-cpu: which CPU is it?");
+}
+
 TEST_F(ServerRefuses, ADdsConfigurationThatCannotWork) {
   palpate::testing::writeSyntheticModel(file_);
   const std::string before = getenv("CYCLONEDDS_URI");
