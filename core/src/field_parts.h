@@ -17,10 +17,9 @@ void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources
 void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<float> u) noexcept PALPATE_NONBLOCKING;
 
-/// The field at one point of the surface, m; zero at triangle -1. @param scratch  its amplitudes found
-/// Cost O(C + n). Real-time: yes.
-[[nodiscard]] Vec3 fieldAt(const MetaModel& model, std::span<const FieldSource> sources,
-                           const FieldScratch& scratch,
-                           const ContactPoint& point) noexcept PALPATE_NONBLOCKING;
+/// The field at points of the surface. @param scratch  its amplitudes found  @param points  triangle -1: zero there
+/// @param[out] u  [points] m. Cost O(points n + sources points (C + K_m)). Real-time: yes.
+void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, const FieldScratch& scratch,
+             std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

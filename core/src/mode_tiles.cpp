@@ -65,16 +65,6 @@ constexpr std::size_t kLanes = HWY_LANES(float);
 constexpr std::size_t kVectors = kTile / kLanes < 8 ? kTile / kLanes : 8;
 constexpr std::size_t kStep = kVectors * kLanes;
 
-/// Each instruction set pairs products in its own way.
-template <typename V>
-HWY_INLINE V sumOfPairs(V first, V second) {
-#if HWY_TARGET == HWY_NEON
-  return hn::Add(hn::ConcatEven(Ints(), second, first), hn::ConcatOdd(Ints(), second, first));
-#else
-  return hn::Add(first, second);
-#endif
-}
-
 HWY_INLINE hn::Vec<Shorts> bothOf(const WeightPair& pair) {
   const auto low = static_cast<std::uint16_t>(pair[0]), high = static_cast<std::uint16_t>(pair[1]);
   const std::uint32_t both = low | (std::uint32_t{high} << 16U);
@@ -85,7 +75,7 @@ HWY_INLINE hn::Vec<Shorts> bothOf(const WeightPair& pair) {
 HWY_INLINE void addSums(const hn::Vec<Ints>* first, const hn::Vec<Ints>* second, float unit, float* u) {
   const Floats df;
   for (std::size_t k = 0; k < kVectors; ++k) {
-    const auto sum = hn::ConvertTo(df, sumOfPairs(first[k], second[k]));
+    const auto sum = hn::ConvertTo(df, hn::RearrangeToOddPlusEven(first[k], second[k]));
     hn::StoreU(hn::MulAdd(hn::Set(df, unit), sum, hn::LoadU(df, u + k * kLanes)), df, u + k * kLanes);
   }
 }

@@ -163,6 +163,17 @@ void checkNear(const ModelView& v, const Checker& check) {
   check.require(v.near_offset.back() == end, "/near/offset ends with " + std::to_string(v.near_offset.back()),
                 "the length of /near/node, " + std::to_string(end));
   check.indices("/near/node", v.near_node, v.surfaceNodes());
+  std::vector<std::size_t> seen(v.surfaceNodes(),
+                                v.near_offset.size());  // by node: the last position that has it
+  for (std::size_t m = 0; m + 1 < v.near_offset.size(); ++m)
+    for (auto i = static_cast<std::size_t>(v.near_offset[m]);
+         i < static_cast<std::size_t>(v.near_offset[m + 1]); ++i) {
+      std::size_t& last = seen[static_cast<std::size_t>(v.near_node[i])];
+      if (last == m)
+        check.failAt("/near/node", i, "is " + std::to_string(v.near_node[i]) + " again",
+                     "each node once at position " + std::to_string(m));
+      last = m;
+    }
 }
 
 /// What the tick reads is what X says, rounded.

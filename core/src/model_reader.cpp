@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model_reader.h"
 
+#include <algorithm>
+#include <array>
+
 #include "hdf5_reader.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
@@ -87,7 +90,9 @@ void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size
 
 /// Modes in mixed precision, of files that have them.
 void readPacked(const Hdf5Reader& file, const Lengths& size, PackedModes& packed) {
-  if (!file.hasDataset("modes/scale8")) return;
+  const auto has = [&](const char* dataset) { return file.hasDataset(dataset); };
+  constexpr std::array kAll{"modes/scale16", "modes/scale8", "modes/X16", "modes/X8"};  // or none of them
+  if (std::none_of(kAll.begin(), kAll.end(), has)) return;
   Length tiles(tilesOf(3 * size.Ns.value)), tile(kTile), two(2), four(4), i16("n16"), i8("n8");
   packed.scale16 = file.dataset<float>("modes/scale16", {&i16});
   packed.scale8 = file.dataset<float>("modes/scale8", {&i8});

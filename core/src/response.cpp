@@ -191,14 +191,9 @@ void forEachAnswered(const MetaModel& model, std::span<const FieldSource> source
   }
 }
 
-/// u of one corner of a triangle, near field alone.
-Vec3 nearAt(const MetaModel& model, std::span<const FieldSource> sources, std::int32_t node) noexcept {
-  Vec3 u = Vec3::Zero();
-  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
-    for (std::size_t b = 0; b < index(mix.count); ++b)
-      u += gain * mix.weight[b] * model.nearField().at(mix.position[b], phi, node);
-  });
-  return u;
+std::array<std::int32_t, 3> cornersOf(const MetaModel& model, const ContactPoint& point) noexcept {
+  const std::int32_t* const corner = model.view().surface_triangles.data() + 3 * index(point.triangle);
+  return {corner[0], corner[1], corner[2]};
 }
 
 }  // namespace
@@ -222,15 +217,25 @@ void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, Field
   model.farField().expand(scratch.amplitudes, static_cast<float>(unseen), scratch.selection, u);
 }
 
-Vec3 fieldAt(const MetaModel& model, std::span<const FieldSource> sources, const FieldScratch& scratch,
-             const ContactPoint& point) noexcept PALPATE_NONBLOCKING {
-  Vec3 u = Vec3::Zero();
-  for (std::size_t k = 0; point.triangle >= 0 && k < 3; ++k) {
-    const std::int32_t node = model.view().surface_triangles[3 * index(point.triangle) + k];
-    u +=
-        point.barycentric[k] * (model.farField().at(scratch.amplitudes, node) + nearAt(model, sources, node));
+void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, const FieldScratch& scratch,
+             std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    u[i] = Vec3::Zero();
+    if (points[i].triangle < 0) continue;
+    const std::array<std::int32_t, 3> corners = cornersOf(model, points[i]);
+    for (std::size_t k = 0; k < 3; ++k)
+      u[i] += points[i].barycentric[k] * model.farField().at(scratch.amplitudes, corners[k]);
   }
-  return u;
+  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].triangle < 0) continue;
+      const std::array<std::int32_t, 3> corners = cornersOf(model, points[i]);
+      for (std::size_t b = 0; b < index(mix.count); ++b)
+        for (std::size_t k = 0; k < 3; ++k)
+          u[i] += gain * mix.weight[b] * points[i].barycentric[k] *
+                  model.nearField().at(mix.position[b], phi, corners[k]);
+    }
+  });
 }
 
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,

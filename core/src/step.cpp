@@ -191,7 +191,8 @@ void Tick::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
   blend = ramp_time > 0.0 ? std::max(0.0, blend - ramp_dt_ / ramp_time) : 0.0;
   const ToolSurface surface(model_, work_.tools_, work_.scratch_);
   work_.sources_.keep(surface.sources());
-  const bool finite = showAnchors(surface) && !work_.overflowed_;
+  const bool overflowed = std::exchange(work_.overflowed_, false);  // it is found again as long as it lasts
+  const bool finite = showAnchors(surface) && !overflowed;
   if (finite) return;
   for (ToolResult& out : result.tools)
     if ((out.flags & kInContact) != 0) out.flags |= kNonFiniteForce;
@@ -205,7 +206,7 @@ bool Tick::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING 
     const ContactPoint& s = work_.tools_[i].contact.s;
     if (s.triangle < 0) continue;
     const Vec3 from = model_.surface().interpolate(work_.displacement_from_, s);
-    shown_[i] += weight * (from - shown_[i]);
+    shown_[i] = (1.0 - weight) * shown_[i] + weight * from;
   }
   return finite;
 }
@@ -218,7 +219,7 @@ void Tick::showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE
   work.shown_ = work.sources_;
   work.shown_known_ = weight == 0.0F && !work.overflowed_;
   for (std::size_t i = 0; weight > 0.0F && i < u.size(); ++i)
-    u[i] += weight * (work.displacement_from_[i] - u[i]);
+    u[i] = (1.0F - weight) * u[i] + weight * work.displacement_from_[i];  // no difference, which may overflow
 }
 
 void Tick::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING {

@@ -48,11 +48,13 @@ std::span<const FieldSource> ToolSurface::sources() const noexcept PALPATE_NONBL
 }
 
 bool ToolSurface::atAnchors(std::span<Vec3, kMaxTools> u) const noexcept PALPATE_NONBLOCKING {
+  std::fill(u.begin(), u.end(), Vec3::Zero());
+  if (count_ == 0) return true;
+  fieldAt(model_, sources(), scratch_, anchors_, u);
   bool finite = true;
-  for (std::size_t i = 0; i < kMaxTools; ++i) {
-    u[i] = count_ > 0 ? fieldAt(model_, sources(), scratch_, anchors_[i]) : Vec3::Zero();
-    if (u[i].allFinite()) continue;
-    u[i].setZero();
+  for (Vec3& shown : u) {
+    if (shown.allFinite()) continue;
+    shown.setZero();
     finite = false;
   }
   return finite;

@@ -122,6 +122,33 @@ TEST(SeparatedField, EveryInstructionSetAddsWhatIsStored) {
   }
 }
 
+// All numbers and weights of one sign and as large as they get: sums of 32 bits must hold them.
+TEST(SeparatedField, TheLargestSumsFit) {
+  const Targets targets;
+  for (const std::size_t n : {1U, 2U, 3U, 333U}) {
+    const ModeCounts counts{0, n, n};
+    const std::size_t numbers = 3 * 70, tiles = tilesOf(numbers);
+    const std::vector<std::int16_t> X16(tiles * counts.pairs() * kTile * 2,
+                                        std::numeric_limits<std::int16_t>::min());
+    const std::vector<std::int8_t> X8(tiles * counts.quads() * kTile * 4,
+                                      std::numeric_limits<std::int8_t>::min());
+    const std::vector<float> scale16(n, 1.0F / 32768.0F), scale8(n, 1.0F / 128.0F);
+    const std::vector<std::int64_t> tags(70);
+    const std::vector<float> X(2 * n * numbers, -1.0F), y(2 * n, 0.5F);
+    ModelView view;
+    view.surface_mesh_tag = tags;
+    view.modes_X = X;
+    view.modes_packed = {X16, X8, scale16, scale8};
+    for (const std::int64_t target : targets.list()) {
+      hwy::SetSupportedTargetsForTest(target);
+      const SeparatedField field(view);
+      const double size = static_cast<double>(n);  // b and d of a quad are smaller by half a step, 1 in 256
+      for (const float u : expanded(field, y, 0.0F, numbers))
+        ASSERT_NEAR(double(u), -size, 4e-3 * size) << hwy::TargetName(target) << ' ' << n;
+    }
+  }
+}
+
 TEST(SeparatedField, WhatIsLeftOutMovesNoNodeByMoreThanIsUnseen) {
   const PackedField packed(100, {0, 12, 60});
   const SeparatedField field(packed.view());
@@ -134,6 +161,9 @@ TEST(SeparatedField, WhatIsLeftOutMovesNoNodeByMoreThanIsUnseen) {
       largest =
           std::max(largest, std::hypot(all[i] - some[i], all[i + 1] - some[i + 1], all[i + 2] - some[i + 2]));
     EXPECT_LE(largest, 1.01F * unseen);
+    if (unseen == 1.0F) {
+      EXPECT_GT(largest, 1e-3F) << "nothing was left out";
+    }
   }
 }
 

@@ -116,6 +116,16 @@ def _quantile(counts, total, q):
 _STATISTICS = re.compile(r"size \d+ mean [\d.]+us min [\d.]+us 50% ([\d.]+)us 90% [\d.]+us 99% ([\d.]+)us max ([\d.]+)us cnt (\d+)")
 
 
+def ping_pong(text):
+    """Of what `ddsperf ping` prints. It prints half of each round trip, (now - time of the ping) / 2: twice that is the whole."""
+    found = [tuple(float(x) for x in match) for match in _STATISTICS.findall(text)]
+    full = [second for second in found[1:] if second[3] > 500]  # in the first one they find each other
+    if not full:
+        return None
+    return {"p50": 2.0 * statistics.median(s[0] for s in full), "p99": 2.0 * statistics.median(s[1] for s in full),
+            "max": 2.0 * max(s[2] for s in full)}
+
+
 def ddsperf(setup, size):
     """Ping-pong between two processes, best effort, 1000 a second. It tells each second for itself: medians of these."""
     priority = RECEIVE_PRIORITY if setup.realtime else None
@@ -128,12 +138,10 @@ def ddsperf(setup, size):
                                    setup.env, priority)
     finally:
         processes.end(pong)
-    found = [tuple(float(x) for x in match) for match in _STATISTICS.findall(text)]
-    full = [second for second in found[1:] if second[3] > 500]  # in the first one they find each other
-    if not full:
+    found = ping_pong(text)
+    if found is None:
         raise Failure(f"ddsperf reported no full second of ping-pong of {size} bytes; see {log}")
-    return {"p50": statistics.median(s[0] for s in full), "p99": statistics.median(s[1] for s in full),
-            "max": max(s[2] for s in full)}
+    return found
 
 
 class Server:

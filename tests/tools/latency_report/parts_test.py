@@ -63,6 +63,12 @@ class Numbers(unittest.TestCase):
                 "max 5919.791us cnt 995\n")
         self.assertEqual(measure._STATISTICS.findall(line), [("79.272", "1567.062", "5919.791", "995")])
 
+    def test_ddsperf_prints_half_of_a_round_trip(self):
+        line = "[72] {}.000  vm:71 size 288 mean 1us min 1us 50% {}us 90% 1us 99% 90us max 500us cnt {}\n"
+        text = line.format(1, 900, 995) + line.format(2, 40, 1000) + line.format(3, 7, 3)
+        self.assertEqual(measure.ping_pong(text), times(80.0, 180.0, 1000.0))
+        self.assertIsNone(measure.ping_pong(line.format(1, 40, 1000)))
+
     def test_middle_is_the_median_and_the_largest_maximum(self):
         found = [results(tick=times(x, 10 * x, 100 * x)) for x in (3.0, 1.0, 50.0)]
         self.assertEqual(rounds.middle(found)["tick"], times(3.0, 30.0, 5000.0))

@@ -80,7 +80,7 @@ struct FieldScratch {
 };
 
 /// What modes that are left out of a field may move a node by, as a share of the largest displacement imposed.
-inline constexpr double kUnseenShare = 5e-4;
+inline constexpr double kUnseenShare = 2e-4;
 
 /// One tool's part in a field.
 struct FieldSource {

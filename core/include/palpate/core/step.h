@@ -69,7 +69,7 @@ enum class StepStatus { kOk, kFlagged };
 [[nodiscard]] StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                               StepResult& result) noexcept PALPATE_NONBLOCKING;
 
-/// All of a tick but the surface: whoever waits for a force need not wait for what is shown. Cost O(C n). Real-time: yes.
+/// All of a tick but the surface: whoever waits for a force need not wait for what is shown. Cost O(C n + tools^2 (C + K_m)). Real-time: yes.
 [[nodiscard]] StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& input,
                                     StepResult& result) noexcept PALPATE_NONBLOCKING;
 
