@@ -52,7 +52,7 @@ std::int64_t PhaseLock::follow(std::int64_t deadline_ns,
   const bool missed = arrivals.count >= 2 && silent_ == 2;
   if (arrivals.count > 0) observe(static_cast<double>(deadline_ns - arrivals.newest_ns), missed);
   judge();
-  if (state_ != PhaseState::kSeeking && state_ != PhaseState::kLocked) return 0;
+  if (!hasPhase()) return 0;
   const double most = kSlew * period_;
   return static_cast<std::int64_t>(std::clamp(wrapped(target() - lead_ - drift_), -most, most));
 }
@@ -105,7 +105,7 @@ void PhaseLock::giveUp() noexcept PALPATE_NONBLOCKING {
 }
 
 void PhaseLock::judge() noexcept PALPATE_NONBLOCKING {
-  const bool following = state_ == PhaseState::kSeeking || state_ == PhaseState::kLocked;
+  const bool following = hasPhase();
   const bool ended = static_cast<double>(silent_) > std::max(8.0, kSilence / period_);
   if (ended) forget();
   if (following && (scatter_ > kFarthest * period_ || too_fast_ > kSettled)) giveUp();

@@ -150,7 +150,8 @@ void Events::notePhase(std::uint32_t phase, std::int64_t now_ns) {
   if (!isDue(kPhaseKind, now_ns)) return;
   told_phase_ = phase;
   if (state == rt::PhaseState::kLocked) info("phase lock: ticks follow the poses");
-  if (state == rt::PhaseState::kFree) info("phase lock: no poses to follow, ticks keep their phase");
+  if (state == rt::PhaseState::kFree)
+    info("phase lock: no poses to follow, or none with a phase of their own: ticks keep their phase");
   if (state == rt::PhaseState::kWaiting)
     info("phase lock: poses come unevenly or not at the ticks' rate, ticks keep their phase for a while");
 }

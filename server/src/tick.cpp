@@ -76,10 +76,13 @@ std::uint32_t Tick::noticed(const PoseSample& pose, std::uint64_t unordered_befo
   return flags;
 }
 
+bool Tick::rejected(std::size_t tool) const noexcept PALPATE_NONBLOCKING {
+  return (result_.tools[tool].flags & (kNonFinitePose | kNonUnitQuaternion)) != 0;
+}
+
 void Tick::countRejectedPoses() noexcept PALPATE_NONBLOCKING {
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
-    const std::uint32_t flags = result_.tools[tool].flags;
-    if (ledgers_[tool].came > 0 && (flags & (kNonFinitePose | kNonUnitQuaternion)) != 0) ++rejected_;
+    if (ledgers_[tool].came > 0 && rejected(tool)) ++rejected_;
   }
 }
 
@@ -157,25 +160,28 @@ void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 
-// The tool that came first keeps the phase until its poses end; then the first of those whose poses come has it.
+// The tool that first had a phase sets that of the ticks until it has none; then the first of those that have one.
+// A pose that the engine rejected is none.
 void Tick::followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
-  const auto comes = [&](std::size_t tool) {
-    return seen(tool) && cycle.woke_ns - ledgers_[tool].pose.arrival_ns <= kRecent;
-  };
-  for (std::size_t tool = 0; tool < ledgers_.size() && !comes(followed_); ++tool) {
-    if (!comes(tool)) continue;
-    followed_ = tool;
-    phase_.restart();
+  if (!plan_.phase_lock) return;
+  std::array<std::int64_t, kMaxTools> shifts{};
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
+    if (!seen(tool)) continue;
+    const Ledger& ledger = ledgers_[tool];
+    const rt::Arrivals arrivals{rejected(tool) ? 0 : ledger.came, ledger.pose.arrival_ns};
+    shifts[tool] = phases_[tool].follow(cycle.deadline_ns, arrivals);
   }
-  const Ledger& ledger = ledgers_[followed_];
-  if (plan_.phase_lock) shift_ns_ = phase_.follow(cycle.deadline_ns, {ledger.came, ledger.pose.arrival_ns});
+  for (std::size_t tool = 0; tool < ledgers_.size() && !phases_[followed_].hasPhase(); ++tool) {
+    if (phases_[tool].hasPhase()) followed_ = tool;
+  }
+  shift_ns_ = shifts[followed_];
 }
 
 void Tick::writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   TickRecord record;
   record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
   record.previous_tick_ns = cycle.previous_ns;
-  record.phase = plan_.phase_lock ? static_cast<std::uint32_t>(phase_.state()) : 0;
+  record.phase = plan_.phase_lock ? static_cast<std::uint32_t>(phases_[followed_].state()) : 0;
   record.ticks = cycle.index + 1;
   record.overruns = cycle.overruns;
   record.rejected = rejected_;

@@ -94,12 +94,39 @@ TEST(PhaseLock, LocksFromAnyPhaseWithinAHundredTicksAndStays) {
   }
 }
 
-TEST(PhaseLock, WithoutItTheWaitIsWhateverThePhaseIs) {  // what the others would show if nothing were shifted
+// Also of a stream that begins anew elsewhere: what was learnt of the phase before is not taken for the new one's.
+TEST(PhaseLock, MovesNothingBeforeSixteenValuesCame) {
   World world;
-  world.next_send += 300e3;
-  world.run(1);
-  world.run(3);
-  EXPECT_NEAR(world.quantile(0.5), 700e3, 1e3);
+  for (const double phase : {300e3, 600e3}) {
+    world.next_send += phase;
+    world.sending = true;
+    const std::int64_t travelled = world.travelled_;
+    world.run(15);
+    EXPECT_EQ(world.travelled_, travelled);
+    EXPECT_EQ(world.lock_.state(), PhaseState::kFree);
+    world.run(3);
+    EXPECT_GT(world.travelled_, travelled);
+    EXPECT_EQ(world.lock_.state(), PhaseState::kSeeking);
+    world.run(300);
+    EXPECT_EQ(world.lock_.state(), PhaseState::kLocked);
+    world.sending = false;
+    world.run(60);
+  }
+}
+
+// Others move the grid: the lock learns the phase all the same, and is right at once when its turn comes.
+TEST(PhaseLock, LearnsThePhaseAlsoWhenItIsNotTheOneThatMovesTheGrid) {
+  PhaseLock lock(kPeriod);
+  std::int64_t deadline = 5'000'000'000, lead = 0;
+  for (int i = 0; i < 500; ++i) {
+    lead = (deadline - 300'000) % kPeriod;
+    const std::int64_t shift = lock.follow(deadline, {1, deadline - lead});
+    if (i > 20) {
+      ASSERT_EQ(shift > 0, lead < lock.margin() || lead > lock.margin() + kPeriod / 2) << lead;
+    }
+    deadline += kPeriod + (i < 400 ? 3'000 : -9'000);
+  }
+  EXPECT_TRUE(lock.hasPhase());
 }
 
 TEST(PhaseLock, TheMarginFollowsTheJitter) {
@@ -198,7 +225,7 @@ TEST(PhaseLock, AStreamWithoutAPhaseIsNotFollowed) {
 }
 
 TEST(PhaseLock, ASenderAtAnotherRateIsLeftAlone) {
-  for (const double hz : {990.0, 995.0, 1005.0, 900.0, 730.0}) {
+  for (const double hz : {990.0, 995.0, 1005.0, 900.0, 730.0, 30.0}) {
     World world;
     world.sender_period = 1e9 / hz;
     world.delay = gauss(5e3);

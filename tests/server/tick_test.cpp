@@ -1,109 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tick without its thread: the test keeps the time.
-#include "palpate/server/tick.h"
-
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "palpate/server/pose_subscriber.h"
 #include "palpate/testing/allocation_guard.h"
-#include "palpate/testing/synthetic_model.h"
+#include "tick_fixture.h"
 
 namespace palpate::server::testing {
 namespace {
-
-constexpr std::int64_t kPeriod = 1'000'000;
-constexpr dds::WriterId kSender = 1;
-constexpr dds::WriterId kOther = 2;
-
-MetaModel loadSynthetic() {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("palpate-tick-" + std::to_string(getpid()) + ".h5");
-  palpate::testing::writeSyntheticModel(path);
-  MetaModel model = MetaModel::load(path);
-  std::filesystem::remove(path);
-  return model;
-}
-
-class TickTest : public ::testing::Test {
- protected:
-  // An accessible node and the normal there.
-  TickTest() {
-    const ModelView& view = model_.view();
-    std::size_t position = 0;
-    while (view.contact_accessible[position] == 0) ++position;
-    const int node = view.contact_node[position];
-    const ContactPoint s = model_.surface().atNode(node);
-    place_ = model_.surface().position(s);
-    normal_ = model_.surface().nodeNormal(node);
-  }
-
-  [[nodiscard]] dds::ToolPose poseAtDepth(std::uint32_t tool, double depth) {
-    dds::ToolPose pose{};
-    pose.tool_id = tool;
-    pose.seq = ++pose_seq_;
-    pose.stamp_ns = now_ns_;
-    const Vec3 centre = place_ + (StepConfig{}.tip_radius - depth) * normal_;
-    for (int k = 0; k < 3; ++k) pose.position[k] = centre[k];
-    pose.orientation[3] = 1.0;
-    return pose;
-  }
-
-  void send(const dds::ToolPose& pose) noexcept { intake_.accept(pose, kSender, now_ns_); }
-
-  void runOneTick() noexcept {
-    now_ns_ += kPeriod;
-    cycle_.deadline_ns = now_ns_;
-    cycle_.woke_ns = now_ns_ + 7;
-    shift_ns_ = tick_.run(cycle_);
-    ++cycle_.index;
-    cycle_.previous_ns = 50'000;
-  }
-
-  // All forces that lie in the ring.
-  std::vector<ForceRecord> takeForces() {
-    std::vector<ForceRecord> records;
-    ForceRecord record;
-    while (channels_->forces.pop(record)) records.push_back(record);
-    return records;
-  }
-
-  // The flags of all forces that lie in the ring. Allocates nothing.
-  std::uint32_t takeFlags() noexcept {
-    std::uint32_t flags = 0;
-    ForceRecord record;
-    while (channels_->forces.pop(record)) flags |= record.result.flags;
-    return flags;
-  }
-
-  TickRecord takeLastRecord() {
-    TickRecord record;
-    while (channels_->ticks.pop(record)) {
-    }
-    return record;
-  }
-
-  MetaModel model_ = loadSynthetic();
-  Workspace work_{model_, StepConfig{}};
-  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3 * model_.view().surfaceNodes());
-  PoseIntake intake_{*channels_, StepConfig{}};
-  Tick tick_{model_, work_, *channels_, {kPeriod}};
-  rt::Cycle cycle_;
-  std::int64_t now_ns_{1'000'000'000};
-  std::int64_t shift_ns_{0};
-  std::int64_t last_pose_ns_{0};
-  std::uint64_t pose_seq_{0};
-  Vec3 place_;
-  Vec3 normal_;
-};
 
 TEST_F(TickTest, AnswersNobodyBeforeTheFirstPose) {
   runOneTick();
@@ -311,47 +219,6 @@ TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
   EXPECT_EQ(run(20), 2U);
   now_ns_ += 500 * kPeriod;
   EXPECT_EQ(run(20), 4U);
-}
-
-// Two tools send at phases of their own, at 0.3 and 0.8 ms of each millisecond; the one that came first keeps its phase until it ends.
-TEST_F(TickTest, TheTicksFollowThePosesOfTheToolThatCameFirst) {
-  Tick tick(model_, work_, *channels_, {kPeriod, 0, true});
-  last_pose_ns_ = now_ns_;
-  const auto sendAt = [&](std::uint32_t tool, std::int64_t at_ns) {
-    if (at_ns > last_pose_ns_ && at_ns <= now_ns_) intake_.accept(poseAtDepth(tool, -0.01), kSender, at_ns);
-  };
-  const auto run = [&](int ticks, bool first, bool second) {
-    for (int i = 0; i < ticks; ++i) {
-      for (std::int64_t ms_ns = last_pose_ns_ / kPeriod * kPeriod; ms_ns <= now_ns_; ms_ns += kPeriod) {
-        if (first) sendAt(0, ms_ns + 300'000);
-        if (second) sendAt(1, ms_ns + 800'000);
-      }
-      last_pose_ns_ = now_ns_;
-      cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
-      now_ns_ += kPeriod + tick.run(cycle_);
-      ++cycle_.index;
-      (void)takeForces();
-    }
-    return takeLastRecord();
-  };
-  const auto lead = [&](std::int64_t at_ns) { return static_cast<double>(now_ns_ % kPeriod - at_ns); };
-  const auto locked = static_cast<std::uint32_t>(rt::PhaseState::kLocked);
-  EXPECT_EQ(run(300, true, true).phase, locked);
-  EXPECT_NEAR(lead(300'000), 80e3, 60e3) << "after the first tool's poses";
-  EXPECT_EQ(run(300, false, true).phase, locked);
-  EXPECT_NEAR(lead(800'000), 80e3, 60e3) << "after the second's, now that the first is gone";
-  EXPECT_EQ(run(300, true, true).phase, locked);
-  EXPECT_NEAR(lead(800'000), 80e3, 60e3) << "and so it stays";
-  EXPECT_EQ(run(300, false, false).phase, static_cast<std::uint32_t>(rt::PhaseState::kFree));
-}
-
-TEST_F(TickTest, WithoutPhaseLockTheTicksStayWhereTheyAre) {
-  for (int i = 0; i < 300; ++i) {
-    send(poseAtDepth(0, -0.01));
-    runOneTick();
-    ASSERT_EQ(shift_ns_, 0);
-  }
-  EXPECT_EQ(takeLastRecord().phase, 0U);
 }
 
 TEST_F(TickTest, TellsWhenZeroForceWasSent) {

@@ -29,8 +29,12 @@ struct Arrivals {
 /// the mean lead is that plus a guard, together at most a quarter of the period (145 us at 1 kHz): where the jitter is
 /// wider, more are missed, for the wait of all would not be worth it.
 ///
-/// A stream has a phase when it stays close to its mean. One that loses it, or whose drift exceeds kDrift (also one that
-/// is sent in answer to our own ticks, which moves as we do), is given up for a second, then for two, up to 32.
+/// A stream has a phase when it stays close to its mean; one that never does stays kFree. One that loses its phase, or
+/// whose drift exceeds kDrift (also one that is sent in answer to our own ticks, which moves as we do), is given up for
+/// a second, then for two, up to 32.
+///
+/// One lock, one stream. Of several streams each has a lock of its own, which keeps what it learnt and the waits that
+/// it earned; the grid moves as one of them says, and the others see from the deadlines by how much it did.
 /// Threads: one. Real-time: yes.
 class PhaseLock {
  public:
@@ -38,17 +42,18 @@ class PhaseLock {
   static constexpr double kDrift = 0.001;  ///< largest difference of the clocks that is followed
 
   /// @param[in] period_ns  of the grid, at least 1000
-  explicit PhaseLock(std::int64_t period_ns) noexcept;
+  explicit PhaseLock(std::int64_t period_ns = 1'000'000) noexcept;
 
   /// Call in each cycle. @param[in] deadline_ns  of this cycle
   /// @return by how much the next deadline is to move, ns; at most kSlew of the period either way
   [[nodiscard]] std::int64_t follow(std::int64_t deadline_ns,
                                     const Arrivals& arrivals) noexcept PALPATE_NONBLOCKING;
 
-  /// Another stream is followed from now on.
-  void restart() noexcept PALPATE_NONBLOCKING { forget(); }
-
   [[nodiscard]] PhaseState state() const noexcept PALPATE_NONBLOCKING { return state_; }
+  /// The stream has a phase of its own, and was not given up.
+  [[nodiscard]] bool hasPhase() const noexcept PALPATE_NONBLOCKING {
+    return state_ == PhaseState::kSeeking || state_ == PhaseState::kLocked;
+  }
   /// How long before a deadline values are to come, in the mean: what was learnt so far, ns
   [[nodiscard]] std::int64_t margin() const noexcept PALPATE_NONBLOCKING;
 

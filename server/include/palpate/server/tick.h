@@ -28,7 +28,8 @@ class Tick {
  public:
   /// The three references must outlive the tick.
   Tick(const MetaModel& model, Workspace& work, Channels& channels, const TickPlan& plan)
-      : model_(model), work_(work), channels_(channels), plan_(plan), phase_(plan.period_ns) {
+      : model_(model), work_(work), channels_(channels), plan_(plan) {
+    phases_.fill(rt::PhaseLock(plan.period_ns));
     input_.period_ns = plan.period_ns;
   }
 
@@ -53,6 +54,7 @@ class Tick {
   void readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] std::uint32_t noticed(const PoseSample& pose, std::uint64_t unordered_before,
                                       std::int64_t now_ns) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool rejected(std::size_t tool) const noexcept PALPATE_NONBLOCKING;
   void countRejectedPoses() noexcept PALPATE_NONBLOCKING;
   void writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
@@ -80,9 +82,9 @@ class Tick {
   std::size_t next_stranger_{0};
   std::int64_t last_woke_ns_{0};
   std::uint64_t last_overruns_{0};
-  bool overrun_{false};  // ticks were missed before this one
-  rt::PhaseLock phase_;
-  std::size_t followed_{0};  // the tool whose poses set the phase
+  bool overrun_{false};                          // ticks were missed before this one
+  std::array<rt::PhaseLock, kMaxTools> phases_;  // one a tool: none resets what another earned
+  std::size_t followed_{0};                      // the tool whose poses set the phase
   std::int64_t shift_ns_{0};
   std::uint64_t surface_seq_{0};
   std::int64_t next_surface_ns_{0};
