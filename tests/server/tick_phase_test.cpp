@@ -123,8 +123,8 @@ TEST_F(TickPhaseTest, TakingTurnsDoesNotShortenAWait) {
     end(tool);
     (turn < 10 ? early : late) += travelled_;
   }
-  EXPECT_GT(early, 10 * kPeriod / 100) << "the grid never went after them: nothing was tried";
-  EXPECT_LT(static_cast<double>(late), 0.001 * 50'000 * kPeriod) << "0.1 % in the mean";
+  EXPECT_GT(early, kPeriod) << "the grid never went after them: nothing was tried";
+  EXPECT_LT(late, 10 * kPeriod) << "a try in each turn would be half a period in each of 50";
 }
 
 TEST_F(TickTest, WithoutPhaseLockTheTicksStayWhereTheyAre) {
