@@ -54,36 +54,17 @@ H5FD_file_image_callbacks_t inPlace(const SealedImage& image) {
   return callbacks;
 }
 
+/// HDF5's name for T as a model file holds it.
 template <typename T>
-struct FileType;
-template <>
-struct FileType<double> {
-  static hid_t id() { return H5T_IEEE_F64LE; }
-};
-template <>
-struct FileType<float> {
-  static hid_t id() { return H5T_IEEE_F32LE; }
-};
-template <>
-struct FileType<std::int8_t> {
-  static hid_t id() { return H5T_STD_I8LE; }
-};
-template <>
-struct FileType<std::int16_t> {
-  static hid_t id() { return H5T_STD_I16LE; }
-};
-template <>
-struct FileType<std::int32_t> {
-  static hid_t id() { return H5T_STD_I32LE; }
-};
-template <>
-struct FileType<std::int64_t> {
-  static hid_t id() { return H5T_STD_I64LE; }
-};
-template <>
-struct FileType<std::uint8_t> {
-  static hid_t id() { return H5T_STD_U8LE; }
-};
+hid_t fileType() {
+  if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
+  if constexpr (std::is_same_v<T, float>) return H5T_IEEE_F32LE;
+  if constexpr (std::is_same_v<T, std::int8_t>) return H5T_STD_I8LE;
+  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_STD_I16LE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_STD_U8LE;
+}
 
 std::string describeType(hid_t type) {
   const H5T_class_t kind = H5Tget_class(type);
@@ -270,7 +251,7 @@ const std::byte* Hdf5Reader::place(const std::string& path, hid_t dataset, std::
 template <typename T>
 std::span<const T> Hdf5Reader::dataset(const std::string& path, std::initializer_list<Length*> shape) const {
   const Hdf5Handle handle = openDataset(path);
-  checkType(path, handle.get(), FileType<T>::id());
+  checkType(path, handle.get(), fileType<T>());
   checkShape(path, handle.get(), std::span(shape.begin(), shape.size()));
   checkLayout(path, handle.get());
   const std::uint64_t limit = image_.bytes().size() / sizeof(T);

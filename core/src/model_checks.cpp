@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "load_driven.h"
@@ -163,17 +164,22 @@ void checkNear(const ModelView& v, const Checker& check) {
   check.require(v.near_offset.back() == end, "/near/offset ends with " + std::to_string(v.near_offset.back()),
                 "the length of /near/node, " + std::to_string(end));
   check.indices("/near/node", v.near_node, v.surfaceNodes());
-  std::vector<std::size_t> seen(v.surfaceNodes(),
-                                v.near_offset.size());  // by node: the last position that has it
-  for (std::size_t m = 0; m + 1 < v.near_offset.size(); ++m)
-    for (auto i = static_cast<std::size_t>(v.near_offset[m]);
-         i < static_cast<std::size_t>(v.near_offset[m + 1]); ++i) {
-      std::size_t& last = seen[static_cast<std::size_t>(v.near_node[i])];
-      if (last == m)
-        check.failAt("/near/node", i, "is " + std::to_string(v.near_node[i]) + " again",
+}
+
+/// A block that had a node twice would move it twice, and say otherwise where that node is asked for by itself.
+void checkNearOnce(const ModelView& v, const Checker& check) {
+  std::vector<std::size_t> last(v.surfaceNodes(),
+                                v.positions());  // position that had the node last; none yet
+  for (std::size_t m = 0; m < v.positions(); ++m) {
+    const auto first = static_cast<std::size_t>(v.near_offset[m]);
+    const auto end = static_cast<std::size_t>(v.near_offset[m + 1]);
+    for (std::size_t i = first; i < end; ++i) {
+      const auto node = static_cast<std::size_t>(v.near_node[i]);
+      if (std::exchange(last[node], m) == m)
+        check.failAt("/near/node", i, "is " + std::to_string(node) + " again",
                      "each node once at position " + std::to_string(m));
-      last = m;
     }
+  }
 }
 
 /// What the tick reads is what X says, rounded.
@@ -246,6 +252,7 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   checkPositions(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
   checkNear(v, check);
+  checkNearOnce(v, check);
   if (a.parameters != Parameters::kDisplacement) checkNoNear(a, v, check);
   if (a.parameters == Parameters::kLevel) {
     checkLevels(v, check);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace palpate::latency {
 namespace {
 
@@ -54,6 +56,22 @@ TEST(LatencyLog, TheWaitForTheTickIsTakenOutPoseByPose) {
   EXPECT_EQ(log.wait().count(), 3U);
   EXPECT_EQ(log.poseToForceLessWait().max(), 200'000);
   EXPECT_EQ(log.poseToForceLessWait().count(), 3U);
+}
+
+// The server's times come from outside: their difference must not overflow (the sanitizer preset would see it).
+TEST(LatencyLog, WaitsThatCannotBeTrueAreBounded) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  auto endless = answer(1, 1);
+  endless.pose_wait_ns = std::numeric_limits<std::int64_t>::max();
+  endless.wakeup_ns = std::numeric_limits<std::int64_t>::min();
+  log.add(endless, received(endless, 100'000));
+  EXPECT_EQ(log.wait().max(), 7'200'000'000'000);
+  auto negative = answer(2, 2);
+  negative.pose_wait_ns = std::numeric_limits<std::int64_t>::min();
+  negative.wakeup_ns = std::numeric_limits<std::int64_t>::max();
+  log.add(negative, received(negative, 100'000));
+  EXPECT_EQ(log.wait().percentile(0.1), 0);
 }
 
 TEST(LatencyLog, AnswersToPosesOlderThanTwoPeriodsAreLate) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <new>
 
 #include "driver.h"
 #include "palpate/core/tool_coupling.h"
@@ -16,6 +17,10 @@ TEST(AllocationGuard, CountsWhatIsAllocated) {
   int* volatile number = new int(1);  // volatile: what nobody looks at a compiler may leave out
   EXPECT_GT(guard.count(), 0U);
   delete number;
+  const std::size_t thrown = guard.count();
+  int* volatile other = new (std::nothrow) int(1);
+  EXPECT_GT(guard.count(), thrown);
+  delete other;
 #if !PALPATE_SANITIZER_HAS_MALLOC
   const std::size_t before = guard.count();
   void* volatile memory = std::malloc(10);

@@ -81,6 +81,10 @@ TEST(Step, ASurfaceThatNobodyTakesChangesNoAnswer) {
       ASSERT_EQ(a.force, b.force);
       ASSERT_EQ(a.anchor, b.anchor);
       ASSERT_LT((vec(a.proxy) - vec(b.proxy)).norm(), jumped ? 1e-4 : 1e-9) << "tool " << i;
+      const ContactPoint here = organ().surface().closestPoint(vec(a.anchor)).s;
+      const Vec3 shown = organ().surface().interpolate(every.work().displacement(), here);
+      ASSERT_LT((vec(a.proxy) - vec(a.anchor) - shown).norm(), 1e-6)
+          << "tool " << i << ": the proxy is on the surface";
       compared += !jumped && vec(a.proxy) != vec(a.anchor) ? 1 : 0;
     }
     if (taken && !jumped) {

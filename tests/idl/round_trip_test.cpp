@@ -2,43 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <limits>
 #include <numeric>
-#include <thread>
 #include <vector>
 
+#include "link.h"
 #include "palpate/idl/error.h"
-#include "palpate/idl/reader.h"
-#include "palpate/idl/writer.h"
-#include "test_domain.h"
 
 namespace palpate::dds {
 namespace {
-
-using namespace std::chrono_literals;
-
-// Repeats `attempt` until it says true: DDS delivers soon, not at once.
-template <class Attempt>
-bool eventually(Attempt attempt) {
-  for (int i = 0; i < 2000; ++i) {
-    if (attempt()) return true;
-    std::this_thread::sleep_for(2ms);
-  }
-  return false;
-}
-
-template <class T>
-struct Link {
-  Participant participant{palpate::testing::exclusiveDomain()};
-  Reader<T> reader{participant};
-  Writer<T> writer{participant};
-
-  void connect() {
-    ASSERT_TRUE(writer.waitForReaders(1, 5s));
-    ASSERT_TRUE(reader.waitForWriters(1, 5s));
-  }
-};
 
 TEST(RoundTrip, PoseArrivesUnchanged) {
   Link<ToolPose> link;
@@ -219,91 +191,6 @@ TEST(RoundTrip, EveryToolKeepsItsOwnNewestPose) {
   std::size_t count = 0;
   ASSERT_TRUE(eventually([&] { return (count = link.reader.take(got)) == 4; }));
   for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(got[i].seq, 10 * got[i].tool_id + 3);
-}
-
-struct Sum {
-  std::atomic<std::uint64_t> value{0};
-};
-
-TEST(Callback, GetsEverySampleAsItComes) {
-  const Participant participant(palpate::testing::exclusiveDomain());
-  Sum sum;
-  const auto add = [](ReaderView<ToolPose> reader, void* context) noexcept {
-    ToolPose pose{};
-    while (reader.take({&pose, 1}) == 1) static_cast<Sum*>(context)->value += pose.seq;
-  };
-  Reader<ToolPose> original(participant, add, &sum);
-  const Reader<ToolPose> reader = std::move(original);  // the binding must survive a move
-  Writer<ToolPose> writer(participant);
-  ASSERT_TRUE(writer.waitForReaders(1, 5s));
-  ToolPose pose{};
-  for (pose.seq = 1; pose.seq <= 100; ++pose.seq) ASSERT_TRUE(writer.write(pose));
-  EXPECT_TRUE(eventually([&] { return sum.value == 5050; }));
-}
-
-struct Senders {
-  std::atomic<std::uint64_t> seq[3]{};
-  std::array<WriterId, 3> writer{};
-};
-
-TEST(Callback, TellsWhichWriterSentASample) {
-  const Participant participant(palpate::testing::exclusiveDomain());
-  Senders senders;
-  const auto note = [](ReaderView<ToolPose> reader, void* context) noexcept {
-    auto& self = *static_cast<Senders*>(context);
-    std::array<ToolPose, 1> pose;
-    std::array<WriterId, kMaxTake> writers;
-    while (reader.take(pose, writers) == 1) {
-      self.writer[pose[0].tool_id] = writers[0];
-      self.seq[pose[0].tool_id] = pose[0].seq;
-    }
-  };
-  const Reader<ToolPose> reader(participant, note, &senders);
-  Writer<ToolPose> one(participant);
-  Writer<ToolPose> two(participant);
-  ASSERT_TRUE(one.waitForReaders(1, 5s) && two.waitForReaders(1, 5s));
-  (void)one.write(ToolPose{0, 1, 0, {}, {}, 0});
-  (void)two.write(ToolPose{1, 1, 0, {}, {}, 0});
-  (void)one.write(ToolPose{2, 1, 0, {}, {}, 0});
-  ASSERT_TRUE(eventually([&] { return senders.seq[0] == 1 && senders.seq[1] == 1 && senders.seq[2] == 1; }));
-  EXPECT_NE(senders.writer[0], senders.writer[1]);
-  EXPECT_EQ(senders.writer[0], senders.writer[2]);
-}
-
-TEST(Callback, AFilterKeepsAFloodOfInstancesOutAndARealOneGetsIn) {
-  const Participant participant(palpate::testing::exclusiveDomain());
-  Sum sum;
-  const auto add = [](ReaderView<ToolPose> reader, void* context) noexcept {
-    ToolPose pose{};
-    while (reader.take({&pose, 1}) == 1) static_cast<Sum*>(context)->value += pose.seq;
-  };
-  const auto admits = [](const ToolPose& pose, void*) noexcept { return pose.tool_id < 4; };
-  const Reader<ToolPose> reader(participant, add, &sum, admits);
-  Writer<ToolPose> writer(participant);
-  ASSERT_TRUE(writer.waitForReaders(1, 5s));
-  ToolPose pose{};
-  pose.seq = 1;
-  for (pose.tool_id = 4; pose.tool_id < 4 + 2 * kMaxInstances; ++pose.tool_id) (void)writer.write(pose);
-  pose.tool_id = 3;
-  pose.seq = 1000;
-  ASSERT_TRUE(writer.write(pose)) << "kMaxInstances ids are in use, had they been kept";
-  EXPECT_TRUE(eventually([&] { return sum.value == 1000; })) << sum.value;
-}
-
-TEST(Callback, IsNotCalledForAWriterThatOnlyLeaves) {
-  Link<ToolPose> link;
-  link.connect();
-  {
-    Writer<ToolPose> brief(link.participant);
-    ASSERT_TRUE(link.reader.waitForWriters(2, 5s));
-    ASSERT_TRUE(brief.write(ToolPose{2, 1, 0, {}, {}, 0}));
-    std::vector<ToolPose> got(4);
-    ASSERT_TRUE(eventually([&] { return link.reader.take(got) == 1; }));
-  }
-  // The instance's end is an invalid sample; taking must skip it.
-  std::vector<ToolPose> got(4);
-  EXPECT_TRUE(eventually([&] { return link.reader.matched() == 1; }));
-  EXPECT_EQ(link.reader.take(got), 0U);
 }
 
 TEST(Participant, RejectsADomainOutOfRange) {

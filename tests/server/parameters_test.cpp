@@ -61,7 +61,7 @@ TEST_F(Parameters, OfAnotherServerAreNotOurs) {
 TEST_F(Parameters, ForceScalesWithEAndNeverSteps) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  const double before = sizeOf(client_->forces().back().force);
+  const double before = sizeOf(settled_.force);
   const double E = ask({})["model_youngs_modulus_Pa"];
   for (const double factor : {0.25, 2.0, 1.0}) {
     client_->forget();
@@ -76,7 +76,7 @@ TEST_F(Parameters, ForceScalesWithEAndNeverSteps) {
 TEST_F(Parameters, ALowerForceLimitIsReachedWithoutAStep) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.003));
-  const double before = sizeOf(client_->forces().back().force);
+  const double before = sizeOf(settled_.force);
   ASSERT_GT(before, 1.0);
   client_->forget();
   EXPECT_TRUE(ask({"--force-limit", "0.2"})["accepted"]);

@@ -35,7 +35,7 @@ class Safety : public ServerEndToEnd {
     client_->stopSending();
     pause(60);  // whatever was done, its poses are stale
     ASSERT_NO_FATAL_FAILURE(press(0.001)) << server_->log();
-    EXPECT_GT(dot(target_.normal, client_->forces().back().force), 0.05);
+    EXPECT_GT(dot(target_.normal, settled_.force), 0.05);
     EXPECT_TRUE(server_->running());
   }
 
@@ -237,7 +237,7 @@ TEST_F(Safety, MoreToolsThanConfiguredGetNoForce) {
 TEST_F(Safety, BeyondTheDomainTheForceGoesOnAndIsLimited) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.02));
-  EXPECT_NE(client_->forces().back().flags & dds::flag::kBeyondDomain, 0U);
+  EXPECT_NE(settled_.flags & dds::flag::kBeyondDomain, 0U);
   expectBounded();
   expectAlive();
 }
@@ -245,8 +245,8 @@ TEST_F(Safety, BeyondTheDomainTheForceGoesOnAndIsLimited) {
 TEST_F(Safety, TheForceLimit) {
   ASSERT_NO_FATAL_FAILURE(start({"--force-limit", "0.2"}));
   ASSERT_NO_FATAL_FAILURE(press(0.003));
-  EXPECT_NE(client_->forces().back().flags & dds::flag::kForceLimited, 0U);
-  EXPECT_NEAR(sizeOf(client_->forces().back().force), 0.2, 1e-6);
+  EXPECT_NE(settled_.flags & dds::flag::kForceLimited, 0U);
+  EXPECT_NEAR(sizeOf(settled_.force), 0.2, 1e-6);
   expectBounded(0.2);
   expectAlive();
 }
@@ -268,7 +268,7 @@ TEST_F(Safety, TheForceRateLimit) {
 TEST_F(Safety, APoseThatJumps) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.002));
-  const double held = sizeOf(client_->forces().back().force);
+  const double held = sizeOf(settled_.force);
   client_->forget();
   for (int i = 0; i < 5; ++i) {  // a jump is flagged in one answer, and best effort may lose it
     client_->moveTo(atDepth(-0.015), 1);

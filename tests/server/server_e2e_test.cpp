@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include "palpate/core/meta_model.h"
@@ -25,7 +21,7 @@ namespace {
 TEST_F(ServerEndToEnd, PushesBackAndEchoesThePose) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  const dds::ToolForce force = client_->forces().back();
+  const dds::ToolForce& force = settled_;
   const Point& n = target_.normal;
   EXPECT_GT(dot(n, force.force), 0.0) << "the force on the tool points outward";
   double stiffness_n[3] = {0, 0, 0};
@@ -46,7 +42,7 @@ TEST_F(ServerEndToEnd, AForceModelAnswersAPressWithTheForceThatGivesTheDisplacem
   palpate::testing::writeSyntheticModel(model_, {.parameters = Parameters::kForce});
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  const dds::ToolForce force = client_->forces().back();
+  const dds::ToolForce& force = settled_;
   EXPECT_EQ(force.flags, dds::flag::kInContact);
   const MetaModel model = MetaModel::load(model_);
   const Vec3 anchor(force.anchor[0], force.anchor[1], force.anchor[2]);
@@ -64,7 +60,7 @@ TEST_F(ServerEndToEnd, ALevelModelAnswersAPressAlongItsLoad) {
   palpate::testing::writeSyntheticModel(model_, {.parameters = Parameters::kLevel});
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  const dds::ToolForce force = client_->forces().back();
+  const dds::ToolForce& force = settled_;
   EXPECT_EQ(force.flags, dds::flag::kInContact);
   EXPECT_NEAR(force.force[0], 0.0, 1e-12);
   EXPECT_NEAR(force.force[1] * 0.8, -force.force[2] * 0.6, 1e-9) << "the load is along (0, 0.6, -0.8)";
@@ -95,7 +91,7 @@ TEST_F(ServerEndToEnd, EveryTickIsAnsweredOnceAndInOrder) {
 TEST_F(ServerEndToEnd, ForceFallsSteadilyToZeroWhenPosesStop) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  const double held = sizeOf(client_->forces().back().force);
+  const double held = sizeOf(settled_.force);
   client_->stopSending();
   client_->forget();
   pause(200);
@@ -136,13 +132,13 @@ TEST_F(ServerEndToEnd, SurvivesPosesThatAreNoPoses) {
   for (const dds::ToolForce& force : client_->forces()) ASSERT_TRUE(isFinite(force));
   EXPECT_TRUE(client_->waitForStatus([](const auto& s) { return s.rejected_poses >= 2; }).has_value());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  EXPECT_GT(dot(target_.normal, client_->forces().back().force), 0.0) << "a good pose is answered again";
+  EXPECT_GT(dot(target_.normal, settled_.force), 0.0) << "a good pose is answered again";
 }
 
 TEST_F(ServerEndToEnd, ClampsAndFlagsWhatLiesBeyondTheDomain) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.02));
-  const dds::ToolForce force = client_->forces().back();
+  const dds::ToolForce& force = settled_;
   EXPECT_NE(force.flags & dds::flag::kBeyondDomain, 0U);
   EXPECT_LE(sizeOf(force.displacement), force.domain_radius * (1.0 + 1e-9));
   EXPECT_GT(force.penetration, force.domain_radius);
@@ -152,7 +148,7 @@ TEST_F(ServerEndToEnd, ClampsAndFlagsWhatLiesBeyondTheDomain) {
 TEST_F(ServerEndToEnd, CutsTheForceToTheLimit) {
   ASSERT_NO_FATAL_FAILURE(start({"--force-limit", "0.01"}));
   ASSERT_NO_FATAL_FAILURE(press(0.002));
-  const dds::ToolForce force = client_->forces().back();
+  const dds::ToolForce& force = settled_;
   EXPECT_NE(force.flags & dds::flag::kForceLimited, 0U);
   EXPECT_NEAR(sizeOf(force.force), 0.01, 1e-6);
 }
@@ -215,46 +211,12 @@ TEST_F(ServerEndToEnd, TellsItsStateAboutOnceASecond) {
   EXPECT_TRUE(later.has_value());
 }
 
-// Real-time priority of each thread by name, from /proc; 0: none.
-std::map<std::string, int> priorities(pid_t pid) {
-  std::map<std::string, int> found;
-  for (const auto& task : std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task")) {
-    std::string name;
-    std::string stat;
-    std::getline(std::ifstream(task.path() / "comm"), name);
-    std::getline(std::ifstream(task.path() / "stat"), stat);
-    std::istringstream fields(stat.substr(std::min(stat.size(), stat.rfind(')') + 1)));
-    std::string field;
-    for (int number = 3; number <= 40; ++number) fields >> field;  // proc(5): 40 is rt_priority
-    if (fields) found[name] = std::stoi(field);
-  }
-  return found;
-}
-
-TEST_F(ServerEndToEnd, RunsItsThreadsAtTheirPriorities) {
-  ASSERT_NO_FATAL_FAILURE(start());
-  const auto status = client_->waitForStatus([](const auto& s) { return s.ticks > 0; });
-  ASSERT_TRUE(status.has_value());
-  if (!status->realtime) GTEST_SKIP() << "SCHED_FIFO is not granted here";
-  const auto found = priorities(server_->pid());
-  const std::map<std::string, int> wanted{
-      {"tick", 80}, {"force-out", 75}, {"surface-out", 40}, {"events", 0}};
-  for (const auto& [name, priority] : wanted) {
-    ASSERT_EQ(found.count(name), 1U) << name;
-    EXPECT_EQ(found.at(name), priority) << name;
-  }
-  const auto receiving = std::count_if(found.begin(), found.end(), [](const auto& thread) {
-    return thread.first.rfind("recv", 0) == 0 && thread.second == 70;
-  });
-  EXPECT_GT(receiving, 0) << "no receive thread of DDS was raised";
-}
-
 class ServerStops : public ServerEndToEnd, public ::testing::WithParamInterface<int> {};
 
 TEST_P(ServerStops, WithZeroForceLastAndExitCodeZero) {
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  ASSERT_GT(sizeOf(client_->forces().back().force), 0.0);
+  ASSERT_GT(sizeOf(settled_.force), 0.0);
   client_->forget();
   server_->signal(GetParam());
   EXPECT_EQ(server_->waitForExit(), 0) << server_->log();
@@ -284,7 +246,7 @@ TEST_F(ServerEndToEnd, StopsWithZeroForceWhenNobodyReadsItsLog) {
   log_fd_ = ends[1];
   ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(press(0.001));
-  ASSERT_GT(sizeOf(client_->forces().back().force), 0.0);
+  ASSERT_GT(sizeOf(settled_.force), 0.0);
   fill(ends[1]);
   client_->forget();
   server_->signal(SIGTERM);
@@ -299,19 +261,6 @@ TEST_F(ServerEndToEnd, StopsWithZeroForceWhenNobodyReadsItsLog) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, ServerStops, ::testing::Values(SIGINT, SIGTERM));
-
-// At 100 Hz: poses count as even when they come within a tenth of a period, which a busy machine keeps to 1 ms.
-TEST_F(ServerEndToEnd, WithPhaseLockTheTicksFollowTheClient) {
-  start({"--phase-lock", "--rate", "100", "--surface-rate", "50"});
-  client_->startSending(atDepth(-0.002));
-  const auto locked = client_->waitForStatus(
-      [](const dds::ServerStatus& status) { return status.phase_lock == dds::phase::kLocked; });
-  ASSERT_TRUE(locked.has_value()) << server_->log();
-  client_->stopSending();
-  const auto free = client_->waitForStatus(
-      [](const dds::ServerStatus& status) { return status.phase_lock == dds::phase::kFree; });
-  EXPECT_TRUE(free.has_value()) << server_->log();
-}
 
 }  // namespace
 }  // namespace palpate::server::testing

@@ -81,7 +81,8 @@ class ServerEndToEnd : public ::testing::Test {
     return along(target_.position, target_.normal, kTipRadius - depth);
   }
 
-  // From above the surface down to `depth`, and held there until the force has settled.
+  // From above the surface down to `depth`, and held there until the force has settled. `settled_` is an answer from
+  // then, of a tick before which the machine had not stood still.
   void press(double depth) {
     client_->startSending(atDepth(-0.002));
     pause(20);
@@ -89,7 +90,13 @@ class ServerEndToEnd : public ::testing::Test {
     pause(150);
     client_->forget();
     pause(50);
-    ASSERT_TRUE(client_->waitFor([](const dds::ToolForce&) { return true; }).has_value()) << server_->log();
+    constexpr std::uint32_t kMachineStoodStill = dds::flag::kTickOverrun | dds::flag::kStalePose |
+                                                 dds::flag::kRamping | dds::flag::kForceRateLimited |
+                                                 dds::flag::kPoseOutOfOrder;
+    const auto answer =
+        client_->waitFor([](const dds::ToolForce& f) { return (f.flags & kMachineStoodStill) == 0; });
+    ASSERT_TRUE(answer.has_value()) << server_->log();
+    settled_ = *answer;
   }
 
   std::uint32_t domain_ = palpate::testing::exclusiveDomain();
@@ -99,6 +106,7 @@ class ServerEndToEnd : public ::testing::Test {
   std::unique_ptr<ServerProcess> server_;
   std::unique_ptr<TestClient> client_;
   Target target_;
+  dds::ToolForce settled_{};
 };
 
 }  // namespace palpate::server::testing

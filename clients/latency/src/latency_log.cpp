@@ -4,6 +4,16 @@
 #include <algorithm>
 
 namespace palpate::latency {
+namespace {
+
+/// From the pose's arrival to the deadline of its tick: what a server says of it, if it can be true.
+std::int64_t waitOf(const dds::ToolForce& force) noexcept {
+  constexpr std::int64_t kLongest = 3'600'000'000'000;  // ns; whatever was sent, the difference is a number
+  const auto sane = [&](std::int64_t ns) { return std::clamp<std::int64_t>(ns, -kLongest, kLongest); };
+  return std::max<std::int64_t>(0, sane(force.pose_wait_ns) - sane(force.wakeup_ns));
+}
+
+}  // namespace
 
 void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noexcept {
   const bool known = force.pose_seq <= newest_pose_;
@@ -19,7 +29,7 @@ void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noex
   const std::int64_t age_ns = received_ns - force.pose_stamp_ns;
   if (age_ns > 2 * period_ns_) ++late_;
   if (known) return;  // only the first answer to a pose is a round trip
-  const std::int64_t wait_ns = std::max<std::int64_t>(0, force.pose_wait_ns - force.wakeup_ns);
+  const std::int64_t wait_ns = waitOf(force);
   pose_to_force_.add(age_ns);
   wait_.add(wait_ns);
   less_wait_.add(age_ns - wait_ns);

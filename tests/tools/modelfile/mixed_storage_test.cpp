@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <cmath>
 #include <functional>
 
+#include "palpate/core/hdf5_handle.h"
+#include "palpate/core/load_error.h"
 #include "palpate/core/meta_model.h"
 #include "palpate/core/response.h"
 #include "palpate/modelfile/mixed_precision.h"
@@ -126,6 +129,25 @@ TEST(StoreMixed, FilesThatSayOtherwiseThanTheirModesAreRefused) {
     ModelData data = good;
     spoil(data);
     EXPECT_THAT(complaint(data), HasSubstr(expected));
+  }
+}
+
+TEST(StoreMixed, FilesWithAPartOfThePackedModesAreRefused) {
+  for (const char* dataset : {"modes/X16", "modes/X8", "modes/scale16", "modes/scale8"}) {
+    const TemporaryFile file("part.h5");
+    ModelData data = fallingModes();
+    (void)modelfile::storeMixed(data, 5e-3);
+    modelfile::writeModel(file.path(), data);
+    {
+      const Hdf5Handle opened(H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+      ASSERT_GE(H5Ldelete(opened.get(), dataset, H5P_DEFAULT), 0);
+    }
+    try {
+      (void)MetaModel::load(file.path());
+      ADD_FAILURE() << "without " << dataset << " it was read";
+    } catch (const LoadError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(std::string("/") + dataset + " is missing"));
+    }
   }
 }
 

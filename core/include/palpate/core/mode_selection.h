@@ -48,7 +48,8 @@ class ModeSelection {
 
   /// Products of sixteen bits, 2^15 each at most, that fit 32 bits.
   static constexpr std::size_t kLargestSum = 65535;
-  /// Of one kind: each weight is rounded by up to a half, and with more the sum could be exceeded.
+  /// Of one kind. Weights are made to add up to kLargestSum - n and rounded by up to a half each, so that any n keeps
+  /// the sum; but with more modes than this rounding would take more than an eighth of it.
   static constexpr std::size_t kMostModes = 16384;
 
  private:

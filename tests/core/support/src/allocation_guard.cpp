@@ -13,17 +13,28 @@ void note() noexcept {
   if (armed) ++counted;
 }
 
-void* allocate(std::size_t size) {
+void* allocateOrNull(std::size_t size) noexcept {
   note();
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
+  return std::malloc(size == 0 ? 1 : size);
+}
+
+void* allocateAlignedOrNull(std::size_t size, std::align_val_t alignment) noexcept {
+  note();
+  const auto step = static_cast<std::size_t>(alignment);
+  return std::aligned_alloc(step, (size + step - 1) / step * step);
+}
+
+void* orThrow(void* memory) {
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+void* allocate(std::size_t size) {
+  return orThrow(allocateOrNull(size));
 }
 
 void* allocateAligned(std::size_t size, std::align_val_t alignment) {
-  note();
-  const auto step = static_cast<std::size_t>(alignment);
-  if (void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
-  throw std::bad_alloc();
+  return orThrow(allocateAlignedOrNull(size, alignment));
 }
 
 void release(void* memory) noexcept {
@@ -44,6 +55,20 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
 }
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   return allocateAligned(size, alignment);
+}
+// Those that return nothing rather than throw: the libraries' own call another operator new than ours, and what they
+// return goes to our operator delete.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return allocateOrNull(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return allocateOrNull(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return allocateAlignedOrNull(size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return allocateAlignedOrNull(size, alignment);
 }
 void operator delete(void* memory) noexcept {
   release(memory);
