@@ -2,7 +2,9 @@
 #pragma once
 
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sys/file.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -26,22 +28,36 @@ inline void useLoopback() {
          0);
 }
 
-/// A domain id between 1 and 200 that this process holds until it ends, by a lock on a file: two tests that
-/// run at once never see each other's samples.
+/// Whether a participant is in the domain on this machine: it listens on UDP port 7400 + 250 * domain + 10.
+inline bool inUse(std::uint32_t domain) {
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(7410 + 250 * domain));
+  address.sin_addr.s_addr = htonl(INADDR_ANY);
+  const bool taken =
+      bind(fd, static_cast<const sockaddr*>(static_cast<const void*>(&address)), sizeof address) != 0;
+  close(fd);
+  return taken;
+}
+
+/// A domain id between 1 and 100 (above, its ports are those that Linux gives out by itself) that this process holds
+/// until it ends, by a lock on a file: two tests that run at once never see each other's samples, nor those of a
+/// server that somebody runs.
 inline std::uint32_t exclusiveDomain() {
   static const std::uint32_t domain = [] {
     useLoopback();
     std::random_device random;
     for (int attempt = 0; attempt < 400; ++attempt) {
-      const std::uint32_t candidate = 1 + random() % 200;
+      const std::uint32_t candidate = 1 + random() % 100;
       const std::string path = "/tmp/palpate-test-domain-" + std::to_string(candidate);
       const int fd = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
       if (fd < 0) continue;
-      if (flock(fd, LOCK_EX | LOCK_NB) == 0)
+      if (flock(fd, LOCK_EX | LOCK_NB) == 0 && !inUse(candidate))
         return candidate;  // the descriptor stays open on purpose: it is the lock
       close(fd);
     }
-    throw std::runtime_error("no free DDS domain among 1 to 200: do many tests run at once?");
+    throw std::runtime_error("no free DDS domain among 1 to 100: do many tests run at once?");
   }();
   return domain;
 }

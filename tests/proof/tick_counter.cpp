@@ -7,8 +7,10 @@
 #include <poll.h>
 #include <pthread.h>
 #include <semaphore.h>
+#include <sys/epoll.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/select.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -119,6 +121,8 @@ PALPATE_COUNTED(kLock, int, pthread_mutex_lock, noexcept, (pthread_mutex_t * m),
 PALPATE_COUNTED(kLock, int, pthread_mutex_trylock, noexcept, (pthread_mutex_t * m), (m))
 PALPATE_COUNTED(kLock, int, pthread_mutex_timedlock, noexcept, (pthread_mutex_t * m, const timespec* t),
                 (m, t))
+PALPATE_COUNTED(kLock, int, pthread_mutex_clocklock, noexcept,
+                (pthread_mutex_t * m, clockid_t c, const timespec* t), (m, c, t))
 PALPATE_COUNTED(kLock, int, pthread_rwlock_rdlock, noexcept, (pthread_rwlock_t * l), (l))
 PALPATE_COUNTED(kLock, int, pthread_rwlock_wrlock, noexcept, (pthread_rwlock_t * l), (l))
 PALPATE_COUNTED(kLock, int, pthread_spin_lock, noexcept, (pthread_spinlock_t * l), (l))
@@ -135,6 +139,10 @@ PALPATE_COUNTED(kSystemCall, ssize_t, writev, , (int f, const iovec* v, int n), 
 PALPATE_COUNTED(kSystemCall, ssize_t, sendmsg, , (int f, const msghdr* m, int o), (f, m, o))
 PALPATE_COUNTED(kSystemCall, ssize_t, recvmsg, , (int f, msghdr* m, int o), (f, m, o))
 PALPATE_COUNTED(kSystemCall, int, poll, , (pollfd * f, nfds_t n, int t), (f, n, t))
+PALPATE_COUNTED(kSystemCall, int, select, , (int n, fd_set* r, fd_set* w, fd_set* e, timeval* t),
+                (n, r, w, e, t))
+PALPATE_COUNTED(kSystemCall, int, epoll_wait, , (int d, epoll_event* e, int n, int t), (d, e, n, t))
+PALPATE_COUNTED(kSystemCall, int, close, , (int f), (f))
 PALPATE_COUNTED(kSystemCall, int, munmap, noexcept, (void* p, size_t n), (p, n))
 PALPATE_COUNTED(kSystemCall, int, madvise, noexcept, (void* p, size_t n, int a), (p, n, a))
 PALPATE_COUNTED(kSystemCall, void*, mmap, noexcept, (void* p, size_t n, int r, int f, int d, off_t o),
