@@ -126,22 +126,29 @@ def ping_pong(text):
             "max": 2.0 * max(s[2] for s in full)}
 
 
+_DDSPERF_ATTEMPTS = 3  # best effort: on a machine that is busy with others a lost ping can cost ddsperf its seconds
+
+
 def ddsperf(setup, size):
     """Ping-pong between two processes, best effort, 1000 a second. It tells each second for itself: medians of these."""
+    log = setup.log("ddsperf")
+    for _ in range(_DDSPERF_ATTEMPTS):
+        found = ping_pong(_ddsperf_output(setup, size, log))
+        if found is not None:
+            return found
+    raise Failure(f"ddsperf reported no full second of ping-pong of {size} bytes in {_DDSPERF_ATTEMPTS} runs; see {log}")
+
+
+def _ddsperf_output(setup, size, log):
     priority = RECEIVE_PRIORITY if setup.realtime else None
     command = ["ddsperf", "-i", str(setup.domain), "-u"]
-    log = setup.log("ddsperf")
     seconds = round(setup.seconds) + 2
     pong = processes.start(command + ["-D", str(seconds + 5), "pong"], log, setup.env, priority)
     try:
-        text = processes.output_of(command + ["-D", str(seconds), "ping", "1kHz", "size", str(size)], log, seconds + 30,
+        return processes.output_of(command + ["-D", str(seconds), "ping", "1kHz", "size", str(size)], log, seconds + 30,
                                    setup.env, priority)
     finally:
         processes.end(pong)
-    found = ping_pong(text)
-    if found is None:
-        raise Failure(f"ddsperf reported no full second of ping-pong of {size} bytes; see {log}")
-    return found
 
 
 class Server:
