@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arrivals.h"
+
+#include <utility>
+
+#include "palpate/client/pacer.h"
+
+namespace palpate::viewer {
+
+Arrivals::Arrivals(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context)
+    : wake_(wake),
+      context_(context),
+      rate_hz_(rate_hz),
+      pace_(rate_hz),
+      field_reader_(participant, &Arrivals::onField, this, &Arrivals::admits),
+      force_reader_(participant, &Arrivals::onForce, this, &Arrivals::admitsForce) {}
+
+bool Arrivals::admits(const dds::SurfaceDisplacement&, void* context) noexcept {
+  auto& self = *static_cast<Arrivals*>(context);
+  const std::int64_t now_ns = client::nowNs();
+  self.pace_.setRate(self.rate_hz_.load(std::memory_order_relaxed));
+  if (!self.pace_.due(now_ns)) return false;
+  self.pace_.went(now_ns);
+  return true;
+}
+
+bool Arrivals::admitsForce(const dds::ToolForce& force, void*) noexcept {
+  return force.tool_id < 4;  // palpate.idl
+}
+
+void Arrivals::keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns) {
+  const auto& u = field.displacement;
+  if (u._length > kMostNumbers) return;
+  const std::lock_guard lock(mutex_);
+  field_.organ_id = field.organ_id;
+  field_.model_id = field.model_id;
+  field_.topology_revision = field.topology_revision;
+  field_.seq = field.seq;
+  field_.received_ns = now_ns;
+  field_.displacement.assign(u._buffer, u._buffer + u._length);
+  fresh_ = true;
+}
+
+void Arrivals::onField(dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept {
+  auto& self = *static_cast<Arrivals*>(context);
+  const std::int64_t now_ns = client::nowNs();
+  const auto samples = reader.takeLoaned();
+  for (std::size_t i = 0; i < samples.size(); ++i) self.keep(samples[i], now_ns);
+  if (!samples.empty()) self.wake_(self.context_);
+}
+
+void Arrivals::onForce(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept {
+  auto& self = *static_cast<Arrivals*>(context);
+  const std::int64_t now_ns = client::nowNs();
+  std::array<dds::ToolForce, dds::kMaxTake> forces;
+  const std::size_t count = reader.take(forces);
+  const std::lock_guard lock(self.mutex_);
+  for (std::size_t i = 0; i < count && self.forces_.size() < kMostForces; ++i)
+    self.forces_.push_back({forces[i], now_ns});
+}
+
+bool Arrivals::takeField(ArrivedField& field) {
+  const std::lock_guard lock(mutex_);
+  if (!fresh_) return false;
+  std::swap(field, field_);
+  fresh_ = false;
+  return true;
+}
+
+void Arrivals::takeForces(std::vector<TimedForce>& forces) {
+  forces.clear();
+  const std::lock_guard lock(mutex_);
+  std::swap(forces, forces_);
+}
+
+}  // namespace palpate::viewer

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "pacing.h"
+#include "palpate/idl/reader.h"
+
+namespace palpate::viewer {
+
+/// Called on DDS's receive thread; must not block.
+using WakeFunction = void (*)(void* context) noexcept;
+
+/// A displacement field as it came, not judged yet.
+struct ArrivedField {
+  std::uint32_t organ_id{0};
+  std::string model_id;
+  std::uint32_t topology_revision{0};
+  std::uint64_t seq{0};
+  std::int64_t received_ns{0};
+  std::vector<float> displacement;
+};
+
+struct TimedForce {
+  dds::ToolForce force;
+  std::int64_t received_ns;
+};
+
+/// What comes too often to be asked for: fields, of which the newest is kept, and forces, all of them. From DDS's threads
+/// to the web thread, by a lock that both hold for a copy.
+class Arrivals {
+ public:
+  static constexpr std::size_t kMostForces = 8192;        ///< kept while nobody takes them
+  static constexpr std::size_t kMostNumbers = 3'000'000;  ///< of a field; longer ones are not looked at
+
+  /// @throw dds::DdsError
+  Arrivals(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context);
+
+  /// At most so many fields a second are looked at. Threads: any.
+  void setRate(double rate_hz) noexcept { rate_hz_.store(rate_hz, std::memory_order_relaxed); }
+
+  /// The newest field, if one came since the last call. Threads: one.
+  [[nodiscard]] bool takeField(ArrivedField& field);
+  /// Forces since the last call. @param[out] forces  replaced
+  void takeForces(std::vector<TimedForce>& forces);
+
+ private:
+  static bool admits(const dds::SurfaceDisplacement& field, void* context) noexcept;
+  static bool admitsForce(const dds::ToolForce& force, void* context) noexcept;
+  static void onField(dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept;
+  static void onForce(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept;
+  void keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns);
+
+  WakeFunction wake_;
+  void* context_;
+  std::atomic<double> rate_hz_;
+  FramePace pace_;  // the filter's only
+  std::mutex mutex_;
+  ArrivedField field_;
+  bool fresh_{false};
+  std::vector<TimedForce> forces_;
+  dds::Reader<dds::SurfaceDisplacement> field_reader_;
+  dds::Reader<dds::ToolForce> force_reader_;
+};
+
+}  // namespace palpate::viewer

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "palpate/client/surface.h"
+
+namespace palpate::viewer {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// First number of a binary message: what follows (PROTOCOL.md).
+inline constexpr std::uint32_t kMeshKind = 1;
+inline constexpr std::uint32_t kFrameKind = 2;
+
+inline constexpr std::size_t kFrameHeaderSize = 56;
+inline constexpr std::size_t kToolRecordSize = 72;
+inline constexpr std::size_t kAnswerRecordSize = 32;
+
+/// A displacement field as it is sent: 16 bits a number.
+struct EncodedField {
+  std::uint32_t mesh_revision{0};
+  std::uint64_t seq{0};              ///< the server's counter
+  double sample_us{0.0};             ///< when the DDS sample came, viewer's monotonic clock, us
+  float scale{0.0F};                 ///< m per unit, above 0
+  std::vector<std::int16_t> values;  ///< 3 Ns, node-interleaved x y z
+};
+
+/// A tool as a page draws it; world frame W, m and N.
+struct ToolRecord {
+  std::uint32_t tool_id{0};
+  std::uint32_t state{0};
+  std::uint32_t flags{0};
+  bool mine{false};  ///< the page that gets this drives it
+  std::array<float, 3> tip{};
+  std::array<float, 3> proxy{};
+  std::array<float, 3> anchor{};
+  std::array<float, 3> force{};  ///< on the tool
+  float penetration{0.0F};
+  float domain_radius{0.0F};
+};
+
+/// One answer of the server, for the strip chart.
+struct AnswerRecord {
+  std::uint32_t tool_id{0};
+  std::uint32_t flags{0};
+  double t_us{0.0};         ///< when the tick woke, viewer's monotonic clock, us
+  float force{0.0F};        ///< size, N
+  float penetration{0.0F};  ///< m
+  float wakeup_us{0.0F};    ///< how late the tick woke
+  float stiffness{0.0F};    ///< -n.K n, N/m, along the force; 0 when free
+};
+
+/// What one binary FRAME message holds.
+struct Frame {
+  std::uint32_t seq{0};
+  std::uint32_t mesh_revision{0};
+  const EncodedField* field{nullptr};  ///< nullptr: no surface in this frame
+  double sent_us{0.0};
+  std::span<const ToolRecord> tools;
+  std::span<const AnswerRecord> answers;
+};
+
+/// Quantizes a field to 16 bits, in steps of its largest component / 32767.
+/// @param[in] displacement  3 Ns, m, finite
+[[nodiscard]] EncodedField encodeField(std::span<const float> displacement);
+
+/// Appends a MESH message. @param[in] surface  checked
+void encodeMesh(const client::Surface& surface, std::uint32_t revision, Bytes& out);
+
+/// Appends a FRAME message.
+void encodeFrame(const Frame& frame, Bytes& out);
+
+}  // namespace palpate::viewer

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-viewer: shows an organ in browsers and lets them touch it.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+
+#include "palpate/client/error.h"
+#include "palpate/client/stop_signal.h"
+#include "palpate/report/program.h"
+#include "web_server.h"
+
+namespace palpate::viewer {
+namespace {
+
+struct Options {
+  WebOptions web;
+  std::string page;
+  std::string token_file;
+  std::uint32_t domain{0};
+  std::vector<std::uint32_t> tools{3, 2, 1, 0};  // a device's usual tool, 0, last
+  bool json{false};
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  WebOptions& web = options.web;
+  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
+  app.add_option("--listen", web.access.listen,
+                 "numeric address to listen on; one that other machines reach needs a token")
+      ->capture_default_str();
+  app.add_option("--port", web.access.port, "TCP port; 0: any that is free")->capture_default_str();
+  app.add_option("--page", options.page, "folder with the page's index.html");
+  app.add_option(
+      "--token", web.access.token,
+      "secret that pages must bring, 16 to 128 letters, digits, - and _ (seen in the list of processes: "
+      "better --token-file)");
+  app.add_option("--token-file", options.token_file, "file whose first line is the token");
+  app.add_option(
+      "--origin", web.access.origins,
+      "further address under which browsers see the page, e.g. https://viewer.example.org; may be repeated");
+  app.add_option("--rate", web.rate_hz, "frames a second to each page, at most")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--max-pages", web.max_pages, "pages that may be open at once")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_option("--tools", options.tools, "tool ids that pages may drive, in the order of preference")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "when it listens, print one JSON object on standard output");
+  app.set_version_flag("--version", PALPATE_VERSION);
+}
+
+std::string tokenFrom(const std::string& path) {
+  std::ifstream file(path);
+  std::string token;
+  if (!std::getline(file, token)) throw client::ClientError("cannot read a token from " + path);
+  return token;
+}
+
+void announce(const WebServer& server, const Options& options) {
+  const bool token = !options.web.access.token.empty();
+  if (options.json) {
+    report::printJson({{"address", server.address()},
+                       {"port", server.port()},
+                       {"domain", options.domain},
+                       {"needs_token", token}});
+  } else {
+    std::cout << "page at " << server.address() << (token ? " (with ?token=... behind it)" : "") << std::endl;
+  }
+}
+
+int body(int argc, char** argv) {
+  // 1. What to do.
+  CLI::App app("Shows the organ that a palpate-server simulates in browsers, and lets them touch it.");
+  Options options;
+  addOptions(app, options);
+  CLI11_PARSE(app, argc, argv);
+  if (!options.token_file.empty()) options.web.access.token = tokenFrom(options.token_file);
+  options.web.page = options.page.empty() ? defaultPageFolder() : std::filesystem::path(options.page);
+  spdlog::set_default_logger(spdlog::stderr_color_mt("palpate-viewer"));
+  client::catchStopSignals();
+  std::signal(SIGPIPE, SIG_IGN);
+
+  // 2. Listen, and join the domain.
+  WebServer server(options.web);
+  const dds::Participant participant(options.domain);
+  Viewer viewer(participant, options.web.rate_hz, options.tools, &WebServer::wake, &server);
+
+  // 3. Serve.
+  announce(server, options);
+  server.run(viewer);
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::viewer
+
+int main(int argc, char** argv) {
+  return palpate::report::runProgram("palpate-viewer", &palpate::viewer::body, argc, argv);
+}

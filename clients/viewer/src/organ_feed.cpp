@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "organ_feed.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "palpate/client/error.h"
+
+namespace palpate::viewer {
+namespace {
+
+double sizeOf(const double (&v)[3]) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+client::Point pointOf(const double (&v)[3]) {
+  return {{v[0], v[1], v[2]}};
+}
+
+// -n.K n: how much harder the organ pushes back for each metre along the normal.
+double normalStiffness(const dds::ToolForce& force, const client::Point& n) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) sum -= n[i] * force.stiffness[3 * i + j] * n[j];
+  return force.state == dds::tool_state::kFree ? 0.0 : sum;
+}
+
+bool admitsPose(const dds::ToolPose& pose, void*) noexcept {
+  return pose.tool_id < OrganFeed::kTools;
+}
+
+// The tool's poses stopped, and the force has ended: the server answers on, but nobody holds it.
+bool isGhost(const dds::ToolForce& force) {
+  return (force.flags & dds::flag::kStalePose) != 0 && sizeOf(force.force) == 0.0;
+}
+
+bool sameSurface(const client::Surface& a, const client::Surface& b) {
+  return a.model_id == b.model_id && a.topology_revision == b.topology_revision &&
+         a.positions.size() == b.positions.size() && a.triangles.size() == b.triangles.size();
+}
+
+}  // namespace
+
+OrganFeed::OrganFeed(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context)
+    : rate_hz_(rate_hz),
+      watch_(participant.domain()),
+      statuses_(participant),
+      parameter_answers_(participant),
+      surfaces_(participant),
+      poses_(participant, nullptr, nullptr, &admitsPose),
+      arrivals_(participant, rate_hz, wake, context) {}
+
+std::vector<std::uint32_t> OrganFeed::poll(std::int64_t now_ns, dds::WriterId own_writer) {
+  pollServer(now_ns);
+  pollSurfaces();
+  selectSurface();
+  pollField();
+  pollForces();
+  return pollPoses(own_writer);
+}
+
+void OrganFeed::pollServer(std::int64_t now_ns) {
+  std::array<dds::ServerStatus, dds::kMaxTake> statuses;
+  const std::size_t count = statuses_.take(statuses);
+  for (std::size_t i = 0; i < count; ++i)
+    if (watch_.saw(statuses[i], now_ns)) ++status_version_;
+  std::array<dds::ServerParameters, dds::kMaxTake> answers;
+  const std::size_t answered = parameter_answers_.take(answers);
+  for (std::size_t i = 0; i < answered; ++i) {
+    if (watch_.status() && watch_.status()->server_id != answers[i].server_id) continue;
+    parameters_ = answers[i];
+    new_parameters_.push_back(answers[i]);
+    ++status_version_;
+  }
+}
+
+void OrganFeed::pollSurfaces() {
+  constexpr std::size_t kMostOrgans = 8;
+  const auto samples = surfaces_.takeLoaned();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    try {
+      client::Surface surface = client::checkedSurface(samples[i]);
+      if (organs_.size() >= kMostOrgans && !organs_.contains(surface.organ_id)) organs_.clear();
+      organs_[surface.organ_id] = std::move(surface);
+      surface_refusal_.clear();
+    } catch (const client::ClientError& error) {
+      surface_refusal_ = error.what();
+      spdlog::warn("{}", surface_refusal_);
+    }
+  }
+}
+
+void OrganFeed::selectSurface() {
+  const auto& status = watch_.status();
+  if (!status) return;
+  const auto at = organs_.find(status->organ_id);
+  if (at == organs_.end() || at->second.model_id != status->model_id) return;
+  if (revision_ > 0 && sameSurface(surface_, at->second)) return;
+  surface_ = at->second;
+  outward_ = Outward(surface_);
+  has_field_ = false;
+  ++revision_;
+  spdlog::info("surface of model {}: {} nodes, {} triangles", surface_.model_id, surface_.positions.size(),
+               surface_.triangles.size());
+}
+
+bool OrganFeed::fits(const ArrivedField& field) const {
+  return revision_ > 0 && field.model_id == surface_.model_id && field.organ_id == surface_.organ_id &&
+         field.topology_revision == surface_.topology_revision &&
+         field.displacement.size() == 3 * surface_.positions.size() &&
+         std::all_of(field.displacement.begin(), field.displacement.end(),
+                     [](float u) { return std::isfinite(u); });
+}
+
+void OrganFeed::pollField() {
+  if (!arrivals_.takeField(arrived_)) return;
+  if (!fits(arrived_)) {
+    ++dropped_fields_;
+    return;
+  }
+  field_ = encodeField(arrived_.displacement);
+  field_.mesh_revision = revision_;
+  field_.seq = arrived_.seq;
+  field_.sample_us = static_cast<double>(arrived_.received_ns) * 1e-3;
+  has_field_ = true;
+  ++field_version_;
+}
+
+void OrganFeed::pollForces() {
+  arrivals_.takeForces(forces_);
+  for (const TimedForce& timed : forces_) {
+    ToolView& view = tools_[timed.force.tool_id];
+    const bool same_anchor =
+        view.received_ns != 0 && std::equal(std::begin(view.force.anchor), std::end(view.force.anchor),
+                                            std::begin(timed.force.anchor));
+    view.force = timed.force;
+    view.received_ns = timed.received_ns;
+    if (!same_anchor) view.normal = outward_.at(pointOf(timed.force.anchor));
+    if (!isGhost(timed.force)) addAnswer(timed);
+  }
+}
+
+void OrganFeed::addAnswer(const TimedForce& timed) {
+  const dds::ToolForce& force = timed.force;
+  AnswerRecord answer;
+  answer.tool_id = force.tool_id;
+  answer.flags = force.flags;
+  answer.t_us = static_cast<double>(stamp_clock_.toLocal(force.stamp_ns, timed.received_ns)) * 1e-3;
+  answer.force = static_cast<float>(sizeOf(force.force));
+  answer.penetration = static_cast<float>(force.penetration);
+  answer.wakeup_us = static_cast<float>(static_cast<double>(force.wakeup_ns) * 1e-3);
+  answer.stiffness = static_cast<float>(normalStiffness(force, tools_[force.tool_id].normal));
+  answers_.add(answer);
+}
+
+std::vector<std::uint32_t> OrganFeed::pollPoses(dds::WriterId own_writer) {
+  std::array<dds::ToolPose, dds::kMaxTake> poses;
+  std::array<dds::WriterId, dds::kMaxTake> writers{};
+  const std::size_t count = poses_.view().take(poses, writers);
+  std::vector<std::uint32_t> foreign;
+  for (std::size_t i = 0; i < count; ++i) {
+    ToolView& view = tools_[poses[i].tool_id];
+    view.tip = pointOf(poses[i].position);
+    view.tip_known = true;
+    if (writers[i] != own_writer) foreign.push_back(poses[i].tool_id);
+  }
+  return foreign;
+}
+
+const OrganFeed::ToolView* OrganFeed::tool(std::uint32_t id, std::int64_t now_ns) const noexcept {
+  const ToolView& view = tools_[id];
+  const bool shown =
+      view.received_ns != 0 && now_ns - view.received_ns < kToolShownNs && !isGhost(view.force);
+  return shown ? &view : nullptr;
+}
+
+ServerState OrganFeed::state(std::int64_t now_ns) const {
+  const auto& status = watch_.status();
+  const auto at = status ? organs_.find(status->organ_id) : organs_.end();
+  std::string mismatch = statuses_.mismatch();
+  if (mismatch.empty()) mismatch = surfaces_.mismatch();
+  ServerState state = watch_.state(now_ns, at == organs_.end() ? "" : at->second.model_id, mismatch);
+  if (state.name == "waiting" && !surface_refusal_.empty()) state.text = surface_refusal_;
+  return state;
+}
+
+}  // namespace palpate::viewer

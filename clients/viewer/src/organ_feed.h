@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answer_log.h"
+#include "arrivals.h"
+#include "frame.h"
+#include "pacing.h"
+#include "outward.h"
+#include "palpate/idl/reader.h"
+#include "server_watch.h"
+
+namespace palpate::viewer {
+
+/// All that pages are shown, as it comes over DDS: the newest surface, field, status and parameters, and every answer.
+/// Survives servers that end and others that start. Threads: one, the web thread.
+class OrganFeed {
+ public:
+  static constexpr std::size_t kTools = 4;
+  static constexpr std::int64_t kToolShownNs = 500'000'000;  ///< after its last answer
+
+  /// A tool as the server answered it last.
+  struct ToolView {
+    dds::ToolForce force{};
+    std::int64_t received_ns{0};  ///< 0: never
+    client::Point normal{};       ///< outward, at the anchor
+    client::Point tip{};          ///< newest pose on the wire
+    bool tip_known{false};
+  };
+
+  /// @param[in] wake  called on DDS's thread when a field has come
+  /// @throw dds::DdsError
+  OrganFeed(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context);
+
+  /// Takes in what came. @param[in] own_writer  poses from it are this program's
+  /// @return tools of which other programs sent poses
+  std::vector<std::uint32_t> poll(std::int64_t now_ns, dds::WriterId own_writer);
+
+  /// Whether anybody looks; nobody needs few fields.
+  void setWatched(bool watched) noexcept { arrivals_.setRate(watched ? rate_hz_ : 1.0); }
+
+  [[nodiscard]] const ServerWatch& watch() const noexcept { return watch_; }
+  [[nodiscard]] const std::optional<dds::ServerParameters>& parameters() const noexcept {
+    return parameters_;
+  }
+  [[nodiscard]] ServerState state(std::int64_t now_ns) const;
+  /// Rises when status or parameters have come.
+  [[nodiscard]] std::uint64_t statusVersion() const noexcept { return status_version_; }
+
+  /// The surface shown, nullptr before the first; revision 0 then, and rises with each other one.
+  [[nodiscard]] const client::Surface* surface() const noexcept {
+    return revision_ == 0 ? nullptr : &surface_;
+  }
+  [[nodiscard]] std::uint32_t revision() const noexcept { return revision_; }
+  [[nodiscard]] const Outward& outward() const noexcept { return outward_; }
+  /// The newest field that fits it, nullptr when none has come.
+  [[nodiscard]] const EncodedField* field() const noexcept { return has_field_ ? &field_ : nullptr; }
+  /// Rises with each field.
+  [[nodiscard]] std::uint64_t fieldVersion() const noexcept { return field_version_; }
+  [[nodiscard]] std::uint64_t droppedFields() const noexcept { return dropped_fields_; }
+
+  [[nodiscard]] const AnswerLog& answers() const noexcept { return answers_; }
+  /// nullptr when this tool is not answered, or only because its poses stopped.
+  [[nodiscard]] const ToolView* tool(std::uint32_t id, std::int64_t now_ns) const noexcept;
+  /// Answers of a server, on `parameters`, since the last call.
+  [[nodiscard]] std::vector<dds::ServerParameters> newParameters() {
+    return std::exchange(new_parameters_, {});
+  }
+
+ private:
+  void pollServer(std::int64_t now_ns);
+  void pollSurfaces();
+  void selectSurface();
+  void pollField();
+  void pollForces();
+  [[nodiscard]] std::vector<std::uint32_t> pollPoses(dds::WriterId own_writer);
+  void addAnswer(const TimedForce& timed);
+  [[nodiscard]] bool fits(const ArrivedField& field) const;
+
+  double rate_hz_;
+  ServerWatch watch_;
+  std::optional<dds::ServerParameters> parameters_;
+  std::vector<dds::ServerParameters> new_parameters_;
+  std::uint64_t status_version_{0};
+  std::map<std::uint32_t, client::Surface> organs_;  // by organ id
+  std::string surface_refusal_;
+  client::Surface surface_;
+  std::uint32_t revision_{0};
+  Outward outward_;
+  EncodedField field_;
+  bool has_field_{false};
+  std::uint64_t field_version_{0};
+  std::uint64_t dropped_fields_{0};
+  ArrivedField arrived_;
+  std::vector<TimedForce> forces_;
+  std::array<ToolView, kTools> tools_{};
+  AnswerLog answers_;
+  StampClock stamp_clock_;
+  dds::Reader<dds::ServerStatus> statuses_;
+  dds::Reader<dds::ServerParameters> parameter_answers_;
+  dds::Reader<dds::SurfaceMesh> surfaces_;
+  dds::Reader<dds::ToolPose> poses_;
+  Arrivals arrivals_;  // last: its callbacks stop first
+};
+
+}  // namespace palpate::viewer

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palpate/client/surface.h"
+
+namespace palpate::viewer {
+
+/// Which way is off the organ: the area-weighted outward normal of the rest surface's nearest node.
+class Outward {
+ public:
+  Outward() = default;
+  explicit Outward(const client::Surface& surface);
+
+  /// @return unit direction; +z where there is no surface or it has no normal. Cost O(Ns). Threads: const, any.
+  [[nodiscard]] client::Point at(const client::Point& p_W) const noexcept;
+
+ private:
+  std::vector<client::Point> positions_;
+  std::vector<client::Point> normals_;  // unit, or zero
+};
+
+}  // namespace palpate::viewer

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "pacing.h"
+#include "page_message.h"
+#include "page_text.h"
+#include "viewer.h"
+
+namespace palpate::viewer {
+
+/// WebSocket close codes that a page may meet (RFC 6455, 7.4.1).
+enum class Close : std::uint16_t { kNone = 0, kNotText = 1003, kPolicy = 1008, kTooLarge = 1009 };
+
+/// One page: what it has seen, what it is to get next. It never has a queue: each kind of message is written when the
+/// socket takes it, from what is newest then; of frames at most kInFlight are unacknowledged. Threads: the web thread.
+class Page {
+ public:
+  static constexpr std::uint32_t kInFlight = 2;
+  static constexpr double kMessagesPerSecond = 400.0;
+  static constexpr std::size_t kMostAnswers = 256;          ///< in a frame
+  static constexpr std::int64_t kStatusNs = 1'000'000'000;  ///< between statuses when nothing changes
+  static constexpr std::int64_t kLeastStatusNs = 100'000'000;
+
+  Page(std::uint64_t id, Viewer& viewer, double max_rate_hz);
+  ~Page();
+  Page(const Page&) = delete;
+  Page& operator=(const Page&) = delete;
+
+  /// A part of a text message came. @param[in] last  it is whole now
+  /// @return kNone, or why the page is to be shut out
+  [[nodiscard]] Close receive(std::string_view part, bool first, bool last, bool binary, std::int64_t now_ns);
+
+  /// Whether next() has something.
+  [[nodiscard]] bool wants(std::int64_t now_ns) const;
+
+  /// Appends the next message. @return whether it is binary; nothing when there is none
+  [[nodiscard]] std::optional<bool> next(std::int64_t now_ns, Bytes& out);
+
+  void toolEnded(const std::string& message) { grant_ = ToolGrant{false, 0, message}; }
+  void answered(const ParameterDesk::Answer& answer);
+  /// Tells the page when another program sends the tool that it drives.
+  void lookForRival(std::int64_t now_ns);
+
+  [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
+
+ private:
+  [[nodiscard]] Close act(const PageMessage& message);
+  [[nodiscard]] std::optional<std::string> nextText(std::int64_t now_ns);
+  [[nodiscard]] bool meshDue() const;
+  [[nodiscard]] bool statusDue(std::int64_t now_ns) const;
+  [[nodiscard]] bool frameDue(std::int64_t now_ns) const;
+  void frame(std::int64_t now_ns, Bytes& out);
+  [[nodiscard]] std::vector<ToolRecord> tools(std::int64_t now_ns) const;
+
+  std::uint64_t id_;
+  Viewer& viewer_;
+  double max_rate_hz_;
+  FramePace pace_;
+  TokenBucket bucket_{kMessagesPerSecond, kMessagesPerSecond};
+  std::string incoming_;
+
+  bool hello_{true};  // what is to be sent
+  std::uint64_t state_version_{0};
+  std::uint32_t mesh_text_revision_{0};
+  std::uint32_t mesh_revision_{0};
+  std::uint64_t status_version_{0};
+  std::int64_t status_ns_{0};
+  std::optional<ToolGrant> grant_;
+  bool rival_told_{false};
+  std::deque<ParameterDesk::Answer> answers_;
+  std::optional<double> ping_;
+
+  std::uint32_t sent_{0};  // frames
+  std::uint32_t acked_{0};
+  std::uint32_t counted_{0};  // frames at the last status
+  std::uint64_t field_version_{0};
+  std::uint64_t answer_place_;
+  std::vector<AnswerRecord> batch_;
+};
+
+}  // namespace palpate::viewer

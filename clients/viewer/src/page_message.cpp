@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_message.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace palpate::viewer {
+namespace {
+
+using nlohmann::json;
+
+// A finite number in [low, high].
+std::optional<double> number(const json& object, const char* key, double low, double high) {
+  const auto at = object.find(key);
+  if (at == object.end() || !at->is_number()) return std::nullopt;
+  const double value = at->get<double>();
+  if (!(value >= low && value <= high)) return std::nullopt;
+  return value;
+}
+
+// A whole number in [0, high].
+std::optional<std::uint64_t> whole(const json& object, const char* key, std::uint64_t high) {
+  const auto at = object.find(key);
+  if (at == object.end() || !at->is_number_unsigned()) return std::nullopt;
+  const auto value = at->get<std::uint64_t>();
+  if (value > high) return std::nullopt;
+  return value;
+}
+
+std::optional<PageMessage> target(const json& object) {
+  const auto at = object.find("position");
+  if (at == object.end() || !at->is_array() || at->size() != 3) return std::nullopt;
+  Target result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(*at)[i].is_number()) return std::nullopt;
+    result.position[i] = (*at)[i].get<double>();
+    if (!(std::fabs(result.position[i]) <= kMaxCoordinate)) return std::nullopt;
+  }
+  return result;
+}
+
+std::optional<PageMessage> parameters(const json& object) {
+  constexpr std::uint64_t kMaxExact = 1ULL << 53;  // of a page's numbers
+  constexpr double kLargest = 1e12;                // ranges are the server's to judge
+  const auto request = whole(object, "request", kMaxExact);
+  if (!request) return std::nullopt;
+  SetParameters result{};
+  result.request = *request;
+  const std::pair<const char*, std::optional<double>*> fields[] = {
+      {"youngs_factor", &result.youngs_factor},
+      {"friction", &result.friction},
+      {"coupling_stiffness", &result.coupling_stiffness},
+      {"coupling_damping", &result.coupling_damping},
+      {"force_limit", &result.force_limit},
+      {"force_rate_limit", &result.force_rate_limit}};
+  for (const auto& [key, value] : fields) {
+    if (!object.contains(key)) continue;
+    const bool factor = value == &result.youngs_factor;  // on the wire 0 would be the model's own E
+    *value = number(object, key, factor ? 1e-6 : 0.0, kLargest);
+    if (!*value) return std::nullopt;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<PageMessage> parsePageMessage(std::string_view text) {
+  if (text.size() > kMaxMessage) return std::nullopt;
+  const json object = json::parse(text, nullptr, false);
+  if (!object.is_object()) return std::nullopt;
+  const auto type = object.find("type");
+  if (type == object.end() || !type->is_string()) return std::nullopt;
+  const auto& name = type->get_ref<const std::string&>();
+  if (name == "ack") {
+    const auto seq = whole(object, "seq", UINT32_MAX);
+    return seq ? std::optional<PageMessage>(Ack{static_cast<std::uint32_t>(*seq)}) : std::nullopt;
+  }
+  if (name == "ping") {
+    const auto t0 = number(object, "t0", -1e18, 1e18);
+    return t0 ? std::optional<PageMessage>(Ping{*t0}) : std::nullopt;
+  }
+  if (name == "rate") {
+    const auto hz = number(object, "hz", 0.0, 1000.0);
+    return hz ? std::optional<PageMessage>(SetRate{*hz}) : std::nullopt;
+  }
+  if (name == "grab") return Grab{};
+  if (name == "release") return Release{};
+  if (name == "target") return target(object);
+  if (name == "set") return parameters(object);
+  return std::nullopt;
+}
+
+}  // namespace palpate::viewer

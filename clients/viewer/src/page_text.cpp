@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_text.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "page_message.h"
+#include "palpate/report/program.h"
+
+namespace palpate::viewer {
+namespace {
+
+using nlohmann::json;
+
+std::string dump(const json& object) {
+  return object.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+json flagList(std::uint32_t flags) {
+  json names = json::array();
+  std::istringstream words(flags == 0 ? "" : report::flagNames(flags));
+  for (std::string word; words >> word;) names.push_back(word);
+  return names;
+}
+
+json toJson(const dds::Percentiles& times) {
+  return {{"p50", times.p50},
+          {"p99", times.p99},
+          {"p999", times.p999},
+          {"max", times.max},
+          {"count", times.count}};
+}
+
+json serverOf(const dds::ServerStatus& s) {
+  return {{"server_id", s.server_id},
+          {"model_id", s.model_id},
+          {"organ_id", s.organ_id},
+          {"state", s.state},
+          {"rate_hz", s.rate_hz},
+          {"tip_radius", s.tip_radius},
+          {"force_limit", s.force_limit},
+          {"memory_locked", s.memory_locked},
+          {"realtime", s.realtime},
+          {"realtime_detail", s.realtime_detail},
+          {"ticks", s.ticks},
+          {"overruns", s.overruns},
+          {"superseded", s.superseded},
+          {"rejected_poses", s.rejected_poses},
+          {"unordered_poses", s.unordered_poses},
+          {"unknown_tools", s.unknown_tools},
+          {"dropped", s.dropped},
+          {"flags", s.flags},
+          {"flags_text", flagList(s.flags)},
+          {"tick_us", toJson(s.tick_us)},
+          {"wakeup_us", toJson(s.wakeup_us)},
+          {"message", s.message},
+          {"device", s.device},
+          {"friction", s.friction},
+          {"coupling_stiffness", s.coupling_stiffness},
+          {"coupling_damping", s.coupling_damping},
+          {"youngs_modulus", s.youngs_modulus},
+          {"force_rate_limit", s.force_rate_limit},
+          {"speed_limit", s.speed_limit},
+          {"tools", s.tools},
+          {"parameters_revision", s.parameters_revision},
+          {"phase_lock", s.phase_lock}};
+}
+
+json boxOf(const client::Surface& surface) {
+  client::Point low = surface.positions.front();
+  client::Point high = low;
+  for (const client::Point& X : surface.positions)
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], X[i]);
+      high[i] = std::max(high[i], X[i]);
+    }
+  const auto plain = [](const client::Point& p) { return std::array<double, 3>{p[0], p[1], p[2]}; };
+  return {plain(low), plain(high)};
+}
+
+}  // namespace
+
+std::string helloText(std::uint64_t page_id, double rate_hz) {
+  return dump({{"type", "hello"},
+               {"version", PALPATE_VERSION},
+               {"protocol", 1},
+               {"page_id", page_id},
+               {"rate_hz", rate_hz},
+               {"max_message", kMaxMessage}});
+}
+
+std::string stateText(const ServerState& state) {
+  return dump({{"type", "state"}, {"server", state.name}, {"text", state.text}});
+}
+
+std::string meshText(const client::Surface& surface, std::uint32_t revision, double tip_radius) {
+  return dump({{"type", "mesh"},
+               {"revision", revision},
+               {"model_id", surface.model_id},
+               {"nodes", surface.positions.size()},
+               {"triangles", surface.triangles.size()},
+               {"tip_radius", tip_radius},
+               {"box", boxOf(surface)}});
+}
+
+std::string statusText(const std::optional<dds::ServerStatus>& status,
+                       const std::optional<dds::ServerParameters>& parameters, const ViewerFigures& figures) {
+  json object = status ? serverOf(*status) : json::object();
+  if (parameters) {  // newer than what the status says of them
+    object["youngs_modulus"] = parameters->youngs_modulus;
+    object["model_youngs_modulus"] = parameters->model_youngs_modulus;
+    object["friction"] = parameters->friction;
+    object["coupling_stiffness"] = parameters->coupling_stiffness;
+    object["coupling_damping"] = parameters->coupling_damping;
+    object["force_limit"] = parameters->force_limit;
+    object["force_rate_limit"] = parameters->force_rate_limit;
+    object["parameters_revision"] = parameters->revision;
+  }
+  object["type"] = "status";
+  object["viewer"] = {{"pages", figures.pages},
+                      {"frame_rate", figures.frame_rate},
+                      {"dropped_fields", figures.dropped_fields}};
+  return dump(object);
+}
+
+std::string toolText(const ToolGrant& grant) {
+  json object{{"type", "tool"}, {"granted", grant.granted}, {"message", grant.message}};
+  object["tool_id"] = grant.granted ? json(grant.tool_id) : json();
+  return dump(object);
+}
+
+std::string parametersText(std::uint64_t request, bool accepted, const std::string& message) {
+  return dump({{"type", "parameters"}, {"request", request}, {"accepted", accepted}, {"message", message}});
+}
+
+std::string pongText(double t0, double t_us) {
+  return dump({{"type", "pong"}, {"t0", t0}, {"t_us", t_us}});
+}
+
+}  // namespace palpate::viewer

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "page_message.h"
+#include "palpate/idl/writer.h"
+
+namespace palpate::viewer {
+
+/// The later values over the earlier ones: one request for both.
+[[nodiscard]] SetParameters merged(const SetParameters& earlier, const SetParameters& later);
+
+/// The request on the wire. @param[in] model_youngs_modulus  E that the factor is of, Pa
+[[nodiscard]] dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs_modulus);
+
+/// Passes pages' wishes for parameters on to the server, one at a time for each page: what comes meanwhile is merged, so
+/// that a slider that is dragged leaves no queue. Threads: one, the web thread.
+class ParameterDesk {
+ public:
+  static constexpr std::int64_t kRepeatNs = 200'000'000;
+  static constexpr std::int64_t kPatienceNs = 3'000'000'000;
+
+  /// What became of a page's requests up to and including `request`.
+  struct Answer {
+    std::uint64_t page_id;
+    std::uint64_t request;
+    bool accepted;
+    std::string message;
+  };
+
+  /// @throw dds::DdsError
+  explicit ParameterDesk(const dds::Participant& participant);
+
+  void set(std::uint64_t page_id, const SetParameters& wanted);
+  void drop(std::uint64_t page_id) { wishes_.erase(page_id); }
+
+  /// A server's answer came, to whomever.
+  void saw(const dds::ServerParameters& answer);
+  /// Sends and repeats. @param[in] server_id  which server to ask; nothing: none is there
+  void tend(std::optional<std::uint32_t> server_id, std::int64_t now_ns);
+
+  [[nodiscard]] std::vector<Answer> answers() { return std::exchange(answers_, {}); }
+
+ private:
+  struct Wish {
+    std::optional<SetParameters> asked;    // waits for the server's answer
+    std::optional<SetParameters> waiting;  // the page's next
+    dds::ParameterRequest request{};
+    std::int64_t since_ns{0};
+    std::int64_t sent_ns{0};
+  };
+  bool startNext(std::uint64_t page_id, Wish& wish, std::optional<std::uint32_t> server_id,
+                 std::int64_t now_ns);
+
+  dds::Writer<dds::ParameterRequest> writer_;
+  std::optional<double> model_youngs_modulus_;
+  std::uint64_t next_id_;
+  std::map<std::uint64_t, Wish> wishes_;  // by page
+  std::vector<Answer> answers_;
+};
+
+}  // namespace palpate::viewer

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "palpate/client/path.h"
+
+namespace palpate::viewer {
+
+/// Makes a steady stream of poses out of the targets that a page sends at 30 to 120 Hz, now early, now late: the way
+/// between targets, played one interval later, never faster than a limit. Threads: one. Real-time: yes.
+class PoseFollower {
+ public:
+  static constexpr std::int64_t kPatienceNs = 250'000'000;  ///< without a target, then it is over
+  static constexpr std::int64_t kFirstNs = 2'000'000'000;   ///< the same before the first one
+  static constexpr std::int64_t kMaxDelayNs = 50'000'000;   ///< of the playing, at most
+  static constexpr double kLift = 0.02;                     ///< way off the organ after a release, m
+  static constexpr double kLiftSpeed = 0.15;                ///< m/s, less where the limit is lower
+
+  enum class State {
+    kWaiting,  ///< no target yet
+    kFollowing,
+    kLifting,  ///< released: on its way off the organ
+    kOver      ///< lifted off, or without targets for kPatienceNs
+  };
+
+  /// @param[in] now_ns       of the clock that step() is called with
+  /// @param[in] speed_limit  m/s, above 0
+  PoseFollower(std::int64_t now_ns, double speed_limit) noexcept
+      : speed_limit_(speed_limit), last_target_ns_(now_ns) {}
+
+  /// Where the tip's centre is to be, world W, m. No effect after a release.
+  void target(const client::Point& p_WT, std::int64_t now_ns) noexcept;
+
+  /// @param[in] outward  unit direction off the organ at the tool
+  void release(const client::Point& outward) noexcept;
+
+  /// The pose for now; nothing before the first target and when it is over.
+  [[nodiscard]] std::optional<client::Point> step(std::int64_t now_ns) noexcept;
+
+  [[nodiscard]] State state() const noexcept { return state_; }
+  /// The newest pose given by step(). Valid after the first one.
+  [[nodiscard]] const client::Point& position() const noexcept { return position_; }
+  /// How much later targets are played than they came, s.
+  [[nodiscard]] double delay() const noexcept { return delay_s_; }
+
+ private:
+  struct Timed {
+    double t;  // s since the first target
+    client::Point p;
+  };
+  static constexpr std::size_t kKept = 16;
+
+  [[nodiscard]] client::Point wanted(double t) const noexcept;
+  void play(double now_s, double dt) noexcept;
+  void moveTowards(const client::Point& goal, double longest) noexcept;
+  void learnInterval(double interval) noexcept;
+
+  double speed_limit_;
+  std::int64_t last_target_ns_;
+  std::int64_t origin_ns_{0};
+  std::int64_t last_step_ns_{0};
+  State state_{State::kWaiting};
+  std::array<Timed, kKept> targets_{};
+  std::size_t count_{0};
+  double interval_s_{1.0 / 60.0};  // between targets, mean and mean deviation
+  double deviation_s_{0.004};
+  double delay_s_{1.0 / 60.0};
+  double played_s_{0.0};
+  client::Point position_{};
+  client::Point lift_to_{};
+};
+
+}  // namespace palpate::viewer

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tool_desk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palpate/client/pacer.h"
+#include "palpate/client/thread_priority.h"
+
+namespace palpate::viewer {
+namespace {
+
+dds::ToolPose poseAt(std::uint32_t tool_id, std::uint64_t seq, std::int64_t now_ns,
+                     const client::Point& p_WT) {
+  dds::ToolPose pose{};
+  pose.tool_id = tool_id;
+  pose.seq = seq;
+  pose.stamp_ns = now_ns;
+  std::copy(p_WT.begin(), p_WT.end(), pose.position);
+  pose.orientation[3] = 1.0;
+  return pose;
+}
+
+}  // namespace
+
+ToolDesk::ToolDesk(const dds::Participant& participant, std::vector<std::uint32_t> ids)
+    : ids_(std::move(ids)), writer_(participant) {
+  for (Tool& tool : tools_) tool.seq = static_cast<std::uint64_t>(client::nowNs());
+  thread_ = std::thread([this] { run(); });
+}
+
+ToolDesk::~ToolDesk() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  driven_.notify_one();
+  thread_.join();
+}
+
+void ToolDesk::setServer(std::uint32_t tools, double speed_limit) {
+  server_tools_ = tools;
+  speed_ = speed_limit > 0.0 ? std::min(kMaxSpeed, 0.5 * speed_limit) : kMaxSpeed;
+}
+
+void ToolDesk::sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept {
+  if (tool_id >= kTools) return;
+  const std::lock_guard lock(mutex_);
+  tools_[tool_id].foreign_ns = now_ns;
+}
+
+ToolGrant ToolDesk::grab(std::uint64_t page_id) {
+  if (server_tools_ == 0) return {false, 0, "no server answers tools yet"};
+  const std::int64_t now_ns = client::nowNs();
+  const std::lock_guard lock(mutex_);
+  if (Tool* own = find(page_id)) {
+    if (own->driven->follower.state() == PoseFollower::State::kWaiting ||
+        own->driven->follower.state() == PoseFollower::State::kFollowing)
+      return {true, static_cast<std::uint32_t>(own - tools_.data()), ""};
+    own->driven.emplace(Driven{page_id, PoseFollower(now_ns, speed_)});  // grabbed again while it lifted off
+    return {true, static_cast<std::uint32_t>(own - tools_.data()), ""};
+  }
+  for (const std::uint32_t id : ids_) {
+    if (id >= std::min<std::size_t>(server_tools_, kTools)) continue;
+    Tool& tool = tools_[id];
+    const bool taken = tool.foreign_ns != 0 && now_ns - tool.foreign_ns < kTakenNs;
+    if (tool.driven || taken || now_ns < tool.rests_ns) continue;
+    tool.driven.emplace(Driven{page_id, PoseFollower(now_ns, speed_)});
+    driven_.notify_one();
+    return {true, id, ""};
+  }
+  return {false, 0, "all tools are in use: try again when one is free"};
+}
+
+bool ToolDesk::target(std::uint64_t page_id, const client::Point& p_WT) {
+  const std::lock_guard lock(mutex_);
+  Tool* tool = find(page_id);
+  if (tool == nullptr) return false;
+  tool->driven->follower.target(p_WT, client::nowNs());
+  return true;
+}
+
+void ToolDesk::release(std::uint64_t page_id) {
+  std::optional<std::uint32_t> id = toolOf(page_id);
+  if (!id) return;
+  const auto tip = tipOf(*id);
+  const client::Point outward = outward_.at(tip.value_or(client::Point{}));
+  const std::lock_guard lock(mutex_);
+  if (Tool* tool = find(page_id)) tool->driven->follower.release(outward);
+}
+
+void ToolDesk::drop(std::uint64_t page_id) {
+  const std::lock_guard lock(mutex_);
+  if (Tool* tool = find(page_id)) {
+    tool->driven.reset();
+    tool->rests_ns = client::nowNs() + kRestNs;
+  }
+}
+
+std::vector<ToolDesk::Ending> ToolDesk::endings() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(endings_, {});
+}
+
+std::optional<std::uint32_t> ToolDesk::toolOf(std::uint64_t page_id) const {
+  const std::lock_guard lock(mutex_);
+  for (std::uint32_t id = 0; id < kTools; ++id)
+    if (tools_[id].driven && tools_[id].driven->page_id == page_id) return id;
+  return std::nullopt;
+}
+
+std::optional<client::Point> ToolDesk::tipOf(std::uint32_t tool_id) const {
+  const std::lock_guard lock(mutex_);
+  if (tool_id >= kTools || !tools_[tool_id].driven) return std::nullopt;
+  const PoseFollower& follower = tools_[tool_id].driven->follower;
+  if (follower.state() == PoseFollower::State::kWaiting) return std::nullopt;
+  return follower.position();
+}
+
+dds_instance_handle_t ToolDesk::writerId() const noexcept {
+  dds_instance_handle_t id = 0;
+  return dds_get_instance_handle(writer_.handle(), &id) == DDS_RETCODE_OK ? id : 0;
+}
+
+ToolDesk::Tool* ToolDesk::find(std::uint64_t page_id) {
+  const auto at = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) {
+    return tool.driven && tool.driven->page_id == page_id;
+  });
+  return at == tools_.end() ? nullptr : &*at;
+}
+
+bool ToolDesk::anyDriven() const {
+  return std::any_of(tools_.begin(), tools_.end(), [](const Tool& tool) { return tool.driven.has_value(); });
+}
+
+void ToolDesk::end(Tool& tool, const char* message, std::int64_t now_ns) {
+  endings_.push_back({tool.driven->page_id, message});
+  tool.driven.reset();
+  tool.rests_ns = now_ns + kRestNs;
+}
+
+void ToolDesk::stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses) {
+  poses.clear();
+  for (std::uint32_t id = 0; id < kTools; ++id) {
+    Tool& tool = tools_[id];
+    if (!tool.driven) continue;
+    PoseFollower& follower = tool.driven->follower;
+    const bool lifting = follower.state() == PoseFollower::State::kLifting;
+    if (const auto p_WT = follower.step(now_ns)) poses.push_back(poseAt(id, ++tool.seq, now_ns, *p_WT));
+    if (follower.state() == PoseFollower::State::kOver)
+      end(tool, lifting ? "released" : "no target came for 250 ms", now_ns);
+  }
+}
+
+void ToolDesk::run() {
+  // Below the server's threads; where the kernel grants none, ordinary.
+  constexpr int kPriority = 30;
+  (void)client::raiseThisThread(kPriority);
+  std::vector<dds::ToolPose> poses;
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    driven_.wait(lock, [this] { return stop_ || anyDriven(); });
+    client::Pacer pacer(1'000'000);
+    while (!stop_ && anyDriven()) {
+      stepAll(client::nowNs(), poses);
+      lock.unlock();
+      for (const dds::ToolPose& pose : poses) (void)writer_.write(pose);
+      pacer.wait();
+      lock.lock();
+    }
+  }
+}
+
+}  // namespace palpate::viewer

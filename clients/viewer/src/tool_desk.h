@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "outward.h"
+#include "page_text.h"
+#include "palpate/idl/writer.h"
+#include "pose_follower.h"
+
+namespace palpate::viewer {
+
+/// Tools that pages drive: gives each page that asks a free tool id and publishes its poses at 1 kHz, on a thread of its
+/// own that waits while no tool is driven. Threads: the web thread calls; the lock is held for microseconds, never
+/// while a pose is written.
+class ToolDesk {
+ public:
+  static constexpr std::size_t kTools = 4;  ///< palpate.idl: tool_id 0 .. 3
+  /// A tool of which another program's pose came within this time is that program's.
+  static constexpr std::int64_t kTakenNs = 500'000'000;
+  /// After its last pose a tool rests, so that the server has let it go (zero_after, 50 ms).
+  static constexpr std::int64_t kRestNs = 120'000'000;
+  static constexpr double kMaxSpeed = 0.6;  ///< m/s, and at most half of the server's speed limit
+
+  /// A tool that a page has no more, and why.
+  struct Ending {
+    std::uint64_t page_id;
+    std::string message;
+  };
+
+  /// @param[in] ids  which tools may be given to pages, in the order of preference
+  /// @throw dds::DdsError
+  ToolDesk(const dds::Participant& participant, std::vector<std::uint32_t> ids);
+  ~ToolDesk();
+  ToolDesk(const ToolDesk&) = delete;
+  ToolDesk& operator=(const ToolDesk&) = delete;
+
+  /// What the server answers. @param[in] tools  0: no server, nobody gets a tool
+  void setServer(std::uint32_t tools, double speed_limit);
+  void setSurface(const client::Surface& surface) { outward_ = Outward(surface); }
+  /// A pose of this tool came over the wire from another program.
+  void sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept;
+
+  [[nodiscard]] ToolGrant grab(std::uint64_t page_id);
+  /// @return false when the page has no tool
+  bool target(std::uint64_t page_id, const client::Point& p_WT);
+  /// The tool lifts off the organ; its id is free afterwards.
+  void release(std::uint64_t page_id);
+  /// The page is gone: its tool stops where it is, and the server takes the force to zero.
+  void drop(std::uint64_t page_id);
+
+  /// Tools that ended since the last call.
+  [[nodiscard]] std::vector<Ending> endings();
+
+  [[nodiscard]] std::optional<std::uint32_t> toolOf(std::uint64_t page_id) const;
+  /// The newest pose published for a tool that a page drives.
+  [[nodiscard]] std::optional<client::Point> tipOf(std::uint32_t tool_id) const;
+  /// This program's own poses on the wire have this writer.
+  [[nodiscard]] dds_instance_handle_t writerId() const noexcept;
+
+ private:
+  struct Driven {
+    std::uint64_t page_id;
+    PoseFollower follower;
+  };
+  struct Tool {
+    std::optional<Driven> driven;
+    std::uint64_t seq{0};
+    std::int64_t foreign_ns{0};  // when another program's pose came last
+    std::int64_t rests_ns{0};    // when it may be given again
+  };
+
+  void run();
+  void stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses);
+  void end(Tool& tool, const char* message, std::int64_t now_ns);
+  [[nodiscard]] Tool* find(std::uint64_t page_id);
+  [[nodiscard]] bool anyDriven() const;
+
+  std::vector<std::uint32_t> ids_;
+  std::uint32_t server_tools_{0};  // web thread's, like outward_ and speed_
+  double speed_{kMaxSpeed};
+  Outward outward_;
+  dds::Writer<dds::ToolPose> writer_;
+  mutable std::mutex mutex_;  // what is below
+  std::condition_variable driven_;
+  std::array<Tool, kTools> tools_;
+  std::vector<Ending> endings_;
+  bool stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace palpate::viewer

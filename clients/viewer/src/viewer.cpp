@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "page.h"
+
+namespace palpate::viewer {
+
+Viewer::Viewer(const dds::Participant& participant, double rate_hz, std::vector<std::uint32_t> tool_ids,
+               WakeFunction wake, void* context)
+    : feed(participant, rate_hz, wake, context),
+      tools(participant, std::move(tool_ids)),
+      parameters(participant) {
+  feed.setWatched(false);
+}
+
+void Viewer::tend(std::int64_t now_ns) {
+  for (const std::uint32_t id : feed.poll(now_ns, tools.writerId())) tools.sawForeignPose(id, now_ns);
+  ServerState state = feed.state(now_ns);
+  if (state != state_) {
+    if (state.name != state_.name) spdlog::info("{}", state.text);
+    state_ = std::move(state);
+    ++state_version_;
+  }
+  tendTools(now_ns);
+  tendParameters(now_ns);
+}
+
+void Viewer::tendTools(std::int64_t now_ns) {
+  const auto& status = feed.watch().status();
+  if (state_.name == "serving" && status) {
+    tools.setServer(status->tools, status->speed_limit);
+  } else {
+    tools.setServer(0, 0.0);
+  }
+  if (feed.revision() != surface_revision_) {
+    surface_revision_ = feed.revision();
+    tools.setSurface(*feed.surface());
+  }
+  for (const ToolDesk::Ending& ending : tools.endings())
+    if (Page* page = find(ending.page_id)) page->toolEnded(ending.message);
+  for (Page* page : pages_) page->lookForRival(now_ns);
+}
+
+void Viewer::tendParameters(std::int64_t now_ns) {
+  for (const dds::ServerParameters& answer : feed.newParameters()) parameters.saw(answer);
+  const bool alive = feed.watch().alive(now_ns);
+  parameters.tend(alive ? std::optional(feed.watch().status()->server_id) : std::nullopt, now_ns);
+  for (const ParameterDesk::Answer& answer : parameters.answers())
+    if (Page* page = find(answer.page_id)) page->answered(answer);
+}
+
+void Viewer::add(Page& page) {
+  pages_.push_back(&page);
+  feed.setWatched(true);
+}
+
+void Viewer::remove(Page& page) {
+  std::erase(pages_, &page);
+  tools.drop(page.id());
+  parameters.drop(page.id());
+  feed.setWatched(!pages_.empty());
+}
+
+Page* Viewer::find(std::uint64_t page_id) const {
+  const auto at =
+      std::find_if(pages_.begin(), pages_.end(), [&](const Page* page) { return page->id() == page_id; });
+  return at == pages_.end() ? nullptr : *at;
+}
+
+}  // namespace palpate::viewer

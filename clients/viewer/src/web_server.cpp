@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web_server.h"
+
+#include <spdlog/spdlog.h>
+
+#include "page.h"
+#include "palpate/client/error.h"
+#include "palpate/client/pacer.h"
+#include "palpate/client/stop_signal.h"
+#include "request.h"
+
+namespace palpate::viewer {
+namespace {
+
+constexpr std::int64_t kTickUs = 20'000;
+constexpr std::size_t kMoreConnections = 64;  // that are no pages: files under way, handshakes, refusals
+constexpr int kGoOn = 0;
+constexpr int kHangUp = -1;
+
+// A page that says nothing for 10 s is asked, and given up after 20 s.
+constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, 10, 20, 0};
+
+void logLine(int, const char* line) {
+  static std::int64_t next_ns = 0;  // the service thread's; others can cause these lines, so one a second
+  const std::int64_t now_ns = client::nowNs();
+  if (now_ns < next_ns) return;
+  next_ns = now_ns + 1'000'000'000;
+  std::string_view text(line);
+  while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
+  spdlog::warn("libwebsockets: {}", text);
+}
+
+}  // namespace
+
+struct WebServer::Connection {  // lws gives zeroed memory
+  Page* page;
+};
+
+WebServer::WebServer(const WebOptions& options) : options_(options), files_(options.page) {
+  check(options_.access);
+  lws_set_log_level(LLL_ERR, &logLine);
+  listen();
+}
+
+void WebServer::listen() {
+  static const lws_protocols kProtocols[] = {
+      {"http", &WebServer::onEvent, 0, 0, 0, nullptr, 0},
+      {kSubprotocol, &WebServer::onEvent, sizeof(Connection), kMaxMessage, 0, nullptr, 1U << 20},
+      {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
+  const std::string& address = options_.access.listen;
+  lws_context_creation_info info{};
+  info.port = options_.access.port;
+  info.iface = address == "0.0.0.0" || address == "::" ? nullptr : address.c_str();
+  info.protocols = kProtocols;
+  info.gid = info.uid = -1;
+  info.user = this;
+  info.server_string = "palpate-viewer";
+  info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
+  if (address.find(':') == std::string::npos) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
+  info.fd_limit_per_thread = static_cast<unsigned>(options_.max_pages + kMoreConnections + 32);
+  info.timeout_secs = 5;
+  info.timeout_secs_ah_idle = 5;
+  info.keepalive_timeout = 10;
+  info.retry_and_idle_policy = &kIdle;
+  context_ = lws_create_context(&info);
+  lws_vhost* vhost = context_ ? lws_create_vhost(context_, &info) : nullptr;
+  if (vhost == nullptr) {
+    if (context_) lws_context_destroy(context_);
+    throw client::ClientError(
+        "cannot listen on " + hostAndPort(address, options_.access.port) +
+        ": is the port in use (--port 0 takes a free one), or the address not this machine's?");
+  }
+  options_.access.port = static_cast<std::uint16_t>(lws_get_vhost_listen_port(vhost));
+  rules_ = std::make_unique<AccessRules>(options_.access);
+}
+
+WebServer::~WebServer() {
+  lws_context* context = nullptr;
+  {
+    const std::lock_guard lock(context_mutex_);
+    context = std::exchange(context_, nullptr);
+  }
+  lws_context_destroy(context);
+}
+
+std::string WebServer::address() const {
+  const std::string& listen = options_.access.listen;
+  const bool all = listen == "0.0.0.0" || listen == "::";
+  return "http://" + hostAndPort(all ? "localhost" : listen, port()) + "/";
+}
+
+void WebServer::wake(void* server) noexcept {
+  auto& self = *static_cast<WebServer*>(server);
+  const std::lock_guard lock(self.context_mutex_);
+  if (self.context_) lws_cancel_service(self.context_);
+}
+
+void WebServer::run(Viewer& viewer) {
+  viewer_ = &viewer;
+  tick_.server = this;
+  onTick(&tick_.timer);
+  while (!client::stopRequested() && lws_service(context_, 0) >= 0) {
+  }
+  lws_sul_cancel(&tick_.timer);
+  lws_context* context = nullptr;
+  {
+    const std::lock_guard lock(context_mutex_);
+    context = std::exchange(context_, nullptr);
+  }
+  lws_context_destroy(context);  // closes the pages, which leave the viewer
+  viewer_ = nullptr;
+}
+
+void WebServer::onTick(lws_sorted_usec_list_t* timer) {
+  WebServer* self = reinterpret_cast<Tick*>(timer)->server;  // timer is its first member
+  self->tend();
+  lws_sul_schedule(self->context_, 0, timer, &WebServer::onTick, kTickUs);
+}
+
+void WebServer::tend() {
+  if (viewer_ == nullptr) return;
+  const std::int64_t now_ns = client::nowNs();
+  viewer_->tend(now_ns);
+  for (lws* wsi : pages_) {
+    const auto* connection = static_cast<const Connection*>(lws_wsi_user(wsi));
+    if (connection->page->wants(now_ns)) lws_callback_on_writable(wsi);
+  }
+}
+
+int WebServer::onEvent(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
+  lws_context* context = wsi ? lws_get_context(wsi) : nullptr;
+  auto* self = context ? static_cast<WebServer*>(lws_context_user(context)) : nullptr;
+  if (self == nullptr) return kGoOn;
+  try {
+    return self->handle(wsi, reason, user, in, length);
+  } catch (const std::exception& error) {  // out of memory: this connection goes, the rest stays
+    spdlog::error("a connection is closed: {}", error.what());
+    return kHangUp;
+  }
+}
+
+int WebServer::handle(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
+  switch (reason) {
+    case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
+      return connections_.size() < options_.max_pages + kMoreConnections ? kGoOn : 1;
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+      connections_.insert(wsi);
+      return kGoOn;
+    case LWS_CALLBACK_WSI_DESTROY:
+      connections_.erase(wsi);
+      return kGoOn;
+    case LWS_CALLBACK_HTTP:
+      return serveFile(wsi, std::string_view(static_cast<const char*>(in), length));
+    case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+      return judgeUpgrade(wsi, static_cast<const char*>(in));
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+      if (std::string_view(lws_get_protocol(wsi)->name) == "http") tend();  // comes once for each protocol
+      return kGoOn;
+    case LWS_CALLBACK_ESTABLISHED:
+    case LWS_CALLBACK_CLOSED:
+    case LWS_CALLBACK_RECEIVE:
+    case LWS_CALLBACK_SERVER_WRITEABLE:
+      return handlePage(wsi, reason, static_cast<Connection*>(user), in, length);
+    default:
+      return lws_callback_http_dummy(wsi, reason, user, in, length);
+  }
+}
+
+int WebServer::handlePage(lws* wsi, lws_callback_reasons reason, Connection* connection, void* in,
+                          std::size_t length) {
+  if (connection == nullptr || viewer_ == nullptr) return kHangUp;
+  if (reason == LWS_CALLBACK_ESTABLISHED) {
+    open(wsi, *connection);
+    return kGoOn;
+  }
+  if (connection->page == nullptr) return kHangUp;
+  if (reason == LWS_CALLBACK_CLOSED) {
+    pages_.erase(wsi);
+    spdlog::info("page {} left, {} open", connection->page->id(), pages_.size());
+    delete std::exchange(connection->page, nullptr);
+    return kGoOn;
+  }
+  if (reason == LWS_CALLBACK_RECEIVE)
+    return receive(wsi, *connection, std::string_view(static_cast<const char*>(in), length));
+  return write(wsi, *connection);
+}
+
+int WebServer::serveFile(lws* wsi, std::string_view uri) const {
+  const std::string host = headerOf(wsi, WSI_TOKEN_HOST);
+  if (!rules_->hostAllowed(host)) return refuse(wsi, 403, "Host is not this viewer's");
+  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) <= 0) return refuse(wsi, 405, "only GET");
+  const auto file = files_.find(uri);
+  if (!file) return refuse(wsi, 404, "no such file");
+  const std::string headers = headersOf(*file, host);
+  const int sent = lws_serve_http_file(wsi, file->path.c_str(), file->type, headers.data(),
+                                       static_cast<int>(headers.size()));
+  return sent < 0 || (sent > 0 && lws_http_transaction_completed(wsi) != 0) ? kHangUp : kGoOn;
+}
+
+int WebServer::judgeUpgrade(lws* wsi, std::string_view kind) const {
+  if (kind != "websocket") return kHangUp;
+  const std::string host = headerOf(wsi, WSI_TOKEN_HOST);
+  const std::string origin = headerOf(wsi, WSI_TOKEN_ORIGIN);
+  const std::string token = tokenOf(wsi);
+  const char* refusal = rules_->refusal({host, origin, token});
+  if (refusal != nullptr) spdlog::debug("refused: {}", refusal);
+  if (refusal != nullptr) return refuseUpgrade(wsi, 403, refusal);
+  if (headerOf(wsi, WSI_TOKEN_GET_URI) != "/ws") return refuseUpgrade(wsi, 404, "the WebSocket is at /ws");
+  if (!names(headerOf(wsi, WSI_TOKEN_PROTOCOL), kSubprotocol))
+    return refuseUpgrade(wsi, 400, "the subprotocol is palpate.viewer.v1");
+  if (pages_.size() >= options_.max_pages) return refuseUpgrade(wsi, 503, "too many pages are open");
+  return kGoOn;
+}
+
+void WebServer::open(lws* wsi, Connection& connection) {
+  connection.page =
+      new Page(next_page_++, *viewer_, options_.rate_hz);  // lws owns it: deleted when it closes
+  pages_.insert(wsi);
+  spdlog::info("page {} came, {} open", connection.page->id(), pages_.size());
+  lws_callback_on_writable(wsi);
+}
+
+int WebServer::receive(lws* wsi, Connection& connection, std::string_view part) {
+  const std::int64_t now_ns = client::nowNs();
+  const bool last = lws_is_final_fragment(wsi) != 0 && lws_remaining_packet_payload(wsi) == 0;
+  const bool too_large = lws_remaining_packet_payload(wsi) > kMaxMessage;
+  const Close close = too_large ? Close::kTooLarge
+                                : connection.page->receive(part, lws_is_first_fragment(wsi) != 0, last,
+                                                           lws_frame_is_binary(wsi) != 0, now_ns);
+  if (close != Close::kNone) {
+    spdlog::warn("page {} is shut out: code {}", connection.page->id(), static_cast<unsigned>(close));
+    lws_close_reason(wsi, static_cast<lws_close_status>(close), nullptr, 0);
+    return kHangUp;
+  }
+  if (connection.page->wants(now_ns)) lws_callback_on_writable(wsi);
+  return kGoOn;
+}
+
+int WebServer::write(lws* wsi, Connection& connection) {
+  const std::int64_t now_ns = client::nowNs();
+  buffer_.assign(LWS_PRE, 0);
+  const auto binary = connection.page->next(now_ns, buffer_);
+  if (!binary) return kGoOn;
+  const std::size_t size = buffer_.size() - LWS_PRE;
+  const int sent =
+      lws_write(wsi, buffer_.data() + LWS_PRE, size, *binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT);
+  if (sent < static_cast<int>(size)) return kHangUp;
+  if (connection.page->wants(now_ns)) lws_callback_on_writable(wsi);
+  return kGoOn;
+}
+
+}  // namespace palpate::viewer
