@@ -23,12 +23,15 @@ install(FILES clients/driver_template/driver.cpp clients/driver_template/README.
   DESTINATION ${PALPATE_DATA_DIR}/driver_template COMPONENT haptic)
 
 set(PALPATE_PROGRAMS palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
+  palpate-viewer
   palpate-organ palpate-solve palpate-inspect palpate-query palpate-reproduce palpate-replay)
 foreach(program IN LISTS PALPATE_PROGRAMS)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()
 endforeach()
+# The page, where it has been built (clients/viewer/web).
+install(DIRECTORY clients/viewer/web/dist/ DESTINATION ${PALPATE_DATA_DIR}/viewer COMPONENT programs OPTIONAL)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 configure_file(server/palpate-server.service.in ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service @ONLY)
 install(FILES server/server.toml server/palpate-limits.conf server/palpate-cpu-latency.rules

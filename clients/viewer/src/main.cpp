@@ -10,11 +10,14 @@
 
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/client/thread_priority.h"
 #include "palpate/report/program.h"
 #include "web_server.h"
 
 namespace palpate::viewer {
 namespace {
+
+constexpr int kReceivePriority = 35;  // below the server's threads
 
 struct Options {
   WebOptions web;
@@ -90,6 +93,7 @@ int body(int argc, char** argv) {
   WebServer server(options.web);
   const dds::Participant participant(options.domain);
   Viewer viewer(participant, options.web.rate_hz, options.tools, &WebServer::wake, &server);
+  client::raiseReceiveThreads(kReceivePriority);  // where the kernel lets us: browsers keep a machine busy
 
   // 3. Serve.
   announce(server, options);

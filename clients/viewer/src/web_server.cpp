@@ -20,14 +20,19 @@ constexpr int kHangUp = -1;
 // A page that says nothing for 10 s is asked, and given up after 20 s.
 constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, 10, 20, 0};
 
-void logLine(int, const char* line) {
-  static std::int64_t next_ns = 0;  // the service thread's; others can cause these lines, so one a second
+// Others can cause these lines, and must not fill the disk: one a second. The service thread's.
+void warn(std::string_view text) {
+  static std::int64_t next_ns = 0;
   const std::int64_t now_ns = client::nowNs();
   if (now_ns < next_ns) return;
   next_ns = now_ns + 1'000'000'000;
+  spdlog::warn("{}", text);
+}
+
+void logLine(int, const char* line) {
   std::string_view text(line);
-  while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
-  spdlog::warn("libwebsockets: {}", text);
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  warn(text);
 }
 
 }  // namespace
@@ -176,7 +181,7 @@ int WebServer::handlePage(lws* wsi, lws_callback_reasons reason, Connection* con
   if (connection->page == nullptr) return kHangUp;
   if (reason == LWS_CALLBACK_CLOSED) {
     pages_.erase(wsi);
-    spdlog::info("page {} left, {} open", connection->page->id(), pages_.size());
+    spdlog::debug("page {} left, {} open", connection->page->id(), pages_.size());
     delete std::exchange(connection->page, nullptr);
     return kGoOn;
   }
@@ -216,7 +221,7 @@ void WebServer::open(lws* wsi, Connection& connection) {
   connection.page =
       new Page(next_page_++, *viewer_, options_.rate_hz);  // lws owns it: deleted when it closes
   pages_.insert(wsi);
-  spdlog::info("page {} came, {} open", connection.page->id(), pages_.size());
+  spdlog::debug("page {} came, {} open", connection.page->id(), pages_.size());
   lws_callback_on_writable(wsi);
 }
 
@@ -228,7 +233,8 @@ int WebServer::receive(lws* wsi, Connection& connection, std::string_view part) 
                                 : connection.page->receive(part, lws_is_first_fragment(wsi) != 0, last,
                                                            lws_frame_is_binary(wsi) != 0, now_ns);
   if (close != Close::kNone) {
-    spdlog::warn("page {} is shut out: code {}", connection.page->id(), static_cast<unsigned>(close));
+    warn("page " + std::to_string(connection.page->id()) + " is shut out: close code " +
+         std::to_string(static_cast<unsigned>(close)));
     lws_close_reason(wsi, static_cast<lws_close_status>(close), nullptr, 0);
     return kHangUp;
   }
