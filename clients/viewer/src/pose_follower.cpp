@@ -6,12 +6,13 @@
 
 namespace palpate::viewer {
 
+// The longest interval of late, and a little: up at once, down slowly.
 void PoseFollower::learnInterval(double interval) noexcept {
-  constexpr double kWeight = 0.1;
-  if (interval > 0.2) return;  // a pause, not a rhythm
-  deviation_s_ += kWeight * (std::fabs(interval - interval_s_) - deviation_s_);
-  interval_s_ += kWeight * (interval - interval_s_);
-  delay_s_ = std::clamp(interval_s_ + 2.0 * deviation_s_, 0.004, static_cast<double>(kMaxDelayNs) * 1e-9);
+  constexpr double kForget = 0.002;
+  constexpr double kPause = 0.2;  // s, no rhythm any more
+  if (interval > kPause) return;
+  longest_s_ = std::max(interval, (1.0 - kForget) * longest_s_);
+  delay_s_ = std::clamp(1.1 * longest_s_, 0.004, static_cast<double>(kMaxDelayNs) * 1e-9);
 }
 
 void PoseFollower::target(const client::Point& p_WT, std::int64_t now_ns) noexcept {
@@ -58,7 +59,8 @@ void PoseFollower::moveTowards(const client::Point& goal, double longest) noexce
   position_ = size > longest ? position_ + (longest / size) * way : goal;
 }
 
-// The clock of the playing runs up to a fifth faster or slower until it is `delay_s_` behind.
+// The clock of the playing runs up to a fifth faster or slower until it is `delay_s_` behind. It waits at the newest
+// target: going on from there when the next one comes, late, the tool does not jump.
 void PoseFollower::play(double now_s, double dt) noexcept {
   constexpr double kCatchUp = 0.1;  // s
   double behind = now_s - delay_s_ - played_s_;
@@ -67,6 +69,7 @@ void PoseFollower::play(double now_s, double dt) noexcept {
     behind = 0.0;
   }
   played_s_ += dt * (1.0 + std::clamp(behind / kCatchUp, -0.2, 0.2));
+  played_s_ = std::min(played_s_, targets_[(count_ - 1) % kKept].t);
   moveTowards(wanted(played_s_), speed_limit_ * dt);
 }
 

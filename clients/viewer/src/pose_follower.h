@@ -65,8 +65,7 @@ class PoseFollower {
   State state_{State::kWaiting};
   std::array<Timed, kKept> targets_{};
   std::size_t count_{0};
-  double interval_s_{1.0 / 60.0};  // between targets, mean and mean deviation
-  double deviation_s_{0.004};
+  double longest_s_{1.0 / 60.0};  // between targets, of late
   double delay_s_{1.0 / 60.0};
   double played_s_{0.0};
   client::Point position_{};
