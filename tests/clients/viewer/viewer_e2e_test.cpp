@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-viewer between a real server and pages that are played by the test.
+#include <csignal>
+
+#include "palpate/client/tool_client.h"
+#include "palpate/idl/types.h"
+#include "viewer_fixture.h"
+
+namespace palpate::testing {
+namespace {
+
+constexpr double kDepth = 0.003;
+
+double forceOn(const TestPage& page, bool mine = true) {
+  for (const TestPage::Tool& tool : page.tools)
+    if ((tool.mine == 1) == mine) return sizeOf(tool.force);
+  return 0.0;
+}
+
+TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
+  startServer();
+  startViewer();
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  EXPECT_EQ(page->texts["hello"]["protocol"], 1);
+  EXPECT_EQ(page->texts["mesh"]["nodes"], 642);
+  EXPECT_EQ(page->texts["status"]["tools"], 4);
+  EXPECT_LT(page->frame_size, 60'000U);
+
+  const auto tool = grab(*page);
+  ASSERT_TRUE(tool["granted"]) << tool;
+  EXPECT_EQ(tool["tool_id"], 3) << "the highest first: a device has 0";
+  EXPECT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));
+  EXPECT_TRUE(page->press(kDepth, seconds(10), [&] { return page->largest_displacement > 1e-3; }));
+  ASSERT_FALSE(page->tools.empty());
+  EXPECT_GT(page->tools[0].force[2], 0.5F) << "the organ pushes the tool out, upwards";
+  EXPECT_NEAR(page->tools[0].tip[2], static_cast<double>(page->top[2]) + 0.005 - kDepth, 1e-4);
+  EXPECT_NE(page->tools[0].flags & dds::flag::kInContact, 0U);
+
+  page->texts.erase("tool");
+  page->client.say({{"type", "release"}});
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->has("tool"); }));
+  EXPECT_EQ(page->texts["tool"]["message"], "released");
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->tools.empty(); })) << "nobody holds it any more";
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->largest_displacement < 1e-5; }))
+      << "the dent is gone";
+}
+
+TEST_F(ViewerEndToEnd, EveryAnswerOfTheServerReachesTheStripChart) {
+  startServer();
+  startViewer();
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  ASSERT_TRUE(grab(*page)["granted"]);
+  page->press(kDepth, milliseconds(500));
+  page->answers.clear();
+  page->press(kDepth, seconds(2));
+  ASSERT_FALSE(page->answers.empty());
+  const double span_s = (page->answers.back().t_us - page->answers.front().t_us) * 1e-6;
+  EXPECT_GT(static_cast<double>(page->answers.size()), 800.0 * span_s)
+      << "1 kHz, but for ticks missed under load";
+  for (std::size_t i = 1; i < page->answers.size(); ++i)
+    ASSERT_GT(page->answers[i].t_us, page->answers[i - 1].t_us) << "answer " << i;
+}
+
+TEST_F(ViewerEndToEnd, TwoPagesDriveTwoToolsAndSeeEachOther) {
+  startServer();
+  startViewer();
+  const auto first = openPage();
+  const auto second = openPage();
+  ASSERT_TRUE(first->connect());
+  ASSERT_TRUE(second->connect());
+  ASSERT_EQ(grab(*first)["tool_id"], 3);
+  ASSERT_EQ(grab(*second)["tool_id"], 2);
+  EXPECT_TRUE(first->press(kDepth, seconds(10), [&] {
+    second->listen(milliseconds(5));
+    return forceOn(*second, false) > 0.3;
+  })) << "the second page sees the first one's tool";
+}
+
+TEST_F(ViewerEndToEnd, AToolThatAnotherProgramSendsIsNotGivenAway) {
+  startServer();
+  startViewer({"--tools", "3,2"});
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  const dds::Participant participant(static_cast<std::uint32_t>(std::stoul(domain_)));
+  client::ToolClient device(participant, 3);
+  ASSERT_TRUE(device.waitForServer(seconds(10)));
+  const client::Point away{{0.0, 0.0, 0.3}};
+  for (int i = 0; i < 300; ++i) {
+    device.publish(away);
+    page->listen(milliseconds(2));
+  }
+  EXPECT_EQ(grab(*page)["tool_id"], 2);
+}
+
+TEST_F(ViewerEndToEnd, APageThatLeavesGivesItsToolBackAndTheForceEnds) {
+  startServer();
+  startViewer({"--tools", "1"});
+  auto first = openPage();
+  const auto second = openPage();
+  ASSERT_TRUE(first->connect());
+  ASSERT_TRUE(second->connect());
+  ASSERT_EQ(grab(*first)["tool_id"], 1);
+  ASSERT_TRUE(first->press(kDepth, seconds(10), [&] { return forceOn(*first) > 0.5; }));
+  const auto refused = grab(*second);
+  EXPECT_FALSE(refused["granted"]);
+  EXPECT_NE(refused["message"].get<std::string>().find("in use"), std::string::npos);
+  first.reset();
+  EXPECT_TRUE(second->listen(seconds(5), [&] { return second->tools.empty(); }))
+      << "the server took it to zero";
+  second->listen(milliseconds(200));  // a tool rests until the server has let it go
+  EXPECT_EQ(grab(*second)["tool_id"], 1);
+}
+
+TEST_F(ViewerEndToEnd, APageThatFreezesLosesItsTool) {
+  startServer();
+  startViewer();
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  ASSERT_TRUE(grab(*page)["granted"]);
+  ASSERT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));
+  page->texts.erase("tool");
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->has("tool"); })) << "no targets any more";
+  EXPECT_FALSE(page->texts["tool"]["granted"]);
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->tools.empty(); }));
+}
+
+TEST_F(ViewerEndToEnd, AStifferOrganPushesBackHarderAndAWrongValueIsNamed) {
+  startServer();
+  startViewer();
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  ASSERT_TRUE(grab(*page)["granted"]);
+  page->press(0.001, milliseconds(800));
+  const double before = forceOn(*page);
+  ASSERT_GT(before, 0.1);
+  page->client.say({{"type", "set"}, {"request", 1}, {"youngs_factor", 2.0}});
+  EXPECT_TRUE(page->press(0.001, seconds(10), [&] { return page->has("parameters"); }));
+  EXPECT_TRUE(page->texts["parameters"]["accepted"]) << page->texts["parameters"];
+  EXPECT_TRUE(page->press(0.001, seconds(10), [&] { return forceOn(*page) > 1.9 * before; })) << before;
+  EXPECT_NEAR(forceOn(*page), 2.0 * before, 0.1 * before);
+  page->texts.erase("parameters");
+  page->client.say({{"type", "set"}, {"request", 2}, {"friction", 5.0}});
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->has("parameters"); }));
+  EXPECT_FALSE(page->texts["parameters"]["accepted"]);
+  EXPECT_EQ(page->texts["parameters"]["request"], 2);
+  EXPECT_NE(page->texts["parameters"]["message"].get<std::string>().find("friction"), std::string::npos);
+}
+
+TEST_F(ViewerEndToEnd, OutlivesItsServerAndShowsTheNextOnesOrgan) {
+  startViewer();
+  const auto page = openPage();
+  ASSERT_EQ(page->client.status(), 101);
+  ASSERT_TRUE(page->listen(seconds(5), [&] { return page->has("state"); }));
+  EXPECT_EQ(page->texts["state"]["text"], "waiting for a server on DDS domain " + domain_);
+  startServer();
+  ASSERT_TRUE(page->connect());
+  server_->signal(SIGKILL);
+  EXPECT_TRUE(page->listen(seconds(20), [&] { return page->texts["state"]["server"] == "gone"; }));
+  startServer(2);
+  EXPECT_TRUE(page->listen(seconds(30), [&] { return page->serving() && page->frame_revision == 2; }));
+  EXPECT_EQ(page->texts["mesh"]["nodes"], 162);
+  EXPECT_EQ(at<std::uint32_t>(page->mesh, 4), 162U);
+  ASSERT_TRUE(grab(*page)["granted"]);
+  EXPECT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.3; }));
+  server_->signal(SIGTERM);
+  EXPECT_TRUE(page->listen(seconds(20), [&] { return page->texts["state"]["server"] == "gone"; }));
+}
+
+TEST_F(ViewerEndToEnd, ASlowPageGetsFewerFramesAndNoOldOnes) {
+  startServer();
+  startViewer();
+  const auto slow = openPage();
+  const auto other = openPage();
+  slow->acknowledges = false;
+  ASSERT_TRUE(slow->connect());
+  ASSERT_TRUE(other->connect());
+  slow->listen(seconds(1));
+  EXPECT_EQ(slow->frame_seqs.size(), 2U) << "no third one before the first is acknowledged";
+  EXPECT_TRUE(goesOn(*other));
+  slow->client.say({{"type", "ping"}, {"t0", 1.5}});
+  ASSERT_TRUE(slow->listen(seconds(5), [&] { return slow->has("pong"); }));
+  EXPECT_EQ(slow->texts["pong"]["t0"], 1.5);
+  const double before_us = slow->texts["pong"]["t_us"];
+  slow->acknowledges = true;
+  slow->client.say({{"type", "ack"}, {"seq", 2}});
+  std::vector<std::uint8_t> frame;
+  while (frame.empty()) {
+    const WsMessage message = slow->client.receive(seconds(5));
+    ASSERT_TRUE(message.kind == WsMessage::Kind::kText || message.kind == WsMessage::Kind::kBinary);
+    if (message.kind == WsMessage::Kind::kBinary) frame = message.bytes;
+  }
+  EXPECT_EQ(at<std::uint32_t>(frame, 4), 3U);
+  EXPECT_GT(at<double>(frame, 16), before_us - 0.2e6) << "the field is of now, not of a second ago";
+}
+
+TEST_F(ViewerEndToEnd, APageMayAskForFewerFramesOrNone) {
+  startServer();
+  startViewer();
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  page->client.say({{"type", "rate"}, {"hz", 0}});
+  page->listen(milliseconds(300));
+  const std::size_t before = page->frame_seqs.size();
+  page->listen(seconds(1));
+  EXPECT_LE(page->frame_seqs.size(), before + 1);
+  page->client.say({{"type", "rate"}, {"hz", 10}});
+  page->listen(seconds(2));
+  EXPECT_LE(page->frame_seqs.size(), before + 24) << "20 and a little";
+  EXPECT_GE(page->frame_seqs.size(), before + 8);
+}
+
+}  // namespace
+}  // namespace palpate::testing

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palpate::testing {
+
+/// How a WebSocket is asked for; what a browser's page of the viewer itself would say, unless changed.
+struct WsRequest {
+  std::uint16_t port{0};
+  std::string path{"/ws"};
+  std::string host;                   ///< empty: 127.0.0.1:port
+  std::optional<std::string> origin;  ///< nothing: http://host; "": none
+  std::string subprotocol{"palpate.viewer.v1"};
+};
+
+/// One message, or the end.
+struct WsMessage {
+  enum class Kind { kText, kBinary, kClosed, kTimeout } kind{Kind::kTimeout};
+  std::vector<std::uint8_t> bytes;
+  std::uint16_t close_code{0};  ///< 0: the connection ended without one
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(bytes); }
+};
+
+/// A WebSocket client on a plain socket, which may also say what no browser would. Threads: one.
+class WsClient {
+ public:
+  /// Connects and shakes hands, whatever comes of it. @throw std::runtime_error when nobody listens
+  explicit WsClient(const WsRequest& request);
+  ~WsClient();
+  WsClient(const WsClient&) = delete;
+  WsClient& operator=(const WsClient&) = delete;
+
+  [[nodiscard]] int status() const noexcept { return status_; }  ///< HTTP; 101: it is open
+
+  /// Sends one frame, masked. @return false when the connection is gone
+  bool send(const std::string& text, std::uint8_t opcode = 1, bool final = true);
+  bool say(const nlohmann::json& object) { return send(object.dump()); }
+  /// Sends bytes as they are.
+  bool sendRaw(const std::string& bytes);
+
+  /// The next message; answers WebSocket pings by itself.
+  [[nodiscard]] WsMessage receive(std::chrono::milliseconds timeout);
+
+ private:
+  bool fill(std::size_t size, std::chrono::steady_clock::time_point end);
+  [[nodiscard]] std::vector<std::uint8_t> take(std::size_t size);
+
+  int socket_{-1};
+  int status_{0};
+  bool ended_{false};
+  std::vector<std::uint8_t> buffer_;
+};
+
+/// A TCP connection to this machine. @throw std::runtime_error when nobody listens
+[[nodiscard]] int connectTo(std::uint16_t port);
+
+/// All that comes as answer to GET, head and body; empty when the connection ends without. @param[in] path  sent as it is
+[[nodiscard]] std::string httpGet(std::uint16_t port, const std::string& path, const std::string& host);
+
+}  // namespace palpate::testing
