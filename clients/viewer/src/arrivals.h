@@ -30,8 +30,8 @@ struct TimedForce {
   std::int64_t received_ns;
 };
 
-/// What comes too often to be asked for: fields, of which the newest is kept, and forces, all of them. From DDS's threads
-/// to the web thread, by a lock that both hold for a copy.
+/// What comes too often to be asked for: fields, of which the newest is kept, and forces, all of them. From DDS's
+/// threads to the web thread, by a lock that both hold for a copy.
 class Arrivals {
  public:
   static constexpr std::size_t kMostForces = 8192;        ///< kept while nobody takes them

@@ -12,8 +12,8 @@
 #include "answer_log.h"
 #include "arrivals.h"
 #include "frame.h"
-#include "pacing.h"
 #include "outward.h"
+#include "pacing.h"
 #include "palpate/idl/reader.h"
 #include "server_watch.h"
 

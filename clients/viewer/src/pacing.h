@@ -29,7 +29,7 @@ class TokenBucket {
 };
 
 /// When the next frame may go: `rate` a second in the mean. A source of just that rate, which comes now early, now
-/// late, passes whole: a quarter of a period early is early enough. Threads: one.
+/// late, passes whole: half a period early is early enough. Threads: one.
 class FramePace {
  public:
   explicit FramePace(double rate_hz) noexcept { setRate(rate_hz); }
@@ -38,7 +38,7 @@ class FramePace {
     period_ns_ = rate_hz > 0.0 ? static_cast<std::int64_t>(1e9 / rate_hz) : 0;
   }
   [[nodiscard]] bool due(std::int64_t now_ns) const noexcept {
-    return period_ns_ > 0 && now_ns >= next_ns_ - period_ns_ / 4;
+    return period_ns_ > 0 && now_ns >= next_ns_ - period_ns_ / 2;
   }
   /// One went now.
   void went(std::int64_t now_ns) noexcept {

@@ -18,8 +18,8 @@ namespace palpate::viewer {
 /// The request on the wire. @param[in] model_youngs_modulus  E that the factor is of, Pa
 [[nodiscard]] dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs_modulus);
 
-/// Passes pages' wishes for parameters on to the server, one at a time for each page: what comes meanwhile is merged, so
-/// that a slider that is dragged leaves no queue. Threads: one, the web thread.
+/// Passes pages' wishes for parameters on to the server, one at a time for each page: what comes meanwhile is merged,
+/// so that a slider that is dragged leaves no queue. Threads: one, the web thread.
 class ParameterDesk {
  public:
   static constexpr std::int64_t kRepeatNs = 200'000'000;

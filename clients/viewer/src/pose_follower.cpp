@@ -21,13 +21,22 @@ void PoseFollower::target(const client::Point& p_WT, std::int64_t now_ns) noexce
     state_ = State::kFollowing;
     origin_ns_ = now_ns;
     last_step_ns_ = now_ns;
-    position_ = p_WT;
+    if (!placed_) position_ = p_WT;
+    placed_ = true;
   } else {
     learnInterval(static_cast<double>(now_ns - last_target_ns_) * 1e-9);
   }
   last_target_ns_ = now_ns;
   targets_[count_ % kKept] = {static_cast<double>(now_ns - origin_ns_) * 1e-9, p_WT};
   ++count_;
+}
+
+void PoseFollower::regrab(std::int64_t now_ns) noexcept {
+  if (state_ != State::kLifting) return;
+  state_ = State::kWaiting;
+  last_target_ns_ = now_ns;
+  count_ = 0;
+  played_s_ = 0.0;
 }
 
 void PoseFollower::release(const client::Point& outward) noexcept {

@@ -34,6 +34,9 @@ class PoseFollower {
   /// Where the tip's centre is to be, world W, m. No effect after a release.
   void target(const client::Point& p_WT, std::int64_t now_ns) noexcept;
 
+  /// The page wants the tool back before it is over: from where it is, at the next target.
+  void regrab(std::int64_t now_ns) noexcept;
+
   /// @param[in] outward  unit direction off the organ at the tool
   void release(const client::Point& outward) noexcept;
 
@@ -68,6 +71,7 @@ class PoseFollower {
   double longest_s_{1.0 / 60.0};  // between targets, of late
   double delay_s_{1.0 / 60.0};
   double played_s_{0.0};
+  bool placed_{false};  // position_ is a pose that was given
   client::Point position_{};
   client::Point lift_to_{};
 };

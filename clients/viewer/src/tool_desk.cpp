@@ -54,10 +54,7 @@ ToolGrant ToolDesk::grab(std::uint64_t page_id) {
   const std::int64_t now_ns = client::nowNs();
   const std::lock_guard lock(mutex_);
   if (Tool* own = find(page_id)) {
-    if (own->driven->follower.state() == PoseFollower::State::kWaiting ||
-        own->driven->follower.state() == PoseFollower::State::kFollowing)
-      return {true, static_cast<std::uint32_t>(own - tools_.data()), ""};
-    own->driven.emplace(Driven{page_id, PoseFollower(now_ns, speed_)});  // grabbed again while it lifted off
+    own->driven->follower.regrab(now_ns);
     return {true, static_cast<std::uint32_t>(own - tools_.data()), ""};
   }
   for (const std::uint32_t id : ids_) {

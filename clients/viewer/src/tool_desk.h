@@ -16,8 +16,8 @@
 
 namespace palpate::viewer {
 
-/// Tools that pages drive: gives each page that asks a free tool id and publishes its poses at 1 kHz, on a thread of its
-/// own that waits while no tool is driven. Threads: the web thread calls; the lock is held for microseconds, never
+/// Tools that pages drive: gives each page that asks a free tool id and publishes its poses at 1 kHz, on a thread of
+/// its own that waits while no tool is driven. Threads: the web thread calls; the lock is held for microseconds, never
 /// while a pose is written.
 class ToolDesk {
  public:

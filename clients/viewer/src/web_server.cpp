@@ -118,7 +118,11 @@ void WebServer::run(Viewer& viewer) {
 
 void WebServer::onTick(lws_sorted_usec_list_t* timer) {
   WebServer* self = reinterpret_cast<Tick*>(timer)->server;  // timer is its first member
-  self->tend();
+  try {
+    self->tend();
+  } catch (const std::exception& error) {
+    warn(error.what());
+  }
   lws_sul_schedule(self->context_, 0, timer, &WebServer::onTick, kTickUs);
 }
 

@@ -125,5 +125,26 @@ TEST(PoseFollower, LiftsOffOutwardsAfterARelease) {
   EXPECT_FALSE(follower.step(now + kMs).has_value());
 }
 
+TEST(PoseFollower, GrabbedAgainWhileItLiftsGoesOnFromWhereItIs) {
+  PoseFollower follower(0, kSpeed);
+  follower.target({}, 0);
+  (void)follower.step(kMs);
+  follower.release({{0.0, 0.0, 1.0}});
+  for (std::int64_t now = 2 * kMs; now <= 50 * kMs; now += kMs) (void)follower.step(now);
+  const Point lifted = follower.position();
+  ASSERT_GT(lifted[2], 0.004);
+  follower.regrab(50 * kMs);
+  EXPECT_FALSE(follower.step(51 * kMs).has_value());
+  Point last = lifted;
+  for (std::int64_t now = 60 * kMs; now < 500 * kMs; now += kMs) {
+    if (now % (10 * kMs) == 0) follower.target({{0.0, 0.01, 0.0}}, now);
+    const auto p = follower.step(now);
+    ASSERT_TRUE(p.has_value());
+    EXPECT_LE(length(*p - last), kSpeed * 1e-3 * (1.0 + 1e-9));
+    last = *p;
+  }
+  EXPECT_EQ(last, (Point{{0.0, 0.01, 0.0}}));
+}
+
 }  // namespace
 }  // namespace palpate::viewer

@@ -10,7 +10,7 @@
 
 namespace palpate::testing {
 
-/// palpate-viewer as its own process on a free port, with a page of one line. Killed by the destructor if it still runs.
+/// palpate-viewer as its own process on a free port, with a page of one line. Killed by the destructor if it runs.
 class ViewerProcess {
  public:
   explicit ViewerProcess(const std::string& domain, const std::vector<std::string>& more = {});

@@ -60,7 +60,8 @@ class WsClient {
 /// A TCP connection to this machine. @throw std::runtime_error when nobody listens
 [[nodiscard]] int connectTo(std::uint16_t port);
 
-/// All that comes as answer to GET, head and body; empty when the connection ends without. @param[in] path  sent as it is
+/// All that comes as answer to GET, head and body; empty when the connection ends without.
+/// @param[in] path  sent as it is
 [[nodiscard]] std::string httpGet(std::uint16_t port, const std::string& path, const std::string& host);
 
 }  // namespace palpate::testing
