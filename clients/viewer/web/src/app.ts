@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Connection, viewerAddress, type Listener, type Said } from './connection';
+import { Figures } from './figures';
+import { Hand } from './hand';
+import { Keys } from './keys';
+import { Legend } from './legend';
+import type { Colouring } from './organ';
+import { OrganView } from './organ_view';
+import { download, element, followInputKind, numberIn, setText, timeStamp } from './page';
+import { Panel } from './panel';
+import { Parameters } from './parameters';
+import { Pointers } from './pointer';
+import type { Frame, Mesh } from './protocol';
+import { Quality } from './quality';
+import { Readout, toolToShow } from './readout';
+import { Stage } from './stage';
+import { csvOf, Strips } from './strip';
+import { StripChart } from './strip_chart';
+import { Theme, themeColour } from './theme';
+
+const PANEL_MS = 250;
+const CHART_MS = 40;
+const NOTICE_MS = 5000;
+const HIDDEN_HZ = 1;
+const USUAL_TIP = 0.005; // m, until the viewer says
+
+/** The page: hears the viewer, draws, and lets people press. */
+export class App implements Listener {
+  readonly figures = new Figures();
+  readonly strips = new Strips();
+  view: OrganView | undefined;
+  frame_: Frame | undefined;
+  server = { level: 'wait', text: 'connecting' };
+  readonly stage: Stage;
+  readonly connection: Connection;
+  readonly hand: Hand;
+  readonly parameters: Parameters;
+  private colouring: Colouring = 'displacement';
+  private tipRadius = USUAL_TIP;
+  private usualHz = 60;
+  private lineOpen = false;
+  private nextPanel = 0;
+  private nextChart = 0;
+  private noticeTimer = 0;
+  private readonly canvas = element('organ', HTMLCanvasElement);
+  private readonly quality: Quality;
+  private readonly chart = new StripChart(element('strip', HTMLCanvasElement));
+  private readonly readout = new Readout();
+  private readonly legend: Legend;
+  private readonly panel: Panel;
+
+  constructor() {
+    this.stage = new Stage(this.canvas);
+    this.quality = new Quality(devicePixelRatio || 1, this.stage.software);
+    this.connection = new Connection(viewerAddress(location), this);
+    this.panel = new Panel(this.figures, this.connection, this.stage);
+    this.parameters = new Parameters(this.connection);
+    const organ = () => this.view && { surface: this.view.surface, tipRadius: this.tipRadius };
+    this.hand = new Hand(this.stage, this.connection, organ, (text) => this.notice(text));
+    this.legend = new Legend((colouring) => this.setColouring(colouring));
+    new Pointers(this.canvas, this.stage, this.hand);
+    new Keys(this.canvas, this.stage, this.hand);
+    new Theme((dark) => this.restyle(dark));
+    new ResizeObserver(() => this.stage.resize(this.quality.ratio)).observe(this.canvas);
+    followInputKind();
+    document.addEventListener('visibilitychange', () => this.askRate());
+    element('home', HTMLButtonElement).addEventListener('click', () => this.stage.orbit.reset());
+    element('csv', HTMLButtonElement).addEventListener('click', () => this.saveStrip());
+    element('picture', HTMLButtonElement).addEventListener('click', () => this.savePicture());
+    requestAnimationFrame((now) => this.turn(now));
+  }
+
+  link(open: boolean, text: string): void {
+    this.lineOpen = open;
+    if (open) return this.askRate();
+    this.hand?.drop();
+    this.parameters?.absent();
+    this.strips.clear();
+    this.setState('bad', `${text}; trying again`);
+  }
+
+  said(message: Said): void {
+    if (message.type === 'hello') this.usualHz = numberIn(message, 'rate_hz') || this.usualHz;
+    else if (message.type === 'mesh') this.setTip(numberIn(message, 'tip_radius'));
+    else if (message.type === 'tool') this.hand.said(message);
+    else if (message.type === 'parameters') this.parameters.answered(message);
+    else if (message.type === 'status') this.status(message);
+    else if (message.type === 'state') this.setState(levelOf(String(message['server'])), String(message['text'] ?? ''));
+  }
+
+  mesh(mesh: Mesh): void {
+    this.hand.drop();
+    this.view?.remove();
+    this.strips.clear();
+    this.view = new OrganView(mesh, this.stage, this.tipRadius);
+    this.view.setColouring(this.colouring);
+  }
+
+  frame(frame: Frame, bytes: number): void {
+    this.figures.frame(frame, bytes, this.connection.clock, performance.now());
+    this.frame_ = frame;
+    this.view?.frame(frame);
+    this.strips.add(frame.answers);
+  }
+
+  trouble(text: string): void {
+    this.notice(text);
+  }
+
+  get nowUs(): number {
+    return this.connection.clock.viewerUs(performance.now());
+  }
+
+  private setTip(radius: number): void {
+    if (radius > 0) this.tipRadius = radius;
+  }
+
+  private status(status: Said): void {
+    this.setTip(numberIn(status, 'tip_radius'));
+    this.parameters.status(status);
+    this.panel.heard(status);
+  }
+
+  private setState(level: string, text: string): void {
+    this.server = { level, text };
+    element('state', HTMLParagraphElement).dataset['level'] = level;
+    setText(element('state-text', HTMLSpanElement), text);
+    if (level !== 'good') {
+      this.parameters?.absent();
+      this.panel?.heard(undefined);
+    }
+  }
+
+  /** A page that nobody sees wants few frames. */
+  private askRate(): void {
+    if (this.lineOpen) this.connection.send({ type: 'rate', hz: document.hidden ? HIDDEN_HZ : this.usualHz });
+  }
+
+  private setColouring(colouring: Colouring): void {
+    this.colouring = colouring;
+    this.view?.setColouring(colouring);
+  }
+
+  private restyle(dark: boolean): void {
+    this.stage.setLook({ dark, floorLine: themeColour('--floor'), shadow: dark ? 0.55 : 0.28 });
+    this.view?.restyle();
+  }
+
+  /** One turn of the display: draws what changed, nothing while all is at rest. */
+  private turn(nowMs: number): void {
+    requestAnimationFrame((next) => this.turn(next));
+    const changed = (this.view?.update() ?? false) || this.stage.orbit.changed;
+    const tool = toolToShow(this.frame_?.tools ?? []);
+    if (changed) this.draw(nowMs);
+    if (changed && this.view) {
+      this.legend.write(this.view, this.stage);
+      this.readout.arrow(tool, tool && this.view.toolMesh(tool.id), this.stage);
+    }
+    if (nowMs >= this.nextChart) {
+      this.nextChart = nowMs + CHART_MS;
+      this.readout.write(tool);
+      this.chart.draw(tool && this.strips.of(tool.id), this.nowUs);
+    }
+    if (nowMs < this.nextPanel) return;
+    this.nextPanel = nowMs + PANEL_MS;
+    this.panel.write(performance.now(), (this.frame_?.tools ?? []).reduce((all, t) => all | t.flags, 0));
+  }
+
+  private draw(nowMs: number): void {
+    const start = performance.now();
+    this.stage.draw();
+    this.figures.picture(start, performance.now(), this.connection.clock);
+    if (this.quality.picture(nowMs)) this.stage.resize(this.quality.ratio);
+  }
+
+  private notice(text: string): void {
+    const box = element('notice', HTMLParagraphElement);
+    setText(box, text);
+    box.hidden = false;
+    clearTimeout(this.noticeTimer);
+    this.noticeTimer = window.setTimeout(() => (box.hidden = true), NOTICE_MS);
+  }
+
+  private saveStrip(): void {
+    download(`palpate-${timeStamp()}.csv`, new Blob([csvOf(this.strips.all())], { type: 'text/csv' }));
+  }
+
+  private savePicture(): void {
+    this.stage.draw(); // the canvas keeps its picture until this turn ends
+    const picture = document.createElement('canvas');
+    picture.width = this.canvas.width;
+    picture.height = this.canvas.height;
+    const draw = picture.getContext('2d');
+    if (!draw) return this.notice('This browser cannot save pictures.');
+    draw.fillStyle = themeColour('--ground');
+    draw.fillRect(0, 0, picture.width, picture.height);
+    draw.drawImage(this.canvas, 0, 0);
+    picture.toBlob((png) => (png ? download(`palpate-${timeStamp()}.png`, png) : this.notice('The picture could not be made.')));
+  }
+}
+
+function levelOf(server: string): string {
+  if (server === 'serving') return 'good';
+  return server === 'waiting' || server === 'starting' ? 'wait' : 'bad';
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The viewer's clock as seen from this page. Each ping bounds the offset by half its round trip; the shortest round
+ * trip of the last few says it best (Cristian, "Probabilistic clock synchronization", Distributed Computing 3, 1989).
+ */
+export class ViewerClock {
+  private readonly pings: { tripMs: number; offsetUs: number }[] = [];
+
+  constructor(private readonly keep = 32) {}
+
+  /** @param sentMs page's clock at the ping @param receivedMs and at its answer @param viewerUs viewer's clock in between */
+  learn(sentMs: number, receivedMs: number, viewerUs: number): void {
+    const tripMs = receivedMs - sentMs;
+    if (!(tripMs >= 0) || !Number.isFinite(viewerUs)) return;
+    this.pings.push({ tripMs, offsetUs: viewerUs - 500 * (sentMs + receivedMs) });
+    if (this.pings.length > this.keep) this.pings.shift();
+  }
+
+  forget(): void {
+    this.pings.length = 0;
+  }
+
+  get known(): boolean {
+    return this.pings.length > 0;
+  }
+
+  /** Shortest round trip, ms; the offset is good to half of it. */
+  get tripMs(): number {
+    return this.best()?.tripMs ?? NaN;
+  }
+
+  /** The viewer's clock, us, when the page's was `pageMs`; NaN until a ping was answered. */
+  viewerUs(pageMs: number): number {
+    const best = this.best();
+    return best ? 1000 * pageMs + best.offsetUs : NaN;
+  }
+
+  private best(): { tripMs: number; offsetUs: number } | undefined {
+    let best = this.pings[0];
+    for (const ping of this.pings) if (ping.tripMs < best.tripMs) best = ping;
+    return best;
+  }
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+import { FLAG_FORCE_LIMITED, FLAG_FORCE_RATE_LIMITED, FLAG_RAMPING } from './flags';
+import { STATE_FREE, type Frame, type Tool } from './protocol';
+import type { Surface } from './surface';
+
+const NOT_THE_ORGANS = FLAG_RAMPING | FLAG_FORCE_LIMITED | FLAG_FORCE_RATE_LIMITED;
+
+/** Stiffness as it was felt, spot by spot: a map that the palpating finger draws. */
+export class FeltMap {
+  readonly value: Float32Array; // N/m
+  readonly weight: Float32Array; // 0: never felt .. 1: right under a tool
+  low = Infinity;
+  high = -Infinity;
+
+  constructor(
+    private readonly surface: Surface,
+    private readonly reach: number, // m
+  ) {
+    this.value = new Float32Array(surface.mesh.nodes);
+    this.weight = new Float32Array(surface.mesh.nodes);
+  }
+
+  /** @return whether something new was felt */
+  learn(frame: Frame): boolean {
+    let learnt = false;
+    for (const tool of frame.tools) {
+      if (tool.state === STATE_FREE || tool.flags & NOT_THE_ORGANS) continue;
+      const answer = frame.answers.findLast((a) => a.toolId === tool.id);
+      if (!answer || !(answer.stiffness > 0) || answer.flags & NOT_THE_ORGANS) continue;
+      this.mark(tool, answer.stiffness);
+      learnt = true;
+    }
+    if (learnt) this.measure();
+    return learnt;
+  }
+
+  /** Where node n lies between the softest and the stiffest that was felt, 0 to 1. */
+  share(n: number): number {
+    const range = this.high - this.low;
+    return range > 0 ? (this.value[n] - this.low) / range : 0.5;
+  }
+
+  clear(): void {
+    this.value.fill(0);
+    this.weight.fill(0);
+    [this.low, this.high] = [Infinity, -Infinity];
+  }
+
+  private mark(tool: Tool, stiffness: number): void {
+    const { rest, mesh } = this.surface;
+    for (let n = 0; n < mesh.nodes; ++n) {
+      const r = Math.hypot(rest[3 * n] - tool.anchor[0], rest[3 * n + 1] - tool.anchor[1], rest[3 * n + 2] - tool.anchor[2]);
+      if (r >= this.reach) continue;
+      const w = (1 - (r / this.reach) ** 2) ** 2;
+      const share = w / (w + 0.5 * this.weight[n]); // what was felt nearer before counts more
+      this.value[n] += share * (stiffness - this.value[n]);
+      this.weight[n] = Math.max(this.weight[n], w);
+    }
+  }
+
+  private measure(): void {
+    [this.low, this.high] = [Infinity, -Infinity];
+    for (let n = 0; n < this.value.length; ++n) {
+      if (this.weight[n] < 0.02) continue;
+      this.low = Math.min(this.low, this.value[n]);
+      this.high = Math.max(this.high, this.value[n]);
+    }
+  }
+}

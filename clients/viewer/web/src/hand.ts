@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Connection, Said } from './connection';
+import { element, setText } from './page';
+import type { Toucher } from './pointer';
+import { DEEPEST, Press } from './press';
+import type { Stage } from './stage';
+import type { Surface } from './surface';
+
+const TARGET_MS = 12; // between targets; the viewer smooths them to 1 kHz
+
+/** Presses on the organ, from the first touch to the release: asks for a tool, sends its targets. */
+export class Hand implements Toucher {
+  toolId: number | undefined; // granted
+  private press_: Press | undefined;
+  private wanted = 0; // m
+  private seq = 0;
+  private readonly slider = element('depth', HTMLInputElement);
+  private readonly sliderText = element('depth-text', HTMLOutputElement);
+  private readonly hint = element('hint', HTMLParagraphElement);
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly connection: Connection,
+    private readonly organ: () => { surface: Surface; tipRadius: number } | undefined,
+    private readonly notice: (text: string) => void,
+  ) {
+    this.slider.max = String(1000 * DEEPEST);
+    this.slider.addEventListener('input', () => this.setDepth(Number(this.slider.value) / 1000));
+    this.setDepth(Number(this.slider.value) / 1000);
+    setInterval(() => this.send(), TARGET_MS);
+  }
+
+  get pressing(): boolean {
+    return this.press_ !== undefined;
+  }
+
+  press(clientX: number, clientY: number): boolean {
+    const organ = this.organ();
+    if (!organ) return false;
+    const ray = this.stage.rayAt(clientX, clientY);
+    const press = Press.begin(organ.surface, ray, organ.tipRadius, performance.now());
+    if (!press) {
+      if (!organ.surface.hit(ray.origin, ray.direction)) return false;
+      this.notice('The organ is held here: no answer was computed at this spot.');
+      return true;
+    }
+    this.press_ = press;
+    this.hint.dataset['gone'] = '';
+    this.connection.grab();
+    return true;
+  }
+
+  slide(clientX: number, clientY: number, pull: boolean): void {
+    const ray = this.stage.rayAt(clientX, clientY);
+    if (pull) this.press_?.pullTo(ray);
+    else this.press_?.slideTo(ray);
+  }
+
+  deeper(metres: number): void {
+    this.setDepth(this.wanted + metres);
+  }
+
+  letGo(): void {
+    if (!this.press_) return;
+    this.press_ = undefined;
+    this.toolId = undefined;
+    this.connection.release();
+  }
+
+  overOrgan(clientX: number, clientY: number): boolean {
+    const organ = this.organ();
+    if (!organ) return false;
+    const ray = this.stage.rayAt(clientX, clientY);
+    return organ.surface.hit(ray.origin, ray.direction) !== undefined;
+  }
+
+  /** The viewer's answer to a grab, or that the tool was taken back. */
+  said(message: Said): void {
+    const granted = message['granted'] === true;
+    if (granted && this.press_) this.toolId = Number(message['tool_id']);
+    if (granted) return;
+    this.toolId = undefined;
+    if (!this.press_) return;
+    this.press_ = undefined;
+    this.notice(String(message['message'] || 'There is no free tool.'));
+  }
+
+  /** The line broke or another organ came: nothing is held any more. */
+  drop(): void {
+    this.press_ = undefined;
+    this.toolId = undefined;
+  }
+
+  private setDepth(metres: number): void {
+    this.wanted = Math.min(DEEPEST, Math.max(0, metres));
+    this.slider.value = String(1000 * this.wanted);
+    setText(this.sliderText, `${(1000 * this.wanted).toFixed(1)} mm`);
+  }
+
+  private send(): void {
+    if (!this.press_) return;
+    const target = this.press_.target(performance.now(), this.wanted);
+    if (this.toolId !== undefined) this.connection.target(target, ++this.seq);
+  }
+}

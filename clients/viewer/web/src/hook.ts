@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { App } from './app';
+import { toolToShow } from './readout';
+import { norm } from './vec';
+
+/** What tests and the curious read at window.palpate: the panel's numbers, read-only. */
+export function figuresOf(app: App): Record<string, unknown> {
+  const now = performance.now();
+  const { drawn, received, decodedMs, shownMs, frames, pictures } = app.figures;
+  const tool = toolToShow(app.frame_?.tools ?? []);
+  const mesh = tool && app.view?.toolMesh(tool.id);
+  return {
+    state: app.server,
+    nodes: app.view?.surface.mesh.nodes ?? 0,
+    meshRevision: app.view?.surface.mesh.revision ?? 0,
+    frames,
+    pictures,
+    picturesPerSecond: drawn.rate(now),
+    framesPerSecond: received.rate(now),
+    bytesPerFrame: received.mean(),
+    decodedMs: { p50: decodedMs.percentile(0.5), p99: decodedMs.percentile(0.99), count: decodedMs.count },
+    shownMs: { p50: shownMs.percentile(0.5), p99: shownMs.percentile(0.99), count: shownMs.count },
+    roundTripMs: app.connection.clock.tripMs,
+    largestDisplacement: app.view?.surface.largest ?? 0,
+    pressing: app.hand.pressing,
+    toolId: app.hand.toolId ?? null,
+    tools: app.frame_?.tools.length ?? 0,
+    force: tool ? norm(tool.force) : 0,
+    penetration: tool?.penetration ?? 0,
+    contact: tool?.state ?? 0,
+    flags: tool?.flags ?? 0,
+    gap: mesh && app.view ? mesh.gap(app.view.surface) : null,
+    inForce: app.parameters.inForce,
+    samples: tool ? app.strips.of(tool.id).length : 0,
+    felt: app.view ? { low: app.view.felt.low, high: app.view.felt.high } : null,
+    drawnBy: app.stage.drawnBy,
+    pixelRatio: app.stage.pixelRatio,
+  };
+}
+
+export function giveHook(app: App): void {
+  Object.defineProperty(window, 'palpate', { value: Object.freeze({ figures: () => figuresOf(app), strip: () => app.strips.all() }) });
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+import { DISPLACEMENT, STIFFNESS } from './colours';
+import type { OrganView } from './organ_view';
+import type { Colouring } from './organ';
+import { brief, element, setText } from './page';
+import type { Stage } from './stage';
+
+/** What the colours mean, and how long a centimetre is. */
+export class Legend {
+  private readonly ramp = element('ramp', HTMLDivElement);
+  private readonly bar = element('ramp-bar', HTMLElement);
+  private readonly low = element('ramp-low', HTMLSpanElement);
+  private readonly high = element('ramp-high', HTMLSpanElement);
+  private readonly rule = element('rule-bar', HTMLElement);
+  private readonly ruleText = element('rule-text', HTMLSpanElement);
+  private drawn: Colouring | undefined;
+
+  constructor(choose: (colouring: Colouring) => void) {
+    for (const input of document.querySelectorAll<HTMLInputElement>('input[name=colouring]'))
+      input.addEventListener('change', () => input.checked && choose(input.value as Colouring));
+  }
+
+  write(view: OrganView, stage: Stage): void {
+    this.writeRule(stage);
+    const { colouring, felt } = view;
+    if (this.drawn !== colouring) {
+      this.ramp.style.visibility = colouring === 'plain' ? 'hidden' : 'visible';
+      this.bar.style.background = (colouring === 'stiffness' ? STIFFNESS : DISPLACEMENT).gradient();
+      this.drawn = colouring;
+    }
+    if (colouring === 'displacement') {
+      setText(this.low, '0');
+      setText(this.high, `${brief(1000 * view.displacementTop, 0)} mm`);
+    } else if (Number.isFinite(felt.low)) {
+      setText(this.low, (felt.low / 1000).toFixed(2));
+      setText(this.high, `${(felt.high / 1000).toFixed(2)} N/mm`);
+    } else {
+      setText(this.low, 'press to');
+      setText(this.high, 'feel');
+    }
+  }
+
+  private writeRule(stage: Stage): void {
+    const pixels = stage.pixelsPerMetre;
+    const length = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1].findLast((m) => m * pixels < 130) ?? 0.001;
+    this.rule.style.width = `${(length * pixels).toFixed(1)}px`;
+    setText(this.ruleText, length >= 0.01 ? `${Math.round(100 * length)} cm` : `${Math.round(1000 * length)} mm`);
+  }
+}

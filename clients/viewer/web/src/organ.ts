@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshPhongMaterial, Sphere, Vector3, type Scene } from 'three';
+import { DISPLACEMENT, NOT_FELT, niceCeiling, STIFFNESS, TISSUE } from './colours';
+import type { FeltMap } from './felt';
+import type { Surface } from './surface';
+
+export type Colouring = 'displacement' | 'stiffness' | 'plain';
+
+const LEAST_TOP = 0.002; // m
+const AT_REST = 1e-4; // m
+
+/** The organ as it is drawn: lit, shaded, coloured. */
+export class OrganMesh {
+  private readonly geometry = new BufferGeometry();
+  private readonly colours: Float32Array;
+  private readonly mesh: Mesh;
+  private top = LEAST_TOP; // m, end of the displacement scale
+
+  constructor(
+    private readonly surface: Surface,
+    private readonly felt: FeltMap,
+    private readonly scene: Scene,
+  ) {
+    const dynamic = (array: Float32Array): BufferAttribute => new BufferAttribute(array, 3).setUsage(DynamicDrawUsage);
+    this.colours = new Float32Array(3 * surface.mesh.nodes);
+    this.geometry.setAttribute('position', dynamic(surface.now));
+    this.geometry.setAttribute('normal', dynamic(surface.normals));
+    this.geometry.setAttribute('color', dynamic(this.colours));
+    this.geometry.setIndex(new BufferAttribute(surface.mesh.triangles, 1));
+    this.geometry.boundingSphere = new Sphere(new Vector3(...surface.centre), surface.size); // generous: it deforms
+    this.mesh = new Mesh(this.geometry, new MeshPhongMaterial({ vertexColors: true, shininess: 36, specular: 0x2b2b2b }));
+    scene.add(this.mesh);
+  }
+
+  remove(): void {
+    this.scene.remove(this.mesh);
+    this.geometry.dispose();
+    (this.mesh.material as MeshPhongMaterial).dispose();
+  }
+
+  moved(): void {
+    this.geometry.attributes['position'].needsUpdate = true;
+    this.geometry.attributes['normal'].needsUpdate = true;
+  }
+
+  /** End of the displacement scale, m: grows with what is shown, and starts anew at rest. */
+  get displacementTop(): number {
+    return this.top;
+  }
+
+  fitScale(): void {
+    const { largest } = this.surface;
+    this.top = largest < AT_REST ? LEAST_TOP : Math.max(this.top, niceCeiling(largest));
+  }
+
+  colour(how: Colouring): void {
+    const { displaced, mesh } = this.surface;
+    for (let n = 0; n < mesh.nodes; ++n) {
+      if (how === 'displacement') DISPLACEMENT.write(displaced[n] / this.top, this.colours, 3 * n);
+      else if (how === 'plain') this.colours.set(TISSUE, 3 * n);
+      else if (this.felt.weight[n] < 0.02) this.colours.set(NOT_FELT, 3 * n);
+      else STIFFNESS.write(this.felt.share(n), this.colours, 3 * n);
+    }
+    this.geometry.attributes['color'].needsUpdate = true;
+  }
+}

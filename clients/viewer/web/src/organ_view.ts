@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+import { niceCeiling } from './colours';
+import { FeltMap } from './felt';
+import { OrganMesh, type Colouring } from './organ';
+import type { Frame, Mesh, Tool } from './protocol';
+import type { Stage } from './stage';
+import { Surface } from './surface';
+import { themeColour } from './theme';
+import { ToolMesh } from './tool_mesh';
+import { norm } from './vec';
+
+const REACH = 2; // of the felt map, in tip radii
+
+/** One organ and the tools on it, as drawn. */
+export class OrganView {
+  readonly surface: Surface;
+  readonly felt: FeltMap;
+  tools: readonly Tool[] = [];
+  colouring: Colouring = 'displacement';
+  private readonly organ: OrganMesh;
+  private readonly toolMeshes = new Map<number, ToolMesh>();
+  private forceTop = 1; // N, of the arrows' scale
+  private dirty = true;
+  private moved = true;
+
+  constructor(
+    mesh: Mesh,
+    private readonly stage: Stage,
+    readonly tipRadius: number,
+  ) {
+    this.surface = new Surface(mesh);
+    this.felt = new FeltMap(this.surface, REACH * tipRadius);
+    this.organ = new OrganMesh(this.surface, this.felt, stage.scene);
+    stage.welcome(this.surface);
+  }
+
+  get displacementTop(): number {
+    return this.organ.displacementTop;
+  }
+
+  remove(): void {
+    this.organ.remove();
+    for (const tool of this.toolMeshes.values()) tool.remove();
+  }
+
+  setColouring(colouring: Colouring): void {
+    this.colouring = colouring;
+    this.dirty = true;
+  }
+
+  restyle(): void {
+    for (const mesh of this.toolMeshes.values()) mesh.setColours(themeColour('--steel'), themeColour('--force'));
+    this.dirty = true;
+  }
+
+  frame(frame: Frame): void {
+    if (this.surface.show(frame)) this.moved = this.dirty = true;
+    if (this.felt.learn(frame) && this.colouring === 'stiffness') this.dirty = true;
+    if (!sameTools(this.tools, frame.tools)) this.dirty = true;
+    this.tools = frame.tools;
+  }
+
+  /** Brings what is drawn up to date. @return whether anything changed since the last time */
+  update(): boolean {
+    if (!this.dirty) return false;
+    if (this.moved) this.organ.moved();
+    this.organ.fitScale();
+    this.organ.colour(this.colouring);
+    this.updateTools();
+    this.dirty = this.moved = false;
+    return true;
+  }
+
+  /** The drawn tool, if it is there. */
+  toolMesh(id: number): ToolMesh | undefined {
+    return this.toolMeshes.get(id);
+  }
+
+  private updateTools(): void {
+    const strongest = this.tools.reduce((top, tool) => Math.max(top, norm(tool.force)), 0);
+    this.forceTop = Math.max(this.forceTop, niceCeiling(strongest));
+    for (const [id, mesh] of this.toolMeshes) {
+      if (this.tools.some((tool) => tool.id === id)) continue;
+      mesh.remove();
+      this.toolMeshes.delete(id);
+    }
+    for (const tool of this.tools) this.meshOf(tool.id).show(tool, this.surface, (0.22 * this.surface.size) / this.forceTop);
+  }
+
+  private meshOf(id: number): ToolMesh {
+    let mesh = this.toolMeshes.get(id);
+    if (!mesh) {
+      mesh = new ToolMesh(this.stage.scene, this.tipRadius);
+      mesh.setColours(themeColour('--steel'), themeColour('--force'));
+      this.toolMeshes.set(id, mesh);
+    }
+    return mesh;
+  }
+}
+
+function sameTools(a: readonly Tool[], b: readonly Tool[]): boolean {
+  const near = (p: readonly number[], q: readonly number[], least: number): boolean => p.every((x, i) => Math.abs(x - q[i]) < least);
+  return (
+    a.length === b.length &&
+    a.every((tool, i) => {
+      const other = b[i];
+      return tool.id === other.id && tool.state === other.state && near(tool.proxy, other.proxy, 2e-5) &&
+        near(tool.tip, other.tip, 2e-5) && near(tool.force, other.force, 2e-3);
+    })
+  );
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Connection, Said } from './connection';
+import type { Figures } from './figures';
+import { flagWords } from './flags';
+import { brief, element, numberIn, setText } from './page';
+import type { Stage } from './stage';
+
+type Level = '' | 'warn' | 'bad';
+const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {});
+
+/** Rates, latencies and health, in numbers and words. */
+export class Panel {
+  private readonly list = element('health-list', HTMLDListElement);
+  private readonly flags = element('flags', HTMLUListElement);
+  private readonly rows = new Map<string, HTMLElement>();
+  private shownFlags = '';
+  private status: Said | undefined;
+
+  constructor(
+    private readonly figures: Figures,
+    private readonly connection: Connection,
+    private readonly stage: Stage | undefined,
+  ) {}
+
+  heard(status: Said | undefined): void {
+    this.status = status;
+  }
+
+  /** @param flags  of the tools now shown, or-ed */
+  write(nowMs: number, flags: number): void {
+    this.page(nowMs);
+    this.server(this.status ?? { type: 'status' });
+    this.words(flags);
+  }
+
+  private page(nowMs: number): void {
+    const { drawn, received, decodedMs, shownMs } = this.figures;
+    const rate = drawn.rate(nowMs);
+    this.row('Pictures drawn', rate > 0 ? `${brief(rate, 0)} / s, ${brief(drawn.percentile(0.5))} ms each` : 'at rest');
+    this.row('Frames received', `${brief(received.rate(nowMs), 0)} / s, ${brief(received.mean() / 1000)} kB each`);
+    this.row('Sample to decoded, p50 / p99', pair(decodedMs, 'ms'), decodedMs.percentile(0.5) > 50 ? 'warn' : '');
+    this.row('Sample to picture, p50 / p99', pair(shownMs, 'ms'));
+    this.row('Round trip to the viewer', `${brief(this.connection.clock.tripMs)} ms`);
+    if (this.stage) this.row('Drawn by', shortName(this.stage.drawnBy));
+  }
+
+  private server(status: Said): void {
+    const tick = asRecord(status['tick_us']);
+    const wake = asRecord(status['wakeup_us']);
+    const viewer = asRecord(status['viewer']);
+    const overruns = numberIn(status, 'overruns');
+    const ticks = numberIn(status, 'ticks');
+    this.row('Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, device ${String(status['device'] ?? '–')}` : '–');
+    this.row('Tick, p50 / p99', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
+    this.row('Woke late by, p50 / p99', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
+    this.row('Ticks missed', Number.isFinite(overruns) ? `${overruns} of ${ticks}` : '–', overruns > 0.01 * ticks ? 'bad' : '');
+    const granted = status['realtime'];
+    this.row('Real time', granted === undefined ? '–' : granted ? 'granted' : 'not granted', granted === false ? 'warn' : '');
+    this.row('Force limit', `${brief(numberIn(status, 'force_limit'))} N`);
+    this.row('Pages at the viewer', brief(numberIn(viewer, 'pages'), 0));
+  }
+
+  private row(name: string, value: string, level: Level = ''): void {
+    let cell = this.rows.get(name);
+    if (!cell) {
+      const term = document.createElement('dt');
+      term.textContent = name;
+      cell = document.createElement('dd');
+      this.list.append(term, cell);
+      this.rows.set(name, cell);
+    }
+    setText(cell, value);
+    cell.dataset['level'] = level;
+  }
+
+  private words(flags: number): void {
+    const words = flagWords(flags);
+    const key = words.map((w) => w.words).join();
+    if (key === this.shownFlags) return;
+    this.shownFlags = key;
+    this.flags.replaceChildren(
+      ...words.map(({ words: text, severe }) => {
+        const item = document.createElement('li');
+        item.textContent = text;
+        if (severe) item.dataset['severe'] = '';
+        return item;
+      }),
+    );
+  }
+}
+
+const pair = (recent: { percentile(share: number): number }, unit: string): string =>
+  `${brief(recent.percentile(0.5))} / ${brief(recent.percentile(0.99))} ${unit}`;
+
+/** "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (LLVM 16)), ..)" -> "SwiftShader (software)". */
+export function shortName(renderer: string): string {
+  if (/swiftshader|llvmpipe|softpipe/i.test(renderer)) return `${/swiftshader/i.test(renderer) ? 'SwiftShader' : 'llvmpipe'} (software)`;
+  return (/ANGLE \([^,]*, ([^,(]*)/.exec(renderer)?.[1] ?? renderer).trim().slice(0, 40);
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Connection, Said } from './connection';
+import { element, numberIn, setText } from './page';
+
+const ASK_MS = 150; // at most one request in this time
+const HELD_MS = 1500; // after a hand left a slider it follows the server again
+
+/** The sliders of what the hand feels: organ stiffness, friction. What is in force is what the server says. */
+export class Parameters {
+  private readonly stiffness = element('stiffness', HTMLInputElement);
+  private readonly stiffnessText = element('stiffness-text', HTMLOutputElement);
+  private readonly friction = element('friction', HTMLInputElement);
+  private readonly frictionText = element('friction-text', HTMLOutputElement);
+  private readonly message = element('parameter-message', HTMLParagraphElement);
+  private wishes: { youngs_factor?: number; friction?: number } = {};
+  private request = Math.floor(Math.random() * 2 ** 40);
+  private touchedMs = -Infinity;
+  private askedMs = -Infinity;
+  inForce = { youngsFactor: NaN, friction: NaN };
+
+  constructor(private readonly connection: Connection) {
+    this.stiffness.addEventListener('input', () => this.wish({ youngs_factor: 2 ** Number(this.stiffness.value) }));
+    this.friction.addEventListener('input', () => this.wish({ friction: Number(this.friction.value) }));
+    setInterval(() => this.ask(), ASK_MS / 3);
+  }
+
+  /** The viewer's status: values in force. */
+  status(status: Said): void {
+    const youngsFactor = numberIn(status, 'youngs_modulus') / numberIn(status, 'model_youngs_modulus');
+    const friction = 'friction' in status ? (status['friction'] === null ? Infinity : numberIn(status, 'friction')) : NaN;
+    this.inForce = { youngsFactor, friction };
+    this.stiffness.disabled = !(youngsFactor > 0);
+    this.friction.disabled = Number.isNaN(friction);
+    if (performance.now() - this.touchedMs < HELD_MS) return;
+    if (youngsFactor > 0) this.stiffness.value = String(Math.log2(youngsFactor));
+    if (!Number.isNaN(friction)) this.friction.value = String(Math.min(2, friction));
+    this.write(youngsFactor, friction);
+  }
+
+  /** The server's answer to a request. */
+  answered(answer: Said): void {
+    setText(this.message, answer['accepted'] === false ? `Refused: ${String(answer['message'])}` : '');
+    if (answer['accepted'] === false) this.touchedMs = -Infinity; // back to what is in force
+  }
+
+  /** No server: nothing to set. */
+  absent(): void {
+    this.stiffness.disabled = this.friction.disabled = true;
+    setText(this.stiffnessText, '');
+    setText(this.frictionText, '');
+  }
+
+  private wish(wish: { youngs_factor?: number; friction?: number }): void {
+    Object.assign(this.wishes, wish);
+    this.touchedMs = performance.now();
+    this.write(2 ** Number(this.stiffness.value), Number(this.friction.value));
+  }
+
+  private ask(): void {
+    const now = performance.now();
+    if (Object.keys(this.wishes).length === 0 || now - this.askedMs < ASK_MS) return;
+    this.askedMs = now;
+    this.connection.send({ type: 'set', request: ++this.request, ...this.wishes });
+    this.wishes = {};
+  }
+
+  private write(youngsFactor: number, friction: number): void {
+    const times = youngsFactor > 0 ? `× ${youngsFactor.toFixed(2)}` : '';
+    setText(this.stiffnessText, times);
+    this.stiffness.setAttribute('aria-valuetext', `${times} of the model's`);
+    setText(this.frictionText, friction === Infinity ? 'never slides' : Number.isNaN(friction) ? '' : friction.toFixed(2));
+  }
+}

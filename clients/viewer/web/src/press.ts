@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+import { restNormalAt, type Surface } from './surface';
+import { add, dot, scale, sub, type Vec3 } from './vec';
+
+export const DEEPEST = 0.015; // m; the server clamps beyond its domain and says so
+const ABOVE = 0.001; // m above the surface where a press begins
+const SPEED = 0.012; // m/s at which a press goes down or up
+
+export interface Ray {
+  readonly origin: Vec3;
+  readonly direction: Vec3; // unit length
+}
+
+/**
+ * A finger on the organ: where, how deep, and the tool pose that this makes. The longer it presses the deeper, down to
+ * the depth that was set. Depths count from the surface at rest, along its outward normal.
+ */
+export class Press {
+  private constructor(
+    private readonly surface: Surface,
+    private spot: Vec3,
+    private normal: Vec3,
+    private readonly tipRadius: number,
+    private depthNow: number,
+    private timeMs: number,
+  ) {}
+
+  /** @return undefined when the ray meets no accessible part of the organ as it is displayed */
+  static begin(surface: Surface, ray: Ray, tipRadius: number, nowMs: number): Press | undefined {
+    const hit = surface.hit(ray.origin, ray.direction);
+    if (!hit || !surface.accessibleAt(hit)) return undefined;
+    return new Press(surface, surface.at(surface.rest, hit), restNormalAt(surface, hit), tipRadius, -ABOVE, nowMs);
+  }
+
+  /** Over the surface at rest, to where the ray meets it; stays where it is when the ray misses. */
+  slideTo(ray: Ray): boolean {
+    const hit = this.surface.hit(ray.origin, ray.direction, this.surface.rest);
+    if (!hit || !this.surface.accessibleAt(hit)) return false;
+    this.spot = this.surface.at(this.surface.rest, hit);
+    this.normal = restNormalAt(this.surface, hit);
+    return true;
+  }
+
+  /** In the plane that touches the surface where the finger is: pulls instead of following the surface. */
+  pullTo(ray: Ray): boolean {
+    const steep = dot(ray.direction, this.normal);
+    if (Math.abs(steep) < 0.05) return false;
+    const distance = dot(sub(this.spot, ray.origin), this.normal) / steep;
+    if (!(distance > 0)) return false;
+    this.spot = add(ray.origin, scale(ray.direction, distance));
+    return true;
+  }
+
+  /** Goes on towards the depth that is wanted, m. @return the tip's centre, m */
+  target(nowMs: number, wanted: number): Vec3 {
+    const step = (SPEED * Math.min(100, Math.max(0, nowMs - this.timeMs))) / 1000;
+    const goal = Math.min(DEEPEST, Math.max(-ABOVE, wanted));
+    this.depthNow += Math.min(step, Math.max(-step, goal - this.depthNow));
+    this.timeMs = nowMs;
+    return add(this.spot, scale(this.normal, this.tipRadius - this.depthNow));
+  }
+
+  get depth(): number {
+    return this.depthNow;
+  }
+}

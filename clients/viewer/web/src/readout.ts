@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+import { flagWords } from './flags';
+import { element, setText } from './page';
+import { STATE_FREE, STATE_SLIDE, type Tool } from './protocol';
+import type { Stage } from './stage';
+import type { ToolMesh } from './tool_mesh';
+import { norm } from './vec';
+
+/** The tool that the numbers are of: this page's own, else one that touches, else the first. */
+export function toolToShow(tools: readonly Tool[]): Tool | undefined {
+  return tools.find((tool) => tool.mine) ?? tools.find((tool) => tool.state !== STATE_FREE) ?? tools[0];
+}
+
+/** Force and penetration as large numbers, the contact in a word, and the force beside its arrow. */
+export class Readout {
+  private readonly force = element('force', HTMLOutputElement);
+  private readonly penetration = element('penetration', HTMLOutputElement);
+  private readonly contact = element('contact', HTMLParagraphElement);
+  private readonly who = element('who', HTMLParagraphElement);
+  private readonly label = element('arrow-label', HTMLOutputElement);
+
+  write(tool: Tool | undefined): void {
+    setText(this.force, (tool ? norm(tool.force) : 0).toFixed(2));
+    setText(this.penetration, (1000 * (tool?.penetration ?? 0)).toFixed(1));
+    setText(this.contact, !tool ? 'no tool' : ['in the air', 'sticks', 'slides'][Math.min(tool.state, STATE_SLIDE)]);
+    const news = tool ? flagWords(tool.flags)[0]?.words : undefined;
+    setText(this.who, tool ? `${tool.mine ? 'your tool' : 'tool'} ${tool.id}${news ? ` · ${news}` : ''}` : 'nobody presses');
+  }
+
+  arrow(tool: Tool | undefined, mesh: ToolMesh | undefined, stage: Stage): void {
+    const at = tool && mesh && norm(tool.force) >= 0.05 ? stage.onScreen(mesh.arrowTip) : undefined;
+    this.label.hidden = !at;
+    if (!at || !tool) return;
+    setText(this.label, `${norm(tool.force).toFixed(2)} N`);
+    const box = this.label.parentElement;
+    const x = Math.min((box?.clientWidth ?? 0) - 70, Math.max(4, at.x + 12));
+    const y = Math.min((box?.clientHeight ?? 0) - 30, Math.max(4, at.y - 12));
+    this.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  }
+}

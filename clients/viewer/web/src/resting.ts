@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+import { nearestOnTriangle, type Surface } from './surface';
+import { add, dot, norm, pointOf, scale, sub, type Vec3 } from './vec';
+
+/** The triangles, nine numbers each, that come within `reach` of a point. */
+function trianglesNear(surface: Surface, point: Vec3, reach: number): [Vec3, Vec3, Vec3][] {
+  const { now, mesh } = surface;
+  const near = new Uint8Array(mesh.nodes);
+  for (let n = 0; n < mesh.nodes; ++n) {
+    const dx = now[3 * n] - point[0], dy = now[3 * n + 1] - point[1], dz = now[3 * n + 2] - point[2];
+    near[n] = dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
+  }
+  const found: [Vec3, Vec3, Vec3][] = [];
+  for (let t = 0; t < mesh.triangles.length; t += 3) {
+    const [a, b, c] = [mesh.triangles[t], mesh.triangles[t + 1], mesh.triangles[t + 2]];
+    if (near[a] || near[b] || near[c]) found.push([pointOf(now, a), pointOf(now, b), pointOf(now, c)]);
+  }
+  return found;
+}
+
+/**
+ * How far a ball must be moved along `n` so that it touches no triangle's inside: the ball's centre leaves the slab of
+ * radius R about each triangle by the shortest way along n.
+ */
+function liftOff(centre: Vec3, n: Vec3, radius: number, triangles: readonly [Vec3, Vec3, Vec3][]): number {
+  let lift = 0;
+  for (let round = 0; round < 24; ++round) {
+    const at = add(centre, scale(n, lift));
+    let missing = 0;
+    for (const [a, b, c] of triangles) {
+      const away = sub(at, nearestOnTriangle(at, a, b, c));
+      const gap = norm(away);
+      if (gap >= radius) continue;
+      // Along n the distance grows by cos(away, n) a metre; slower than a fifth we step a fifth.
+      const along = gap > 1e-9 ? dot(away, n) / gap : 1;
+      missing = Math.max(missing, (radius - gap) / Math.max(along, 0.2));
+    }
+    if (missing < 1e-7) break;
+    lift += missing;
+  }
+  return lift;
+}
+
+/** Distance from a point to the displayed surface near it, m; infinity when nothing is within reach. */
+export function gapTo(surface: Surface, point: Vec3, reach: number): number {
+  let least = Infinity;
+  for (const [a, b, c] of trianglesNear(surface, point, reach))
+    least = Math.min(least, norm(sub(point, nearestOnTriangle(point, a, b, c))));
+  return least;
+}
+
+/**
+ * Where to draw a tip's centre so that the ball rests on the displayed surface and is nowhere inside it.
+ * @param touched  the point of the surface that is touched, as displayed: the proxy, m
+ * @param n        outward normal there
+ * @param radius   of the tip, m
+ */
+export function restingCentre(surface: Surface, touched: Vec3, n: Vec3, radius: number): Vec3 {
+  const edge = surface.size / Math.sqrt(surface.mesh.nodes); // about the length of an edge
+  const triangles = trianglesNear(surface, touched, 4 * radius + 2 * edge);
+  const start = add(touched, scale(n, radius));
+  return add(start, scale(n, liftOff(start, n, radius, triangles)));
+}

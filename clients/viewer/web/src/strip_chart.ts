@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+import { niceCeiling } from './colours';
+import { SPAN_US, type Sample, type Strip } from './strip';
+import { themeColour } from './theme';
+
+const GAP_US = 50_000; // a longer silence is a gap in the line
+const LEFT = 44;
+const RIGHT = 6;
+
+interface Plot {
+  readonly title: string;
+  readonly colour: string;
+  readonly value: (sample: Sample) => number;
+  readonly least: number; // end of the scale at least
+}
+
+/** Force above penetration, one time axis; the newest at the right. */
+export class StripChart {
+  private readonly draw2d: CanvasRenderingContext2D;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    const context = canvas.getContext('2d');
+    if (!context) throw new Error('this browser draws no 2D canvas');
+    this.draw2d = context;
+  }
+
+  /** @param nowUs  viewer's clock at the right edge */
+  draw(strip: Strip | undefined, nowUs: number): void {
+    const { clientWidth: w, clientHeight: h } = this.canvas;
+    const ratio = Math.min(2, devicePixelRatio || 1);
+    if (w === 0 || h === 0) return;
+    if (this.canvas.width !== Math.round(w * ratio) || this.canvas.height !== Math.round(h * ratio)) {
+      this.canvas.width = Math.round(w * ratio);
+      this.canvas.height = Math.round(h * ratio);
+    }
+    const plots: Plot[] = [
+      { title: 'N', colour: themeColour('--force'), value: (s) => s.force, least: 0.5 },
+      { title: 'mm', colour: themeColour('--depth'), value: (s) => 1000 * s.penetration, least: 1 },
+    ];
+    const samples = strip?.since(nowUs - SPAN_US) ?? [];
+    this.draw2d.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.draw2d.clearRect(0, 0, w, h);
+    this.draw2d.font = '11px system-ui, "Liberation Sans", "DejaVu Sans", sans-serif';
+    const foot = 15;
+    const upper = Math.round(0.6 * (h - foot));
+    this.plot(plots[0], samples, nowUs, { x: LEFT, y: 8, w: w - LEFT - RIGHT, h: upper - 12 });
+    this.plot(plots[1], samples, nowUs, { x: LEFT, y: upper + 8, w: w - LEFT - RIGHT, h: h - foot - upper - 8 });
+    this.times(w, h);
+  }
+
+  private plot(plot: Plot, samples: readonly Sample[], nowUs: number, box: { x: number; y: number; w: number; h: number }): void {
+    const g = this.draw2d;
+    const largest = samples.reduce((top, s) => Math.max(top, plot.value(s)), 0);
+    const top = niceCeiling(Math.max(plot.least, 1.05 * largest));
+    const xOf = (s: Sample): number => box.x + box.w * (1 - (nowUs - s.tUs) / SPAN_US);
+    const yOf = (v: number): number => box.y + box.h * (1 - v / top);
+    g.lineWidth = 1;
+    g.strokeStyle = themeColour('--line');
+    g.fillStyle = themeColour('--quiet');
+    g.textAlign = 'right';
+    g.textBaseline = 'middle';
+    for (const v of [0, top / 2, top]) {
+      const y = Math.round(yOf(v)) + 0.5;
+      g.beginPath();
+      g.moveTo(box.x, y);
+      g.lineTo(box.x + box.w, y);
+      g.stroke();
+      if (v !== top / 2) g.fillText(v === top ? `${v} ${plot.title}` : '0', box.x - 5, y);
+    }
+    this.line(plot, samples, xOf, yOf, box);
+  }
+
+  private line(plot: Plot, samples: readonly Sample[], xOf: (s: Sample) => number, yOf: (v: number) => number, box: { x: number }): void {
+    const g = this.draw2d;
+    g.strokeStyle = plot.colour;
+    g.lineWidth = 1.6;
+    g.lineJoin = 'round';
+    g.beginPath();
+    let before: Sample | undefined;
+    for (const s of samples) {
+      const x = Math.max(box.x, xOf(s));
+      if (!before || s.tUs - before.tUs > GAP_US) g.moveTo(x, yOf(plot.value(s)));
+      else g.lineTo(x, yOf(plot.value(s)));
+      before = s;
+    }
+    g.stroke();
+    if (!before) return;
+    g.fillStyle = plot.colour;
+    g.beginPath();
+    g.arc(xOf(before), yOf(plot.value(before)), 2.4, 0, 2 * Math.PI);
+    g.fill();
+  }
+
+  private times(w: number, h: number): void {
+    const g = this.draw2d;
+    g.fillStyle = themeColour('--quiet');
+    g.textBaseline = 'bottom';
+    for (const seconds of [10, 5, 0]) {
+      g.textAlign = seconds === 10 ? 'left' : seconds === 0 ? 'right' : 'center';
+      g.fillText(seconds === 0 ? 'now' : `−${seconds} s`, LEFT + (w - LEFT - RIGHT) * (1 - seconds / 10), h);
+    }
+  }
+}
