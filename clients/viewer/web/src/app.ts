@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Connection, viewerAddress, type Listener, type Said } from './connection';
+import { viewerAddress, type Received, type Said } from './connection';
 import { Figures } from './figures';
 import { Hand } from './hand';
 import { Keys } from './keys';
 import { Legend } from './legend';
+import { Line, type LineListener } from './line';
 import type { Colouring } from './organ';
 import { OrganView } from './organ_view';
 import { download, element, followInputKind, numberIn, setText, timeStamp } from './page';
@@ -25,14 +26,14 @@ const HIDDEN_HZ = 1;
 const USUAL_TIP = 0.005; // m, until the viewer says
 
 /** The page: hears the viewer, draws, and lets people press. */
-export class App implements Listener {
+export class App implements LineListener {
   readonly figures = new Figures();
   readonly strips = new Strips();
   view: OrganView | undefined;
   frame_: Frame | undefined;
   server = { level: 'wait', text: 'connecting' };
   readonly stage: Stage;
-  readonly connection: Connection;
+  readonly line: Line;
   readonly hand: Hand;
   readonly parameters: Parameters;
   private colouring: Colouring = 'displacement';
@@ -52,18 +53,18 @@ export class App implements Listener {
   constructor() {
     this.stage = new Stage(this.canvas);
     this.quality = new Quality(devicePixelRatio || 1, this.stage.software);
-    this.connection = new Connection(viewerAddress(location), this);
-    this.panel = new Panel(this.figures, this.connection, this.stage);
-    this.parameters = new Parameters(this.connection);
+    this.line = new Line(viewerAddress(location), this);
+    this.panel = new Panel(this.figures, this.line, this.stage);
+    this.parameters = new Parameters(this.line);
     const organ = () => this.view && { surface: this.view.surface, tipRadius: this.tipRadius };
-    this.hand = new Hand(this.stage, this.connection, organ, (text) => this.notice(text));
+    this.hand = new Hand(this.stage, this.line, organ, (text) => this.notice(text));
     this.legend = new Legend((colouring) => this.setColouring(colouring));
     new Pointers(this.canvas, this.stage, this.hand);
     new Keys(this.canvas, this.stage, this.hand);
     new Theme((dark) => this.restyle(dark));
     new ResizeObserver(() => this.stage.resize(this.quality.ratio)).observe(this.canvas);
     followInputKind();
-    document.addEventListener('visibilitychange', () => this.askRate());
+    document.addEventListener('visibilitychange', () => this.seen());
     element('home', HTMLButtonElement).addEventListener('click', () => this.stage.orbit.reset());
     element('csv', HTMLButtonElement).addEventListener('click', () => this.saveStrip());
     element('picture', HTMLButtonElement).addEventListener('click', () => this.savePicture());
@@ -96,8 +97,8 @@ export class App implements Listener {
     this.view.setColouring(this.colouring);
   }
 
-  frame(frame: Frame, bytes: number): void {
-    this.figures.frame(frame, bytes, this.connection.clock, performance.now());
+  frame(frame: Frame, received: readonly Received[]): void {
+    this.figures.frame(frame, received, performance.now());
     this.frame_ = frame;
     this.view?.frame(frame);
     this.strips.add(frame.answers);
@@ -105,10 +106,6 @@ export class App implements Listener {
 
   trouble(text: string): void {
     this.notice(text);
-  }
-
-  get nowUs(): number {
-    return this.connection.clock.viewerUs(performance.now());
   }
 
   private setTip(radius: number): void {
@@ -131,9 +128,14 @@ export class App implements Listener {
     }
   }
 
+  private seen(): void {
+    if (document.hidden) this.hand.letGo();
+    this.askRate();
+  }
+
   /** A page that nobody sees wants few frames. */
   private askRate(): void {
-    if (this.lineOpen) this.connection.send({ type: 'rate', hz: document.hidden ? HIDDEN_HZ : this.usualHz });
+    if (this.lineOpen) this.line.send({ type: 'rate', hz: document.hidden ? HIDDEN_HZ : this.usualHz });
   }
 
   private setColouring(colouring: Colouring): void {
@@ -149,9 +151,11 @@ export class App implements Listener {
   /** One turn of the display: draws what changed, nothing while all is at rest. */
   private turn(nowMs: number): void {
     requestAnimationFrame((next) => this.turn(next));
-    const changed = (this.view?.update() ?? false) || this.stage.orbit.changed;
+    const moved = this.view?.update() ?? false;
+    const turned = this.stage.orbit.changed;
+    const changed = moved || turned || this.quality.rested(nowMs);
     const tool = toolToShow(this.frame_?.tools ?? []);
-    if (changed) this.draw(nowMs);
+    if (changed) this.draw(nowMs, moved);
     if (changed && this.view) {
       this.legend.write(this.view, this.stage);
       this.readout.arrow(tool, tool && this.view.toolMesh(tool.id), this.stage);
@@ -159,18 +163,18 @@ export class App implements Listener {
     if (nowMs >= this.nextChart) {
       this.nextChart = nowMs + CHART_MS;
       this.readout.write(tool);
-      this.chart.draw(tool && this.strips.of(tool.id), this.nowUs);
+      this.chart.draw(tool && this.strips.of(tool.id), this.line.nowUs);
     }
     if (nowMs < this.nextPanel) return;
     this.nextPanel = nowMs + PANEL_MS;
     this.panel.write(performance.now(), (this.frame_?.tools ?? []).reduce((all, t) => all | t.flags, 0));
   }
 
-  private draw(nowMs: number): void {
+  private draw(nowMs: number, moved: boolean): void {
+    if (this.quality.picture(nowMs)) this.stage.resize(this.quality.ratio);
     const start = performance.now();
     this.stage.draw();
-    this.figures.picture(start, performance.now(), this.connection.clock);
-    if (this.quality.picture(nowMs)) this.stage.resize(this.quality.ratio);
+    this.figures.picture(start, performance.now(), this.line.nowUs, moved);
   }
 
   private notice(text: string): void {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+/** This machine's time, ms, the same in the page and in its worker. */
+export const clockMs = (): number => performance.timeOrigin + performance.now();
+
 /**
  * The viewer's clock as seen from this page. Each ping bounds the offset by half its round trip; the shortest round
  * trip of the last few says it best (Cristian, "Probabilistic clock synchronization", Distributed Computing 3, 1989).
@@ -20,24 +23,18 @@ export class ViewerClock {
     this.pings.length = 0;
   }
 
-  get known(): boolean {
-    return this.pings.length > 0;
-  }
-
-  /** Shortest round trip, ms; the offset is good to half of it. */
-  get tripMs(): number {
-    return this.best()?.tripMs ?? NaN;
-  }
-
-  /** The viewer's clock, us, when the page's was `pageMs`; NaN until a ping was answered. */
-  viewerUs(pageMs: number): number {
-    const best = this.best();
-    return best ? 1000 * pageMs + best.offsetUs : NaN;
-  }
-
-  private best(): { tripMs: number; offsetUs: number } | undefined {
+  /** Offset to the page's clock, us, good to half of the round trip; NaN until a ping was answered. */
+  reading(): ClockReading {
     let best = this.pings[0];
     for (const ping of this.pings) if (ping.tripMs < best.tripMs) best = ping;
-    return best;
+    return best ?? { tripMs: NaN, offsetUs: NaN };
   }
 }
+
+export interface ClockReading {
+  readonly tripMs: number;
+  readonly offsetUs: number;
+}
+
+/** The viewer's clock, us, when the page's was `pageMs`. */
+export const viewerUs = (reading: ClockReading, pageMs: number): number => 1000 * pageMs + reading.offsetUs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { ViewerClock } from './clock';
+import type { Received } from './connection';
 import type { Frame } from './protocol';
 import { Recent } from './recent';
 
@@ -11,27 +11,25 @@ export class Figures {
   readonly shownMs = new Recent(); // DDS sample at the viewer -> handed to the screen
   frames = 0;
   pictures = 0;
+  organSeenMs = NaN; // from the start of loading to the first picture of an organ
   private newestSampleUs = NaN;
-  private lastSurface = -1;
 
-  frame(frame: Frame, bytes: number, clock: ViewerClock, nowMs: number): void {
-    ++this.frames;
-    this.received.add(nowMs, bytes);
-    if (frame.nodes === 0 || frame.surfaceSeq === this.lastSurface) return;
-    this.lastSurface = frame.surfaceSeq;
-    this.newestSampleUs = frame.sampleUs;
-    if (clock.known) this.decodedMs.add(nowMs, (clock.viewerUs(nowMs) - frame.sampleUs) / 1000);
+  frame(frame: Frame, received: readonly Received[], nowMs: number): void {
+    for (const { bytes, delayMs } of received) {
+      ++this.frames;
+      this.received.add(nowMs, bytes);
+      if (Number.isFinite(delayMs)) this.decodedMs.add(nowMs, delayMs);
+    }
+    if (frame.nodes > 0) this.newestSampleUs = frame.sampleUs;
   }
 
-  picture(startMs: number, endMs: number, clock: ViewerClock): void {
+  /** @param nowUs  viewer's clock when the picture was done; NaN while unknown @param moved  the organ or a tool in it changed */
+  picture(startMs: number, endMs: number, nowUs: number, moved: boolean): void {
     ++this.pictures;
+    if (moved && Number.isNaN(this.organSeenMs)) this.organSeenMs = endMs;
     this.drawn.add(endMs, endMs - startMs);
-    if (!clock.known || Number.isNaN(this.newestSampleUs)) return;
-    this.shownMs.add(endMs, (clock.viewerUs(endMs) - this.newestSampleUs) / 1000);
+    const delayMs = (nowUs - this.newestSampleUs) / 1000;
+    if (moved && Number.isFinite(delayMs)) this.shownMs.add(endMs, delayMs);
     this.newestSampleUs = NaN;
-  }
-
-  clear(): void {
-    for (const recent of [this.drawn, this.received, this.decodedMs, this.shownMs]) recent.clear();
   }
 }

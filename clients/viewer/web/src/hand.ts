@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Connection, Said } from './connection';
+import type { Said } from './connection';
+import type { Line } from './line';
 import { element, setText } from './page';
 import type { Toucher } from './pointer';
 import { DEEPEST, Press } from './press';
 import type { Stage } from './stage';
 import type { Surface } from './surface';
 
-const TARGET_MS = 12; // between targets; the viewer smooths them to 1 kHz
+const TARGET_MS = 12; // between targets
+const ENDED = 'released'; // of the tool before
+const RETRY_MS = 400; // between grabs, when the tool was taken back while the finger is still down
 
 /** Presses on the organ, from the first touch to the release: asks for a tool, sends its targets. */
 export class Hand implements Toucher {
   toolId: number | undefined; // granted
   private press_: Press | undefined;
   private wanted = 0; // m
-  private seq = 0;
+  private askedMs = -Infinity;
   private readonly slider = element('depth', HTMLInputElement);
   private readonly sliderText = element('depth-text', HTMLOutputElement);
   private readonly hint = element('hint', HTMLParagraphElement);
 
   constructor(
     private readonly stage: Stage,
-    private readonly connection: Connection,
+    private readonly line: Line,
     private readonly organ: () => { surface: Surface; tipRadius: number } | undefined,
     private readonly notice: (text: string) => void,
   ) {
@@ -46,7 +49,7 @@ export class Hand implements Toucher {
     }
     this.press_ = press;
     this.hint.dataset['gone'] = '';
-    this.connection.grab();
+    this.ask();
     return true;
   }
 
@@ -64,7 +67,8 @@ export class Hand implements Toucher {
     if (!this.press_) return;
     this.press_ = undefined;
     this.toolId = undefined;
-    this.connection.release();
+    this.line.hold(undefined);
+    this.line.send({ type: 'release' });
   }
 
   overOrgan(clientX: number, clientY: number): boolean {
@@ -74,21 +78,24 @@ export class Hand implements Toucher {
     return organ.surface.hit(ray.origin, ray.direction) !== undefined;
   }
 
-  /** The viewer's answer to a grab, or that the tool was taken back. */
+  /** The viewer's answer to a grab, or that the tool was taken back, or how the tool before this one ended. */
   said(message: Said): void {
-    const granted = message['granted'] === true;
-    if (granted && this.press_) this.toolId = Number(message['tool_id']);
-    if (granted) return;
-    this.toolId = undefined;
     if (!this.press_) return;
-    this.press_ = undefined;
-    this.notice(String(message['message'] || 'There is no free tool.'));
+    if (message['granted'] === true) {
+      this.toolId = Number(message['tool_id']);
+      if (message['message']) this.notice(String(message['message']));
+    } else if (this.toolId !== undefined) {
+      this.toolId = undefined; // e.g. the page stood still too long; the finger is still down: asks again
+    } else if (message['message'] !== ENDED) {
+      this.notice(String(message['message'] || 'There is no free tool.'));
+    }
   }
 
   /** The line broke or another organ came: nothing is held any more. */
   drop(): void {
     this.press_ = undefined;
     this.toolId = undefined;
+    this.line.hold(undefined);
   }
 
   private setDepth(metres: number): void {
@@ -97,9 +104,16 @@ export class Hand implements Toucher {
     setText(this.sliderText, `${(1000 * this.wanted).toFixed(1)} mm`);
   }
 
+  private ask(): void {
+    this.askedMs = performance.now();
+    this.line.send({ type: 'grab' });
+  }
+
   private send(): void {
     if (!this.press_) return;
-    const target = this.press_.target(performance.now(), this.wanted);
-    if (this.toolId !== undefined) this.connection.target(target, ++this.seq);
+    const now = performance.now();
+    const target = this.press_.target(now, this.wanted);
+    if (this.toolId !== undefined) this.line.hold(target);
+    else if (now - this.askedMs > RETRY_MS) this.ask();
   }
 }

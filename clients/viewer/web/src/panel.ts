@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Connection, Said } from './connection';
+import type { Said } from './connection';
 import type { Figures } from './figures';
 import { flagWords } from './flags';
+import type { Line } from './line';
 import { brief, element, numberIn, setText } from './page';
 import type { Stage } from './stage';
 
@@ -18,7 +19,7 @@ export class Panel {
 
   constructor(
     private readonly figures: Figures,
-    private readonly connection: Connection,
+    private readonly line: Line,
     private readonly stage: Stage | undefined,
   ) {}
 
@@ -38,9 +39,9 @@ export class Panel {
     const rate = drawn.rate(nowMs);
     this.row('Pictures drawn', rate > 0 ? `${brief(rate, 0)} / s, ${brief(drawn.percentile(0.5))} ms each` : 'at rest');
     this.row('Frames received', `${brief(received.rate(nowMs), 0)} / s, ${brief(received.mean() / 1000)} kB each`);
-    this.row('Sample to decoded, p50 / p99', pair(decodedMs, 'ms'), decodedMs.percentile(0.5) > 50 ? 'warn' : '');
-    this.row('Sample to picture, p50 / p99', pair(shownMs, 'ms'));
-    this.row('Round trip to the viewer', `${brief(this.connection.clock.tripMs)} ms`);
+    this.row('DDS to decoded, p50 / p99', pair(decodedMs, 'ms'), decodedMs.percentile(0.5) > 50 ? 'warn' : '');
+    this.row('DDS to picture, p50 / p99', pair(shownMs, 'ms'));
+    this.row('Round trip to viewer', `${brief(this.line.tripMs)} ms`);
     if (this.stage) this.row('Drawn by', shortName(this.stage.drawnBy));
   }
 
@@ -52,7 +53,7 @@ export class Panel {
     const ticks = numberIn(status, 'ticks');
     this.row('Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, device ${String(status['device'] ?? '–')}` : '–');
     this.row('Tick, p50 / p99', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
-    this.row('Woke late by, p50 / p99', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
+    this.row('Woke late, p50 / p99', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
     this.row('Ticks missed', Number.isFinite(overruns) ? `${overruns} of ${ticks}` : '–', overruns > 0.01 * ticks ? 'bad' : '');
     const granted = status['realtime'];
     this.row('Real time', granted === undefined ? '–' : granted ? 'granted' : 'not granted', granted === false ? 'warn' : '');

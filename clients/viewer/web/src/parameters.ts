@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Connection, Said } from './connection';
+import type { Said } from './connection';
+import type { Line } from './line';
 import { element, numberIn, setText } from './page';
 
 const ASK_MS = 150; // at most one request in this time
@@ -18,7 +19,7 @@ export class Parameters {
   private askedMs = -Infinity;
   inForce = { youngsFactor: NaN, friction: NaN };
 
-  constructor(private readonly connection: Connection) {
+  constructor(private readonly line: Line) {
     this.stiffness.addEventListener('input', () => this.wish({ youngs_factor: 2 ** Number(this.stiffness.value) }));
     this.friction.addEventListener('input', () => this.wish({ friction: Number(this.friction.value) }));
     setInterval(() => this.ask(), ASK_MS / 3);
@@ -60,7 +61,7 @@ export class Parameters {
     const now = performance.now();
     if (Object.keys(this.wishes).length === 0 || now - this.askedMs < ASK_MS) return;
     this.askedMs = now;
-    this.connection.send({ type: 'set', request: ++this.request, ...this.wishes });
+    this.line.send({ type: 'set', request: ++this.request, ...this.wishes });
     this.wishes = {};
   }
 

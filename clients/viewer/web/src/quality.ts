@@ -1,37 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-const LOWEST = 0.5;
+const LOWEST = 0.6;
 const SLOW_MS = 45;
 const FAST_MS = 14;
 const COUNT = 12;
+const REST_MS = 300;
 
 /**
  * How many pixels are drawn per CSS pixel: as many as the screen has, fewer where drawing is slow (software
- * rendering), so that the organ follows the hand. Judged by a dozen pictures that follow each other.
+ * rendering), so that the organ follows the hand; and one sharp picture when it has come to rest. Judged by a dozen
+ * pictures that follow each other.
  */
 export class Quality {
   private intervals: number[] = [];
   private lastMs = NaN;
+  private moving: number; // ratio while pictures follow each other
+  private readonly sharp: number;
+  private sharpen = false;
   ratio: number;
 
-  constructor(
-    private readonly most: number,
-    software: boolean,
-  ) {
-    this.ratio = Math.min(most, software ? 0.75 : 2);
+  /** @param most  pixels of the screen per CSS pixel */
+  constructor(most: number, software: boolean) {
+    this.sharp = Math.min(2, software ? Math.max(1.5, most) : most); // in place of the smoothing that hardware does
+    this.moving = Math.min(most, software ? 0.75 : 2);
+    this.ratio = this.moving;
   }
 
-  /** @return whether the ratio changed */
+  /** Whether it is time for the sharp picture: nothing has moved for a while. */
+  rested(nowMs: number): boolean {
+    this.sharpen = this.ratio < this.sharp && nowMs - this.lastMs > REST_MS;
+    return this.sharpen;
+  }
+
+  /** Before each picture. @return whether the ratio changed */
   picture(nowMs: number): boolean {
-    const interval = nowMs - this.lastMs;
+    const before = this.ratio;
+    if (!this.sharpen) this.judge(nowMs - this.lastMs);
+    this.ratio = this.sharpen ? this.sharp : this.moving;
+    this.sharpen = false;
     this.lastMs = nowMs;
-    if (!(interval < 800)) return false; // at rest in between
+    return Math.abs(this.ratio - before) > 0.01;
+  }
+
+  private judge(interval: number): void {
+    if (!(interval < 800)) return; // at rest in between
     this.intervals.push(interval);
-    if (this.intervals.length < COUNT) return false;
+    if (this.intervals.length < COUNT) return;
     const median = this.intervals.sort((a, b) => a - b)[COUNT / 2];
     this.intervals = [];
-    const before = this.ratio;
-    if (median > SLOW_MS) this.ratio = Math.max(LOWEST, this.ratio * 0.75);
-    else if (median < FAST_MS) this.ratio = Math.min(this.most, 2, this.ratio * 1.15);
-    return Math.abs(this.ratio - before) > 0.01;
+    if (median > SLOW_MS) this.moving = Math.max(LOWEST, this.moving * 0.75);
+    else if (median < FAST_MS) this.moving = Math.min(this.sharp, this.moving * 1.15);
   }
 }

@@ -30,11 +30,14 @@ export class Readout {
   arrow(tool: Tool | undefined, mesh: ToolMesh | undefined, stage: Stage): void {
     const at = tool && mesh && norm(tool.force) >= 0.05 ? stage.onScreen(mesh.arrowTip) : undefined;
     this.label.hidden = !at;
-    if (!at || !tool) return;
+    if (!at || !tool || !mesh) return;
     setText(this.label, `${norm(tool.force).toFixed(2)} N`);
-    const box = this.label.parentElement;
-    const x = Math.min((box?.clientWidth ?? 0) - 70, Math.max(4, at.x + 12));
-    const y = Math.min((box?.clientHeight ?? 0) - 30, Math.max(4, at.y - 12));
+    // Beyond the arrow's tip, on the side to which it points, and within the picture.
+    const from = stage.onScreen(mesh.centre) ?? at;
+    const { offsetWidth: w, offsetHeight: h, parentElement: box } = this.label;
+    const within = (v: number, size: number, room: number): number => Math.min(room - size - 4, Math.max(4, v));
+    const x = within(at.x >= from.x ? at.x + 8 : at.x - w - 8, w, box?.clientWidth ?? 0);
+    const y = within(at.y - h / 2 + (at.y >= from.y ? 10 : -10), h, box?.clientHeight ?? 0);
     this.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 }

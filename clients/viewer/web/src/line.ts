@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+import { clockMs, viewerUs, type ClockReading } from './clock';
+import type { Received, Said } from './connection';
+import type { Frame, Mesh } from './protocol';
+import type { Vec3 } from './vec';
+
+export type ToPage =
+  | { kind: 'link'; open: boolean; text: string }
+  | { kind: 'said'; said: Said }
+  | { kind: 'mesh'; mesh: Mesh }
+  | { kind: 'frame'; frame: Frame; received: readonly Received[] }
+  | { kind: 'clock'; reading: ClockReading }
+  | { kind: 'trouble'; text: string };
+
+export type FromPage =
+  | { kind: 'open'; address: string }
+  | { kind: 'say'; message: object }
+  | { kind: 'hold'; position: Vec3 | undefined }
+  | { kind: 'taken' };
+
+export interface LineListener {
+  link(open: boolean, text: string): void;
+  said(message: Said): void;
+  mesh(mesh: Mesh): void;
+  frame(frame: Frame, received: readonly Received[]): void;
+  trouble(text: string): void;
+}
+
+/** The page's end of the worker that speaks with the viewer. */
+export class Line {
+  private reading: ClockReading = { tripMs: NaN, offsetUs: NaN };
+  private readonly worker = new Worker(new URL('./line_worker.ts', import.meta.url), { type: 'module' });
+
+  constructor(
+    address: string,
+    private readonly listener: LineListener,
+  ) {
+    this.worker.onmessage = (event: MessageEvent<ToPage>) => this.heard(event.data);
+    this.worker.onerror = (event) => this.listener.trouble(event.message || 'the page\'s worker did not start');
+    this.tell({ kind: 'open', address });
+  }
+
+  send(message: object): void {
+    this.tell({ kind: 'say', message });
+  }
+
+  /** Where this page's tool is to be; undefined when it holds none. */
+  hold(position: Vec3 | undefined): void {
+    this.tell({ kind: 'hold', position });
+  }
+
+  /** Shortest round trip to the viewer, ms. */
+  get tripMs(): number {
+    return this.reading.tripMs;
+  }
+
+  /** The viewer's clock, us; NaN until it is known. */
+  get nowUs(): number {
+    return viewerUs(this.reading, clockMs());
+  }
+
+  private tell(message: FromPage): void {
+    this.worker.postMessage(message);
+  }
+
+  private heard(message: ToPage): void {
+    if (message.kind === 'link') this.listener.link(message.open, message.text);
+    else if (message.kind === 'said') this.listener.said(message.said);
+    else if (message.kind === 'mesh') this.listener.mesh(message.mesh);
+    else if (message.kind === 'clock') this.reading = message.reading;
+    else if (message.kind === 'trouble') this.listener.trouble(message.text);
+    else {
+      this.listener.frame(message.frame, message.received);
+      this.tell({ kind: 'taken' });
+    }
+  }
+}

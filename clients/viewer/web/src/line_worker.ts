@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The worker that holds the line to the viewer.
+import { Connection } from './connection';
+import { HandOver } from './hand_over';
+import type { FromPage, ToPage } from './line';
+
+const tell = (message: ToPage, transfer: Transferable[] = []): void => postMessage(message, { transfer });
+const handOver = new HandOver((parcel) => tell({ kind: 'frame', ...parcel }, [parcel.frame.displacement.buffer as ArrayBuffer]));
+let connection: Connection | undefined;
+
+onmessage = (event: MessageEvent<FromPage>) => {
+  const message = event.data;
+  if (message.kind === 'open')
+    connection = new Connection(message.address, {
+      link: (open, text) => tell({ kind: 'link', open, text }),
+      said: (said) => tell({ kind: 'said', said }),
+      mesh: (mesh) => tell({ kind: 'mesh', mesh }),
+      frame: (frame, received) => handOver.add(frame, received),
+      clock: (reading) => tell({ kind: 'clock', reading }),
+      trouble: (text) => tell({ kind: 'trouble', text }),
+    });
+  else if (message.kind === 'say') connection?.send(message.message);
+  else if (message.kind === 'hold') connection?.hold(message.position);
+  else handOver.taken();
+};
