@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, beforeEach, afterEach, test } from 'node:test';
+import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { shareChanged } from './support/png.mjs';
+import { Bench } from './support/processes.mjs';
+
+skipWithoutBrowser();
+let bench, viewer, browser, seen;
+before(async () => {
+  bench = await Bench.open();
+  await bench.server(bench.model(), ['--force-limit', '22']);
+  viewer = await bench.viewer();
+  browser = await openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await bench?.close();
+});
+beforeEach(async () => {
+  seen = await Seen.open(browser, viewer.address);
+  await seen.organ();
+});
+afterEach(async () => seen.close());
+
+const mouse = () => seen.page.mouse;
+const pressAt = async (place) => {
+  await mouse().move(place.x, place.y);
+  await mouse().down();
+};
+const steady = (wanted) => seen.until(`pressed ${wanted} mm deep`, (f) => Math.abs(1000 * f.penetration - wanted) < 0.5 && f.force > 0.2);
+const setSlider = (id, value) =>
+  seen.page.locator(id).evaluate((slider, to) => {
+    slider.value = to;
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+  }, String(value));
+
+test('a drag makes a dent that is seen and a force that is shown, and both go when the finger goes', async () => {
+  const place = await seen.middle();
+  const before = await seen.around(place, 60);
+  await pressAt(place);
+  const pressed = await steady(4);
+  assert.ok(pressed.largestDisplacement > 0.0015, JSON.stringify(pressed));
+  await mouse().move(place.x + 30, place.y + 10, { steps: 8 });
+  await seen.page.waitForTimeout(500);
+  const shown = Number(await seen.page.locator('#force').textContent());
+  assert.ok(shown > 0.2, `shown ${shown} N`);
+  assert.ok(Number(await seen.page.locator('#penetration').textContent()) > 2);
+  assert.ok(shareChanged(before, await seen.around(place, 60)) > 0.1);
+  await seen.shot('pressed');
+  await mouse().up();
+  await seen.until('at rest again', (f) => f.largestDisplacement < 1e-4 && f.force === 0);
+  await seen.page.waitForTimeout(700);
+  assert.ok(shareChanged(before, await seen.around(place, 60)) < 0.02);
+});
+
+test('the tool rests on the deformed surface, never inside', async () => {
+  const place = await seen.middle();
+  await pressAt(place);
+  await steady(4);
+  const gaps = [];
+  for (let i = 0; i < 12; ++i) {
+    await mouse().move(place.x + 4 * i, place.y - 3 * i);
+    await seen.page.waitForTimeout(60);
+    gaps.push((await seen.figures()).gap);
+  }
+  await mouse().up();
+  assert.ok(gaps.every((gap) => gap !== null && gap > -1e-5 && gap < 5e-4), `gaps / m: ${gaps}`);
+});
+
+test('the wheel and the slider change the depth, and deeper is stronger', async () => {
+  const place = await seen.middle();
+  await setSlider('#depth', 2);
+  await pressAt(place);
+  const shallow = await steady(2);
+  for (let i = 0; i < 6; ++i) await mouse().wheel(0, -100);
+  const deep = await steady(5);
+  await setSlider('#depth', 3);
+  const between = await steady(3);
+  await mouse().up();
+  assert.ok(deep.force > 1.3 * between.force && between.force > 1.2 * shallow.force, `${shallow.force} ${between.force} ${deep.force} N`);
+});
+
+test('the sliders change the organ: twice as stiff is twice the force, friction is in force', async () => {
+  await pressAt(await seen.middle());
+  const { force } = await steady(4);
+  await setSlider('#stiffness', 1);
+  const stiff = await seen.until('twice the force', (f) => Math.abs(f.force / force - 2) < 0.1 && Math.abs(f.inForce.youngsFactor - 2) < 0.01);
+  assert.ok(stiff.force > 1.9 * force);
+  await setSlider('#friction', 1.2);
+  await seen.until('friction 1.2', (f) => Math.abs(f.inForce.friction - 1.2) < 1e-6);
+  await setSlider('#stiffness', 0);
+  await seen.until('the force of before', (f) => Math.abs(f.force / force - 1) < 0.05);
+  await mouse().up();
+});
+
+test('a drag of 10 s gives a force curve with no gaps over 50 ms, as saved', async () => {
+  const place = await seen.middle();
+  await pressAt(place);
+  await steady(4);
+  await seen.page.waitForTimeout(500);
+  const end = Date.now() + 10_200;
+  for (let i = 0; Date.now() < end; ++i) {
+    await mouse().move(place.x + 70 * Math.sin(0.05 * i), place.y + 30 * Math.sin(0.031 * i));
+    await seen.page.waitForTimeout(15);
+  }
+  const [file] = await Promise.all([seen.page.waitForEvent('download'), seen.page.locator('#csv').dispatchEvent('click')]);
+  await mouse().up();
+  const [head, ...lines] = readFileSync(await file.path(), 'utf8').trim().split('\n');
+  assert.equal(head, 't_s,tool_id,force_N,penetration_m,flags');
+  const times = lines.map((line) => Number(line.split(',')[0]));
+  const forces = lines.map((line) => Number(line.split(',')[2]));
+  const gap = Math.max(...times.slice(1).map((t, i) => t - times[i]));
+  console.log(`${lines.length} samples over ${(times.at(-1) - times[0]).toFixed(2)} s, largest gap ${(1000 * gap).toFixed(1)} ms`);
+  assert.ok(times.at(-1) - times[0] > 9.5, `only ${times.at(-1) - times[0]} s`);
+  assert.ok(gap <= 0.05, `a gap of ${1000 * gap} ms`);
+  assert.ok(Math.min(...forces) > 0.1 && Math.max(...forces) < 22);
+});
+
+test('what was felt is painted where it was felt', async () => {
+  await seen.page.locator('input[value=stiffness]').check({ force: true });
+  await seen.page.waitForTimeout(500);
+  const place = await seen.middle();
+  const before = await seen.around(place, 30);
+  await pressAt(place);
+  await steady(4);
+  await mouse().move(place.x + 60, place.y, { steps: 10 });
+  await seen.page.waitForTimeout(500);
+  await mouse().up();
+  const { felt } = await seen.until('at rest', (f) => f.largestDisplacement < 1e-4);
+  assert.ok(felt.low > 50 && felt.high >= felt.low, JSON.stringify(felt));
+  await seen.page.waitForTimeout(700);
+  assert.ok(shareChanged(before, await seen.around(place, 30)) > 0.3);
+  await seen.shot('felt');
+});
+
+test('a picture is saved as PNG', async () => {
+  const [file] = await Promise.all([seen.page.waitForEvent('download'), seen.page.locator('#picture').click()]);
+  assert.match(file.suggestedFilename(), /^palpate-\d{8}-\d{6}\.png$/);
+  const png = readFileSync(await file.path());
+  assert.equal(png.toString('latin1', 1, 4), 'PNG');
+  assert.ok(png.length > 10_000, `${png.length} bytes`);
+});
