@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Bench } from './support/processes.mjs';
+
+skipWithoutBrowser();
+let bench, browser, seen;
+before(async () => {
+  bench = await Bench.open();
+  await bench.server(process.env.PALPATE_TEST_MODEL ?? bench.model());
+  const viewer = await bench.viewer();
+  browser = await openBrowser();
+  seen = await Seen.open(browser, viewer.address);
+  await seen.organ();
+});
+after(async () => {
+  await seen?.close();
+  await browser?.close();
+  await bench?.close();
+});
+
+const panel = () =>
+  seen.page.evaluate(() => {
+    const cells = [...document.querySelectorAll('#health-list dt')];
+    return Object.fromEntries(cells.map((dt) => [dt.textContent, dt.nextElementSibling.textContent]));
+  });
+
+test('the panel prints pictures a second, bytes a frame and the way from DDS to the page', async () => {
+  const middle = await seen.middle();
+  await seen.page.mouse.move(middle.x, middle.y);
+  await seen.page.mouse.down();
+  const printed = [];
+  for (let i = 0, end = Date.now() + 15_000; Date.now() < end; ++i) {
+    await seen.page.mouse.move(middle.x + 60 * Math.sin(0.07 * i), middle.y + 25 * Math.sin(0.05 * i));
+    await seen.page.waitForTimeout(20);
+    if (i % 40 === 39) printed.push(await panel());
+  }
+  const figures = await seen.figures();
+  await seen.page.mouse.up();
+  const last = printed.at(-1);
+  console.log(Object.entries(last).map(([name, value]) => `  ${name}: ${value}`).join('\n'));
+  console.log(`  nodes: ${figures.nodes}`);
+  assert.match(last['Pictures drawn'], /^[1-9]\d* \/ s/);
+  const kilobytes = Number(/([\d.]+) kB each/.exec(last['Frames received'])[1]);
+  assert.ok(kilobytes > 1 && kilobytes < 60, last['Frames received']);
+  // The least of what it printed: other work of the machine is not ours.
+  const medians = printed.map((p) => Number(/^([\d.]+) \//.exec(p['DDS to decoded, p50 / p99'])?.[1])).filter(Number.isFinite);
+  assert.ok(medians.length > 3 && Math.min(...medians) > 0 && Math.min(...medians) < 10, `printed medians / ms: ${medians}`);
+  assert.match(last['Tick, p50 / p99'], /^\d+(\.\d)? \/ \d+(\.\d)? µs$/);
+});
+
+test('at rest it draws nothing', async () => {
+  await seen.page.mouse.move(5, 5);
+  await seen.page.waitForTimeout(3000);
+  const before = (await seen.figures()).pictures;
+  await seen.page.waitForTimeout(2000);
+  assert.ok((await seen.figures()).pictures <= before + 1);
+});
+
+test('flags are said in words', async () => {
+  const middle = await seen.middle();
+  await seen.page.locator('#depth').evaluate((slider) => {
+    slider.value = '14';
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+  });
+  await seen.page.mouse.move(middle.x, middle.y);
+  await seen.page.mouse.down();
+  await seen.until('beyond the domain, or at the limit', (f) => (f.flags & (16 | 32)) !== 0);
+  await seen.page.waitForTimeout(600);
+  const words = await seen.page.locator('#flags').textContent();
+  await seen.page.mouse.up();
+  assert.match(words, /deeper than the model was computed for|force held at its limit/);
+});

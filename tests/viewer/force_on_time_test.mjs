@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Four pages that watch do not make a device's force later.
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { after, before, test } from 'node:test';
+import { promisify } from 'node:util';
+import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Bench, bin } from './support/processes.mjs';
+
+skipWithoutBrowser();
+const run = promisify(execFile);
+const ROUNDS = 3;
+let bench, viewer, browser;
+before(async () => {
+  bench = await Bench.open();
+  await bench.server(process.env.PALPATE_TEST_MODEL ?? bench.model());
+  viewer = await bench.viewer();
+  browser = await openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await bench?.close();
+});
+
+async function measure() {
+  const { stdout } = await run(bin('palpate-latency'), ['--seconds', '4', '--domain', String(bench.domain), '--json']);
+  return JSON.parse(stdout);
+}
+
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+
+test('the force p99 of a headless tool with four pages open is within 1.2 x of without', async (t) => {
+  const [without, beside] = [[], []];
+  for (let round = 0; round < ROUNDS; ++round) {
+    without.push(await measure());
+    const pages = [];
+    for (let i = 0; i < 4; ++i) pages.push(await Seen.open(browser, viewer.address, { width: 700, height: 500 }));
+    for (const seen of pages) await seen.organ();
+    beside.push(await measure());
+    for (const seen of pages) await seen.close();
+  }
+  const p99 = (runs) => runs.map((r) => r.pose_to_force_less_wait_us.p99);
+  const whole = (runs) => runs.map((r) => r.pose_to_force_us.p99);
+  console.log(`pose to force, p99 / us, without: ${whole(without)}; with four pages: ${whole(beside)}`);
+  console.log(`  less the wait for the tick, without: ${p99(without)}; with: ${p99(beside)}`);
+  if (!without[0].server_realtime || !without[0].client_realtime) return t.skip('real time not granted: nobody keeps to times');
+  const ratio = median(whole(beside)) / median(whole(without));
+  console.log(`  ${ratio.toFixed(2)} x`);
+  assert.ok(ratio < 1.2, `${ratio} x`);
+});

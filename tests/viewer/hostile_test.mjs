@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { openBrowser, packageOf, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Bench } from './support/processes.mjs';
+
+skipWithoutBrowser();
+const WebSocket = packageOf('ws');
+let bench, viewer, browser, seen;
+before(async () => {
+  bench = await Bench.open();
+  await bench.server(bench.model());
+  viewer = await bench.viewer();
+  browser = await openBrowser();
+  seen = await Seen.open(browser, viewer.address);
+  await seen.organ();
+});
+after(async () => {
+  await seen?.close();
+  await browser?.close();
+  await bench?.close();
+});
+
+const origin = () => viewer.address.replace(/\/$/, '');
+/** A client that is no page. @return how its connection ended: {http} or {code} */
+function intrude({ from = origin(), act = () => {}, seconds = 10 } = {}) {
+  return new Promise((resolve) => {
+    const socket = new WebSocket(viewer.address.replace('http', 'ws') + 'ws', 'palpate.viewer.v1', { origin: from });
+    const timer = setTimeout(() => resolve({ open: true }) || socket.terminate(), 1000 * seconds);
+    const end = (how) => (clearTimeout(timer), resolve(how));
+    socket.on('unexpected-response', (_, response) => end({ http: response.statusCode }));
+    socket.on('open', () => act(socket));
+    socket.on('close', (code) => end({ code }));
+    socket.on('error', () => {});
+  });
+}
+
+/** What is refused; and the page beside it sees frames go on and feels the organ all the while. */
+async function refused(what, attack, judge) {
+  const before = await seen.figures();
+  const middle = await seen.middle();
+  await seen.page.mouse.move(middle.x, middle.y);
+  await seen.page.mouse.down();
+  const end = await attack();
+  assert.ok(judge(end), `${what}: ${JSON.stringify(end)}`);
+  const now = await seen.until(`frames and a force beside ${what}`, (f) => f.frames > before.frames + 10 && f.force > 0.2);
+  await seen.page.mouse.up();
+  assert.equal(now.state.level, 'good');
+  await seen.until('at rest', (f) => f.force === 0);
+}
+
+test('another site is refused', () =>
+  refused('a wrong origin', () => intrude({ from: 'http://elsewhere.example' }), (end) => end.http === 403));
+
+test('no origin is refused', () => refused('no origin', () => intrude({ from: '' }), (end) => end.http === 403));
+
+test('a huge message ends its connection', () =>
+  refused('a huge frame', () => intrude({ act: (s) => s.send('x'.repeat(1_000_000)) }), (end) => end.code === 1009 || end.code === 1006));
+
+test('garbage ends its connection', () => refused('garbage', () => intrude({ act: (s) => s.send('{"type":"gr') }), (end) => end.code === 1008));
+
+test('binary ends its connection', () =>
+  refused('binary', () => intrude({ act: (s) => s.send(Buffer.from([1, 2, 3])) }), (end) => end.code === 1003));
+
+test('a number that is none ends its connection', () =>
+  refused('infinity', () => intrude({ act: (s) => s.send('{"type":"target","position":[0,0,1e999]}') }), (end) => end.code === 1008));
+
+test('a flood ends its connection', () =>
+  refused('a flood', () => intrude({ act: (s) => { for (let i = 0; i < 5000; ++i) s.send('{"type":"ping","t0":1}'); } }),
+    (end) => end.code === 1008 || end.code === 1006));
+
+test('one that never acknowledges gets two frames and no more', async () => {
+  let frames = 0;
+  await refused('silence', () => intrude({ seconds: 2, act: (s) => s.on('message', (data, binary) => {
+    if (binary && data.readUInt32LE(0) === 2) ++frames;
+  }) }), (end) => end.open === true);
+  assert.equal(frames, 2);
+});
+
+test('files outside the page are not served', async () => {
+  for (const path of ['..%2f..%2fpackage.json', '../package.json', '%2e%2e/%2e%2e/package.json', 'assets/../../package.json'])
+    assert.notEqual((await fetch(viewer.address + path)).status, 200, path);
+});
+
+test('the page may not be told to run what others wrote', async () => {
+  const head = (await fetch(viewer.address)).headers;
+  assert.match(head.get('content-security-policy'), /default-src 'self'/);
+  assert.doesNotMatch(head.get('content-security-policy'), /script-src[^;]*unsafe|default-src[^;]*unsafe/);
+  assert.equal(head.get('x-content-type-options'), 'nosniff');
+});

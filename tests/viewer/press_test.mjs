@@ -29,7 +29,7 @@ const pressAt = async (place) => {
   await mouse().move(place.x, place.y);
   await mouse().down();
 };
-const steady = (wanted) => seen.until(`pressed ${wanted} mm deep`, (f) => Math.abs(1000 * f.penetration - wanted) < 0.5 && f.force > 0.2);
+const steady = (wanted) => seen.until(`pressed ${wanted} mm deep`, (f) => Math.abs(1000 * f.penetration - wanted) < 0.15 && f.force > 0.2);
 const setSlider = (id, value) =>
   seen.page.locator(id).evaluate((slider, to) => {
     slider.value = to;
@@ -66,7 +66,8 @@ test('the tool rests on the deformed surface, never inside', async () => {
     gaps.push((await seen.figures()).gap);
   }
   await mouse().up();
-  assert.ok(gaps.every((gap) => gap !== null && gap > -1e-5 && gap < 5e-4), `gaps / m: ${gaps}`);
+  const seenGaps = gaps.filter((gap) => gap !== null);
+  assert.ok(seenGaps.length >= 6 && seenGaps.every((gap) => gap > -1e-5 && gap < 5e-4), `gaps / m: ${gaps}`);
 });
 
 test('the wheel and the slider change the depth, and deeper is stronger', async () => {
@@ -91,7 +92,7 @@ test('the sliders change the organ: twice as stiff is twice the force, friction 
   await setSlider('#friction', 1.2);
   await seen.until('friction 1.2', (f) => Math.abs(f.inForce.friction - 1.2) < 1e-6);
   await setSlider('#stiffness', 0);
-  await seen.until('the force of before', (f) => Math.abs(f.force / force - 1) < 0.05);
+  await seen.until('the force of before', (f) => Math.abs(f.force / force - 1) < 0.1);
   await mouse().up();
 });
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Bench } from './support/processes.mjs';
+
+skipWithoutBrowser();
+let bench, browser;
+before(async () => {
+  bench = await Bench.open();
+  browser = await openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await bench?.close();
+});
+
+test('it says what it waits for, and comes back when the server or the viewer does', async () => {
+  const viewer = await bench.viewer();
+  const seen = await Seen.open(browser, viewer.address);
+  const state = () => seen.page.locator('#state-text').textContent();
+
+  // 1. No server yet.
+  await seen.until('waiting is said', (f) => f.state.level === 'wait' && /waiting/i.test(f.state.text));
+  assert.ok(await seen.page.locator('#stiffness').isDisabled());
+
+  // 2. One comes.
+  const first = await bench.server(bench.model(4));
+  const before = await seen.until('the organ', (f) => f.nodes === 2562 && f.state.level === 'good');
+
+  // 3. It is killed while somebody presses: no force is shown of a server that is not there.
+  const middle = await seen.middle();
+  await seen.page.mouse.move(middle.x, middle.y);
+  await seen.page.mouse.down();
+  await seen.until('a force', (f) => f.force > 0.2);
+  await first.stop('SIGKILL');
+  await seen.until('gone is said', (f) => f.state.level === 'bad' && f.force === 0);
+  assert.match(await state(), /gone/i);
+  await seen.page.mouse.up();
+
+  // 4. Another comes, with another organ.
+  await bench.server(bench.model(3));
+  const after = await seen.until('the other organ', (f) => f.nodes === 642 && f.state.level === 'good');
+  assert.ok(after.meshRevision > before.meshRevision);
+  await seen.page.mouse.down();
+  await seen.until('a force again', (f) => f.force > 0.2);
+  await seen.page.mouse.up();
+
+  // 5. The viewer itself goes and comes back at the same address.
+  const port = Number(new URL(viewer.address).port);
+  await viewer.stop('SIGKILL');
+  await seen.until('no line is said', (f) => f.state.level === 'bad' && /viewer/.test(f.state.text));
+  await bench.viewer(port);
+  await seen.until('back again', (f) => f.state.level === 'good' && f.framesPerSecond > 5);
+  await seen.page.mouse.down();
+  await seen.until('a force after all', (f) => f.force > 0.2);
+  await seen.page.mouse.up();
+  await seen.close();
+});

@@ -74,9 +74,6 @@ export class App implements LineListener {
   link(open: boolean, text: string): void {
     this.lineOpen = open;
     if (open) return this.askRate();
-    this.hand?.drop();
-    this.parameters?.absent();
-    this.strips.clear();
     this.setState('bad', `${text}; trying again`);
   }
 
@@ -122,15 +119,22 @@ export class App implements LineListener {
     this.server = { level, text };
     element('state', HTMLParagraphElement).dataset['level'] = level;
     setText(element('state-text', HTMLSpanElement), text);
-    if (level !== 'good') {
-      this.parameters?.absent();
-      this.panel?.heard(undefined);
-    }
+    if (level !== 'good') this.forget();
   }
 
   private seen(): void {
     if (document.hidden) this.hand.letGo();
     this.askRate();
+  }
+
+  /** What a server said that does not serve any more is not shown: no force of nobody. */
+  private forget(): void {
+    this.hand.drop();
+    this.view?.calm();
+    this.frame_ = undefined;
+    this.strips.clear();
+    this.parameters.absent();
+    this.panel.heard(undefined);
   }
 
   /** A page that nobody sees wants few frames. */

@@ -60,6 +60,13 @@ export class OrganView {
     this.tools = frame.tools;
   }
 
+  /** Nobody says any more how the organ is: shows it at rest, without tools. */
+  calm(): void {
+    this.surface.calm();
+    this.tools = [];
+    this.dirty = this.moved = true;
+  }
+
   /** Brings what is drawn up to date. @return whether anything changed since the last time */
   update(): boolean {
     if (!this.dirty) return false;

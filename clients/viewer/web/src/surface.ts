@@ -56,6 +56,15 @@ export class Surface {
     return true;
   }
 
+  /** Back to the shape at rest. */
+  calm(): void {
+    this.now.set(this.rest);
+    this.normals.set(this.restNormals);
+    this.displaced.fill(0);
+    this.largest = 0;
+    this.shownSeq = -1;
+  }
+
   /** Nearest place where a ray enters the surface from outside, at rest or as it is now. */
   hit(origin: Vec3, direction: Vec3, positions: Float32Array = this.now): Hit | undefined {
     let best: Hit | undefined;
