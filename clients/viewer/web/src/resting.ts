@@ -18,27 +18,38 @@ function trianglesNear(surface: Surface, point: Vec3, reach: number): [Vec3, Vec
   return found;
 }
 
-/**
- * How far a ball must be moved along `n` so that it touches no triangle's inside: the ball's centre leaves the slab of
- * radius R about each triangle by the shortest way along n.
- */
-function liftOff(centre: Vec3, n: Vec3, radius: number, triangles: readonly [Vec3, Vec3, Vec3][]): number {
-  let lift = 0;
-  for (let round = 0; round < 24; ++round) {
-    const at = add(centre, scale(n, lift));
-    let missing = 0;
-    for (const [a, b, c] of triangles) {
-      const away = sub(at, nearestOnTriangle(at, a, b, c));
-      const gap = norm(away);
-      if (gap >= radius) continue;
-      // Along n the distance grows by cos(away, n) a metre; slower than a fifth we step a fifth.
-      const along = gap > 1e-9 ? dot(away, n) / gap : 1;
-      missing = Math.max(missing, (radius - gap) / Math.max(along, 0.2));
-    }
-    if (missing < 1e-7) break;
-    lift += missing;
+type Triangles = readonly [Vec3, Vec3, Vec3][];
+
+/** How much of a ball's radius is missing between its centre and the surface, m, along the steepest way out by n. */
+function missingAt(at: Vec3, n: Vec3, radius: number, triangles: Triangles): number {
+  let missing = 0;
+  for (const [a, b, c] of triangles) {
+    const away = sub(at, nearestOnTriangle(at, a, b, c));
+    const gap = norm(away);
+    if (gap >= radius) continue;
+    // Along n the distance grows by cos(away, n) a metre; where that is slow, at a fifth of it.
+    const along = gap > 1e-9 ? dot(away, n) / gap : 1;
+    missing = Math.max(missing, (radius - gap) / Math.max(along, 0.2));
   }
-  return lift;
+  return missing;
+}
+
+/** How far a ball must be moved along `n` so that the surface is nowhere inside it: outward first, then back by halves. */
+function liftOff(centre: Vec3, n: Vec3, radius: number, triangles: Triangles): number {
+  const missing = (lift: number): number => missingAt(add(centre, scale(n, lift)), n, radius, triangles);
+  let [low, high] = [0, 0];
+  for (let round = 0; round < 24; ++round) {
+    const more = missing(high);
+    if (more < 1e-7) break;
+    low = high;
+    high += more;
+  }
+  for (let round = 0; round < 10 && high - low > 1e-6; ++round) {
+    const middle = 0.5 * (low + high);
+    if (missing(middle) < 1e-7) high = middle;
+    else low = middle;
+  }
+  return high;
 }
 
 /** Distance from a point to the displayed surface near it, m; infinity when nothing is within reach. */

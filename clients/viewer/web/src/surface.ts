@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Frame, Mesh } from './protocol';
-import { add, cross, dot, norm, pointOf, scale, sub, unit, type Vec3 } from './vec';
+import { add, dot, norm, pointOf, scale, sub, unit, type Vec3 } from './vec';
 
 export interface Hit {
   readonly triangle: number;
@@ -67,11 +67,13 @@ export class Surface {
 
   /** Nearest place where a ray enters the surface from outside, at rest or as it is now. */
   hit(origin: Vec3, direction: Vec3, positions: Float32Array = this.now): Hit | undefined {
+    const found = new Float64Array(3); // distance, u, v
     let best: Hit | undefined;
     const { triangles } = this.mesh;
     for (let t = 0; t < triangles.length / 3; ++t) {
-      const found = enters(origin, direction, positions, triangles, t);
-      if (found && (!best || found.distance < best.distance)) best = found;
+      if (!enters(origin, direction, positions, triangles, t, found)) continue;
+      const [distance, u, v] = found;
+      if (!best || distance < best.distance) best = { triangle: t, weights: [1 - u - v, u, v], distance };
     }
     return best;
   }
@@ -109,24 +111,27 @@ function boxOf(positions: Float32Array): { low: Vec3; high: Vec3 } {
   return { low, high };
 }
 
-/** Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection" (1997), front faces only. */
-function enters(o: Vec3, d: Vec3, x: Float32Array, triangles: Uint32Array, t: number): Hit | undefined {
-  const a = 3 * triangles[3 * t];
-  const b = 3 * triangles[3 * t + 1];
-  const c = 3 * triangles[3 * t + 2];
-  const e1: Vec3 = [x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]];
-  const e2: Vec3 = [x[c] - x[a], x[c + 1] - x[a + 1], x[c + 2] - x[a + 2]];
-  const p = cross(d, e2);
-  const det = dot(e1, p);
-  if (det <= 0) return undefined; // seen from behind
-  const s: Vec3 = [o[0] - x[a], o[1] - x[a + 1], o[2] - x[a + 2]];
-  const u = dot(s, p) / det;
-  if (u < 0 || u > 1) return undefined;
-  const q = cross(s, e1);
-  const v = dot(d, q) / det;
-  if (v < 0 || u + v > 1) return undefined;
-  const distance = dot(e2, q) / det;
-  return distance > 0 ? { triangle: t, weights: [1 - u - v, u, v], distance } : undefined;
+/**
+ * Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection" (1997), front faces only; in plain numbers,
+ * since a pointer's every move asks thousands of triangles.
+ */
+function enters(o: Vec3, d: Vec3, x: Float32Array, triangles: Uint32Array, t: number, out: Float64Array): boolean {
+  const a = 3 * triangles[3 * t], b = 3 * triangles[3 * t + 1], c = 3 * triangles[3 * t + 2];
+  const e1x = x[b] - x[a], e1y = x[b + 1] - x[a + 1], e1z = x[b + 2] - x[a + 2];
+  const e2x = x[c] - x[a], e2y = x[c + 1] - x[a + 1], e2z = x[c + 2] - x[a + 2];
+  const px = d[1] * e2z - d[2] * e2y, py = d[2] * e2x - d[0] * e2z, pz = d[0] * e2y - d[1] * e2x;
+  const det = e1x * px + e1y * py + e1z * pz;
+  if (det <= 0) return false; // seen from behind
+  const sx = o[0] - x[a], sy = o[1] - x[a + 1], sz = o[2] - x[a + 2];
+  const u = (sx * px + sy * py + sz * pz) / det;
+  if (u < 0 || u > 1) return false;
+  const qx = sy * e1z - sz * e1y, qy = sz * e1x - sx * e1z, qz = sx * e1y - sy * e1x;
+  const v = (d[0] * qx + d[1] * qy + d[2] * qz) / det;
+  if (v < 0 || u + v > 1) return false;
+  out[0] = (e2x * qx + e2y * qy + e2z * qz) / det;
+  out[1] = u;
+  out[2] = v;
+  return out[0] > 0;
 }
 
 /** Normals of the nodes, weighted by the triangles' areas. */

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { viewerUs, ViewerClock } from '../src/clock';
+import { DISPLACEMENT, encodedOf, labOf, linearOf, niceCeiling, STIFFNESS, type ColourMap } from '../src/colours';
+import { viewerAddress } from '../src/connection';
+import { FLAGS, flagWords } from '../src/flags';
+import { Recent } from '../src/recent';
+import { csvOf, Strip, Strips } from '../src/strip';
+import type { Vec3 } from '../src/vec';
+
+const answer = (tUs: number, toolId = 0, force = 1) => ({ toolId, flags: 0, tUs, force, penetration: 0.001, wakeupUs: 0, stiffness: 0 });
+
+test('the clock takes its offset from the shortest round trip', () => {
+  const clock = new ViewerClock(4);
+  assert.ok(Number.isNaN(viewerUs(clock.reading(), 0)));
+  clock.learn(0, 40, 5_000_000 + 35_000); // the way there took 35 of 40 ms
+  clock.learn(100, 102, 5_000_000 + 101_000);
+  clock.learn(200, 260, 5_000_000 + 203_000);
+  assert.equal(clock.reading().tripMs, 2);
+  assert.equal(viewerUs(clock.reading(), 1000), 6_000_000);
+  for (const t of [1, 2, 3, 4]) clock.learn(1000 * t, 1000 * t + 8, 1e6 * t + 4000); // the viewer started anew
+  assert.equal(viewerUs(clock.reading(), 1000), 1_000_000);
+  clock.learn(10, 5, 0); // an answer before the question teaches nothing
+  assert.equal(clock.reading().tripMs, 8);
+});
+
+test('percentiles and rates are of the last seconds', () => {
+  const recent = new Recent(1000);
+  for (let i = 1; i <= 100; ++i) recent.add(i, i);
+  assert.deepEqual([recent.percentile(0.5), recent.percentile(0.99), recent.percentile(1)], [50, 99, 100]);
+  assert.equal(recent.rate(100, 50), 50 / 0.05);
+  recent.add(5000, 7);
+  assert.equal(recent.percentile(1), 7);
+  assert.ok(Number.isNaN(new Recent().percentile(0.5)));
+});
+
+test('a strip keeps ten seconds, in order, once', () => {
+  const strip = new Strip();
+  for (let i = 0; i <= 30_000; ++i) strip.add(answer(1000 * i));
+  strip.add(answer(29_000_000)); // late
+  assert.ok(strip.length >= 10_000 && strip.length < 10_020, `${strip.length}`);
+  assert.equal(strip.last()?.tUs, 30_000_000);
+  assert.equal(strip.since(29_999_000).length, 2);
+});
+
+test('saved as CSV: SI units, time from the first sample, all tools', () => {
+  const strips = new Strips();
+  strips.add([answer(5_000_000), answer(5_001_000, 2, 0.5), answer(5_002_000)]);
+  assert.deepEqual(csvOf(strips.all()).split('\n'), [
+    't_s,tool_id,force_N,penetration_m,flags',
+    '0.000000,0,1.00000,0.00100000,0',
+    '0.001000,2,0.500000,0.00100000,0',
+    '0.002000,0,1.00000,0.00100000,0',
+    '',
+  ]);
+});
+
+test('the flags are those of the IDL', () => {
+  const idl = readFileSync(join(process.env['PALPATE_WEB'] ?? '.', '../../../idl/palpate.idl'), 'utf8');
+  const wire = [...idl.matchAll(/const unsigned long FLAG_(\w+) = (\d+);/g)].map(([, name, bit]) => `${name} ${bit}`);
+  assert.ok(wire.length > 10);
+  assert.deepEqual(FLAGS.map(({ name, bit }) => `${name} ${bit}`), wire);
+  assert.deepEqual(flagWords(1 | 32).map(({ words }) => words), ['force held at its limit']);
+});
+
+// Dichromats: F. Vienot, H. Brettel, J. Mollon, "Digital video colourmaps for checking the legibility of displays by
+// dichromats", Color Research and Application 24 (1999), for red and green; tritan after Brettel et al. 1997, simplified.
+const SEEN: Record<string, (c: Vec3) => Vec3> = {
+  protanope: ([r, g, b]) => [0.11238 * r + 0.88762 * g, 0.11238 * r + 0.88762 * g, 0.00401 * r - 0.00401 * g + b],
+  deuteranope: ([r, g, b]) => [0.29275 * r + 0.70725 * g, 0.29275 * r + 0.70725 * g, -0.02234 * r + 0.02234 * g + b],
+  tritanope: ([r, g, b]) => [r, 0.8 * g + 0.2 * b, 0.8 * g + 0.2 * b],
+  everybody: (c) => c,
+};
+
+const tellsApart = (map: ColourMap, see: (c: Vec3) => Vec3): number => {
+  const labs = Array.from({ length: 11 }, (_, i) => labOf(see(map.at(i / 10)).map((c) => Math.max(0, c)) as unknown as Vec3));
+  return Math.min(...labs.slice(1).map((lab, i) => Math.hypot(...lab.map((c, k) => c - labs[i][k]))));
+};
+
+// 0.02 in OKLab is about what people just tell apart side by side.
+test('colour-blind users tell every tenth of a scale from the next', () => {
+  for (const [who, see] of Object.entries(SEEN))
+    for (const [name, map] of Object.entries({ DISPLACEMENT, STIFFNESS }))
+      assert.ok(tellsApart(map, see) > 0.025, `${name} ${who}: ${tellsApart(map, see)}`);
+});
+
+test('lightness alone tells the order', () => {
+  const lightness = (map: ColourMap): number[] => Array.from({ length: 21 }, (_, i) => labOf(map.at(i / 20))[0]);
+  const down = lightness(DISPLACEMENT);
+  const up = lightness(STIFFNESS);
+  assert.ok(down.slice(1).every((l, i) => l < down[i]) && up.slice(1).every((l, i) => l > up[i]));
+});
+
+test('sRGB there and back', () => {
+  for (const c of [0, 0.002, 0.2, 1]) assert.ok(Math.abs(linearOf(encodedOf(c)) - c) < 1e-12);
+});
+
+test('scales end at 1, 2, 5', () => {
+  assert.deepEqual([0.3, 1, 1.2, 2.5, 7, 0].map(niceCeiling).map((x) => Number(x.toPrecision(3))), [0.5, 1, 2, 5, 10, 1]);
+});
+
+test('the token of the page goes to the viewer', () => {
+  const page = { protocol: 'http:', host: 'h:1', pathname: '/', search: '?token=a+b' };
+  assert.equal(viewerAddress(page), 'ws://h:1/ws?token=a%20b');
+  assert.equal(viewerAddress({ ...page, protocol: 'https:', pathname: '/sub/index.html', search: '' }), 'wss://h:1/sub/ws');
+});
