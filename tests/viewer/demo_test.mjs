@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// tools/demo --serve as somebody starts it, with the tests' organ, because solving the liver takes minutes.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Bench, Program } from './support/processes.mjs';
+
+skipWithoutBrowser();
+const demo = fileURLToPath(new URL('../../tools/demo', import.meta.url));
+let bench, browser;
+before(async () => {
+  bench = await Bench.open();
+  browser = await openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await bench?.close();
+});
+
+/** Programs that run this model or look at this domain. */
+const left = (mark) =>
+  execFileSync('ps', ['-eo', 'args'], { encoding: 'utf8' }).split('\n').filter((line) => /palpate-(server|viewer)/.test(line) && line.includes(mark));
+
+test('tools/demo --serve serves a page that shows the organ within 3 s, and Ctrl-C ends all of it', async () => {
+  const model = bench.model();
+  const program = new Program(demo, ['--serve', '--model', model, '--port', '0']);
+  bench.programs.push(program);
+  const address = (await program.says(/page at (\S+)/, 500))[1];
+  const domain = (await program.says(/DDS domain (\d+)/))[1];
+  const times = [];
+  for (let attempt = 0; attempt < 3; ++attempt) {
+    const seen = await Seen.open(browser, address);
+    times.push((await seen.organ()).organSeenMs);
+    await seen.close();
+  }
+  console.log(`organ seen after ${times.map((t) => t.toFixed(0)).join(', ')} ms`);
+  assert.ok(Math.min(...times) < 3000, `after ${times} ms`); // the least: other work of the machine is not ours
+  assert.equal(left(`--domain ${domain} `).length, 2);
+  assert.equal(await program.stop('SIGINT'), 0, program.log);
+  assert.deepEqual(left(`--domain ${domain} `), []);
+  await assert.rejects(fetch(address));
+});

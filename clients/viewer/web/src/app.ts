@@ -11,7 +11,7 @@ import { download, element, followInputKind, numberIn, setText, timeStamp } from
 import { Panel } from './panel';
 import { Parameters } from './parameters';
 import { Pointers } from './pointer';
-import type { Frame, Mesh } from './protocol';
+import type { Frame, Mesh, Tool } from './protocol';
 import { Quality } from './quality';
 import { Readout, toolToShow } from './readout';
 import { Stage } from './stage';
@@ -155,15 +155,8 @@ export class App implements LineListener {
   /** One turn of the display: draws what changed, nothing while all is at rest. */
   private turn(nowMs: number): void {
     requestAnimationFrame((next) => this.turn(next));
-    const moved = this.view?.update() ?? false;
-    const turned = this.stage.orbit.changed;
-    const changed = moved || turned || this.quality.rested(nowMs);
     const tool = toolToShow(this.frame_?.tools ?? []);
-    if (changed) this.draw(nowMs, moved);
-    if (changed && this.view) {
-      this.legend.write(this.view, this.stage);
-      this.readout.arrow(tool, tool && this.view.toolMesh(tool.id), this.stage);
-    }
+    if (this.quality.due(nowMs)) this.drawChanges(nowMs, tool);
     if (nowMs >= this.nextChart) {
       this.nextChart = nowMs + CHART_MS;
       this.readout.write(tool);
@@ -172,6 +165,16 @@ export class App implements LineListener {
     if (nowMs < this.nextPanel) return;
     this.nextPanel = nowMs + PANEL_MS;
     this.panel.write(performance.now(), (this.frame_?.tools ?? []).reduce((all, t) => all | t.flags, 0));
+  }
+
+  private drawChanges(nowMs: number, tool: Tool | undefined): void {
+    const moved = this.view?.update() ?? false;
+    const turned = this.stage.orbit.changed;
+    if (!moved && !turned && !this.quality.rested(nowMs)) return;
+    this.draw(nowMs, moved);
+    if (!this.view) return;
+    this.legend.write(this.view, this.stage);
+    this.readout.arrow(tool, tool && this.view.toolMesh(tool.id), this.stage);
   }
 
   private draw(nowMs: number, moved: boolean): void {

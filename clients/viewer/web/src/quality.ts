@@ -4,6 +4,7 @@ const SLOW_MS = 45;
 const FAST_MS = 14;
 const COUNT = 12;
 const REST_MS = 300;
+const SOFTWARE_MS = 38; // between pictures at least
 
 /**
  * How many pixels are drawn per CSS pixel: as many as the screen has, fewer where drawing is slow (software
@@ -19,10 +20,18 @@ export class Quality {
   ratio: number;
 
   /** @param most  pixels of the screen per CSS pixel */
-  constructor(most: number, software: boolean) {
+  constructor(
+    most: number,
+    private readonly software: boolean,
+  ) {
     this.sharp = Math.min(2, software ? Math.max(1.5, most) : most); // in place of the smoothing that hardware does
     this.moving = Math.min(most, software ? 0.75 : 2);
     this.ratio = this.moving;
+  }
+
+  /** Whether a picture may be drawn now: software leaves some of the processor to those who bring the forces. */
+  due(nowMs: number): boolean {
+    return !this.software || !(nowMs - this.lastMs < SOFTWARE_MS);
   }
 
   /** Whether it is time for the sharp picture: nothing has moved for a while. */
