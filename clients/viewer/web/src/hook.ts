@@ -30,7 +30,7 @@ export function figuresOf(app: App): Record<string, unknown> {
     penetration: tool?.penetration ?? 0,
     contact: tool?.state ?? 0,
     flags: tool?.flags ?? 0,
-    gap: mesh && app.view ? mesh.gap(app.view.surface) : null,
+    gap: mesh ? mesh.gap : null,
     inForce: app.parameters.inForce,
     samples: tool ? app.strips.of(tool.id).length : 0,
     felt: app.view ? { low: app.view.felt.low, high: app.view.felt.high } : null,

@@ -21,6 +21,7 @@ const UP = new Vector3(0, 1, 0); // of three's cylinders
 export class ToolMesh {
   centre: Vec3 = [0, 0, 0];
   arrowTip: Vec3 = [0, 0, 0];
+  gap = NaN; // of the drawn tip's surface from the drawn organ's, m; below 0 it would be inside
   private readonly group = new Group();
   private readonly arrow = new Group();
   private readonly handle = new Group();
@@ -56,12 +57,9 @@ export class ToolMesh {
     this.group.position.set(...this.centre);
     // The handle leans towards the zenith, so that it stays out of the arrow's way.
     this.handle.quaternion.setFromUnitVectors(UP, new Vector3(...unit(add(n, [0.35, -0.2, 0.7]))));
+    const reach = 4 * this.radius + surface.size / Math.sqrt(surface.mesh.nodes);
+    this.gap = gapTo(surface, this.centre, reach) - this.radius;
     this.showForce(tool.force, lengthPerNewton);
-  }
-
-  /** Distance of the drawn tip's surface from the organ's as displayed, m; below 0 it is inside. */
-  gap(surface: Surface): number {
-    return gapTo(surface, this.centre, 4 * this.radius + surface.size / Math.sqrt(surface.mesh.nodes)) - this.radius;
   }
 
   remove(): void {
