@@ -41,8 +41,9 @@ export class Strip {
     return first < 0 ? [] : this.samples.slice(first);
   }
 
+  /** The ten seconds up to the last one. */
   all(): readonly Sample[] {
-    return this.samples;
+    return this.since((this.samples.at(-1)?.tUs ?? 0) - SPAN_US);
   }
 
   last(): Sample | undefined {

@@ -44,6 +44,7 @@ test('a strip keeps ten seconds, in order, once', () => {
   assert.ok(strip.length >= 10_000 && strip.length < 10_020, `${strip.length}`);
   assert.equal(strip.last()?.tUs, 30_000_000);
   assert.equal(strip.since(29_999_000).length, 2);
+  assert.equal(strip.all()[0].tUs, 20_000_000);
 });
 
 test('saved as CSV: SI units, time from the first sample, all tools', () => {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the picture that README.md shows: of the demo's liver where it has been solved, else of the tests' organ.
+import assert from 'node:assert/strict';
+import { existsSync, statSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { after, before, test } from 'node:test';
+import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Bench } from './support/processes.mjs';
+
+skipWithoutBrowser();
+const liver = process.env.PALPATE_TEST_MODEL ?? fileURLToPath(new URL('../../build/demo/liver.h5', import.meta.url));
+let bench, viewer, browser;
+before(async () => {
+  bench = await Bench.open();
+  await bench.server(existsSync(liver) ? liver : bench.model(), ['--force-limit', '22']);
+  viewer = await bench.viewer();
+  browser = await openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await bench?.close();
+});
+
+for (const dark of [false, true])
+  test(`the page while somebody presses, ${dark ? 'dark' : 'light'}`, async () => {
+    const seen = await Seen.open(browser, viewer.address, { width: 1280, height: 800, dark });
+    await seen.organ();
+    const { x, y } = await seen.middle();
+    await seen.page.mouse.move(x - 0.03 * x, y - 60);
+    await seen.page.mouse.down();
+    await seen.until('pressed', (f) => f.penetration > 0.0035);
+    for (let i = 0; i < 30; ++i) {
+      await seen.page.mouse.move(x - 0.03 * x + 2.5 * i, y - 60 + i);
+      await seen.page.waitForTimeout(50);
+    }
+    await seen.page.waitForTimeout(2500);
+    const name = dark ? 'page-dark' : 'page';
+    await seen.shot(name);
+    await seen.page.mouse.up();
+    assert.ok(statSync(join(process.env.PALPATE_SHOTS, `${name}.png`)).size > 20_000);
+    await seen.close();
+  });
