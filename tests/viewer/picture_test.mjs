@@ -27,14 +27,16 @@ for (const dark of [false, true])
     const seen = await Seen.open(browser, viewer.address, { width: 1280, height: 800, dark });
     await seen.organ();
     const { x, y } = await seen.middle();
-    await seen.page.mouse.move(x - 0.03 * x, y - 60);
+    const place = { x: x + 40, y: y - 60 };
+    await seen.page.mouse.move(place.x, place.y);
     await seen.page.mouse.down();
     await seen.until('pressed', (f) => f.penetration > 0.0035);
-    for (let i = 0; i < 30; ++i) {
-      await seen.page.mouse.move(x - 0.03 * x + 2.5 * i, y - 60 + i);
-      await seen.page.waitForTimeout(50);
-    }
-    await seen.page.waitForTimeout(2500);
+    await seen.page.mouse.up();
+    await seen.until('at rest', (f) => f.force === 0);
+    await seen.page.mouse.down();
+    await seen.until('pressed again', (f) => f.penetration > 0.0035);
+    for (let i = 0; i < 20; ++i) await seen.page.mouse.move(place.x + 3 * i, place.y + i);
+    await seen.page.waitForTimeout(600);
     const name = dark ? 'page-dark' : 'page';
     await seen.shot(name);
     await seen.page.mouse.up();

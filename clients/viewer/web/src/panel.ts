@@ -9,7 +9,7 @@ import type { Stage } from './stage';
 type Level = '' | 'warn' | 'bad';
 const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {});
 
-/** Rates, latencies and health, in numbers and words. */
+/** Rates, latencies and health, in numbers and words; times as p50 / p99. */
 export class Panel {
   private readonly list = element('health-list', HTMLDListElement);
   private readonly flags = element('flags', HTMLUListElement);
@@ -37,10 +37,10 @@ export class Panel {
   private page(nowMs: number): void {
     const { drawn, received, decodedMs, shownMs } = this.figures;
     const rate = drawn.rate(nowMs);
-    this.row('Pictures drawn', rate > 0 ? `${brief(rate, 0)} / s, ${brief(drawn.percentile(0.5))} ms each` : 'at rest');
-    this.row('Frames received', `${brief(received.rate(nowMs), 0)} / s, ${brief(received.mean() / 1000)} kB each`);
-    this.row('DDS to decoded, p50 / p99', pair(decodedMs, 'ms'), decodedMs.percentile(0.5) > 50 ? 'warn' : '');
-    this.row('DDS to picture, p50 / p99', pair(shownMs, 'ms'));
+    this.row('Pictures drawn', rate > 0 ? `${brief(rate, 0)} / s` : 'at rest');
+    this.row('Frames received', `${brief(received.rate(nowMs), 0)} / s of ${brief(received.mean() / 1000)} kB`);
+    this.row('DDS to decoded', pair(decodedMs, 'ms'), decodedMs.percentile(0.5) > 50 ? 'warn' : '');
+    this.row('DDS to picture', pair(shownMs, 'ms'));
     this.row('Round trip to viewer', `${brief(this.line.tripMs)} ms`);
     if (this.stage) this.row('Drawn by', shortName(this.stage.drawnBy));
   }
@@ -51,9 +51,9 @@ export class Panel {
     const viewer = asRecord(status['viewer']);
     const overruns = numberIn(status, 'overruns');
     const ticks = numberIn(status, 'ticks');
-    this.row('Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, device ${String(status['device'] ?? '–')}` : '–');
-    this.row('Tick, p50 / p99', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
-    this.row('Woke late, p50 / p99', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
+    this.row('Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, ${String(status['device'] ?? '–')}` : '–');
+    this.row('Tick', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
+    this.row('Woke late', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
     this.row('Ticks missed', Number.isFinite(overruns) ? `${overruns} of ${ticks}` : '–', overruns > 0.01 * ticks ? 'bad' : '');
     const granted = status['realtime'];
     this.row('Real time', granted === undefined ? '–' : granted ? 'granted' : 'not granted', granted === false ? 'warn' : '');
