@@ -107,9 +107,11 @@ async function savedDrag() {
     await seen.page.waitForTimeout(15);
   }
   const [file] = await Promise.all([seen.page.waitForEvent('download'), seen.page.locator('#csv').dispatchEvent('click')]);
+  const { toolId } = await seen.figures();
   await mouse().up();
-  const [head, ...lines] = readFileSync(await file.path(), 'utf8').trim().split('\n');
+  const [head, ...all] = readFileSync(await file.path(), 'utf8').trim().split('\n');
   assert.equal(head, 't_s,tool_id,force_N,penetration_m,flags');
+  const lines = all.filter((line) => line.split(',')[1] === String(toolId)); // another's may still be in the air
   const columns = (k) => lines.map((line) => Number(line.split(',')[k]));
   return { times: columns(0), forces: columns(2), flags: columns(4) };
 }

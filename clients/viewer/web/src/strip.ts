@@ -41,11 +41,6 @@ export class Strip {
     return first < 0 ? [] : this.samples.slice(first);
   }
 
-  /** The ten seconds up to the last one. */
-  all(): readonly Sample[] {
-    return this.since((this.samples.at(-1)?.tUs ?? 0) - SPAN_US);
-  }
-
   last(): Sample | undefined {
     return this.samples.at(-1);
   }
@@ -69,8 +64,11 @@ export class Strips {
     this.byTool.clear();
   }
 
+  /** The ten seconds up to the newest sample of any tool. */
   all(): Sample[] {
-    return [...this.byTool.values()].flatMap((strip) => [...strip.all()]);
+    const strips = [...this.byTool.values()];
+    const newest = Math.max(...strips.map((strip) => strip.last()?.tUs ?? -Infinity));
+    return strips.flatMap((strip) => [...strip.since(newest - SPAN_US)]);
   }
 }
 
