@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { measured, median } from './support/measured.mjs';
 import { Bench } from './support/processes.mjs';
 
 skipWithoutBrowser();
@@ -44,9 +45,9 @@ test('the panel prints pictures a second, bytes a frame and the way from DDS to 
   assert.match(last['Pictures drawn'], /^[1-9]\d* \/ s/);
   const kilobytes = Number(/([\d.]+) kB/.exec(last['Frames received'])[1]);
   assert.ok(kilobytes > 1 && kilobytes < 60, last['Frames received']);
-  // The least of what it printed: other work of the machine is not ours.
   const medians = printed.map((p) => Number(/^([\d.]+) \//.exec(p['DDS to decoded'])?.[1])).filter(Number.isFinite);
-  assert.ok(medians.length > 3 && Math.min(...medians) > 0 && Math.min(...medians) < 10, `printed medians / ms: ${medians}`);
+  assert.ok(medians.length > 3 && Math.min(...medians) > 0, `printed medians / ms: ${medians}`);
+  measured('DDS sample to decoded frame, p50 as the panel prints it', median(medians), 10, 'ms');
   assert.match(last['Tick'], /^\d+(\.\d)? \/ \d+(\.\d)? µs$/);
 });
 

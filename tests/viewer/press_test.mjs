@@ -4,6 +4,7 @@ import { readFileSync } from 'node:fs';
 import { after, before, beforeEach, afterEach, test } from 'node:test';
 import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
 import { shareChanged } from './support/png.mjs';
+import { measured, median, rounds } from './support/measured.mjs';
 import { Bench } from './support/processes.mjs';
 
 skipWithoutBrowser();
@@ -116,10 +117,10 @@ async function savedDrag() {
   return { times: columns(0), forces: columns(2), flags: columns(4) };
 }
 
-test('a drag of 10 s gives a force curve with no gaps over 50 ms, as saved', async () => {
+test('a drag of 10 s gives a force curve without gaps, as saved', async () => {
   const TICK_OVERRUN = 65536;
   const gaps = [];
-  for (let attempt = 0; attempt < 3 && !(Math.min(...gaps) <= 0.05); ++attempt) {
+  for (let attempt = 0; attempt < rounds(1, 3); ++attempt) {
     const { times, forces, flags } = await savedDrag();
     const steps = times.slice(1).map((t, i) => t - times[i]);
     gaps.push(Math.max(...steps));
@@ -131,7 +132,7 @@ test('a drag of 10 s gives a force curve with no gaps over 50 ms, as saved', asy
     assert.ok(Math.min(...forces) > 0.1 && Math.max(...forces) < 22);
     await seen.until('at rest', (f) => f.force === 0);
   }
-  assert.ok(Math.min(...gaps) <= 0.05, `gaps of ${gaps.map((g) => 1000 * g)} ms`);
+  measured('largest gap in the force curve of a drag', 1000 * median(gaps), 50, 'ms');
 });
 
 test('what was felt is painted where it was felt', async () => {
