@@ -21,12 +21,6 @@ after(async () => {
   await bench?.close();
 });
 
-const panel = () =>
-  seen.page.evaluate(() => {
-    const cells = [...document.querySelectorAll('#health-list dt')];
-    return Object.fromEntries(cells.map((dt) => [dt.textContent, dt.nextElementSibling.textContent]));
-  });
-
 test('the panel prints pictures a second, bytes a frame and the way from DDS to the page', async () => {
   const middle = await seen.middle();
   await seen.page.mouse.move(middle.x, middle.y);
@@ -35,7 +29,7 @@ test('the panel prints pictures a second, bytes a frame and the way from DDS to 
   for (let i = 0, end = Date.now() + 15_000; Date.now() < end; ++i) {
     await seen.page.mouse.move(middle.x + 60 * Math.sin(0.07 * i), middle.y + 25 * Math.sin(0.05 * i));
     await seen.page.waitForTimeout(20);
-    if (Date.now() > end - 15_000 + 1000 * (printed.length + 2)) printed.push(await panel());
+    if (Date.now() > end - 15_000 + 1000 * (printed.length + 2)) printed.push(await seen.panel());
   }
   const figures = await seen.figures();
   await seen.page.mouse.up();

@@ -15,6 +15,25 @@ after(async () => {
   await bench?.close();
 });
 
+/** Presses where the mouse is until there is a force. */
+async function press(seen) {
+  await seen.page.mouse.down();
+  await seen.until('a force', (f) => f.force > 0.2);
+}
+
+/** Nothing of who is gone comes back: no force, no slider, no number of the server's. */
+async function staysEmpty(seen, seconds) {
+  for (const end = Date.now() + 1000 * seconds; Date.now() < end; await seen.page.waitForTimeout(100)) {
+    const { force, tools, samples, largestDisplacement, state } = await seen.figures();
+    assert.deepEqual([force, tools, samples, largestDisplacement], [0, 0, 0, 0], state.text);
+    assert.equal(state.level, 'bad', state.text);
+    for (const id of ['#stiffness', '#friction']) assert.ok(await seen.page.locator(id).isDisabled(), `${id}: ${state.text}`);
+  }
+  const panel = await seen.panel();
+  assert.deepEqual([panel['Server'], panel['Ticks missed'], panel['Real time']], ['–', '–', '–']);
+  assert.match(panel['Force limit'], /^–/);
+}
+
 test('it says what it waits for, and comes back when the server or the viewer does', async () => {
   const viewer = await bench.viewer();
   const seen = await Seen.open(browser, viewer.address);
@@ -31,29 +50,30 @@ test('it says what it waits for, and comes back when the server or the viewer do
   // 3. It is killed while somebody presses: no force is shown of a server that is not there.
   const middle = await seen.middle();
   await seen.page.mouse.move(middle.x, middle.y);
-  await seen.page.mouse.down();
-  await seen.until('a force', (f) => f.force > 0.2);
+  await press(seen);
+  assert.ok(await seen.page.locator('#stiffness').isEnabled());
   await first.stop('SIGKILL');
   await seen.until('gone is said', (f) => f.state.level === 'bad' && f.force === 0);
   assert.match(await state(), /gone|no word from the server/i);
+  await staysEmpty(seen, 3); // the viewer repeats the last words of the server once a second
   await seen.page.mouse.up();
 
   // 4. Another comes, with another organ.
   await bench.server(bench.model(3));
   const after = await seen.until('the other organ', (f) => f.nodes === 642 && f.state.level === 'good');
   assert.ok(after.meshRevision > before.meshRevision);
-  await seen.page.mouse.down();
-  await seen.until('a force again', (f) => f.force > 0.2);
-  await seen.page.mouse.up();
+  await press(seen);
 
-  // 5. The viewer itself goes and comes back at the same address.
+  // 5. The viewer itself goes while somebody presses, and comes back at the same address.
   const port = Number(new URL(viewer.address).port);
   await viewer.stop('SIGKILL');
   await seen.until('no line is said', (f) => f.state.level === 'bad' && /viewer/.test(f.state.text));
+  await staysEmpty(seen, 1);
+  await seen.page.mouse.up();
   await bench.viewer(port);
   await seen.until('back again', (f) => f.state.level === 'good' && f.framesPerSecond > 5);
-  await seen.page.mouse.down();
-  await seen.until('a force after all', (f) => f.force > 0.2);
+  assert.ok(!(await seen.figures()).pressing);
+  await press(seen);
   await seen.page.mouse.up();
   await seen.close();
 });

@@ -52,6 +52,12 @@ export class Seen {
     return this.page.evaluate(() => window.palpate.figures());
   }
 
+  /** What the health panel prints, by name. */
+  panel() {
+    return this.page.evaluate(() =>
+      Object.fromEntries([...document.querySelectorAll('#health-list dt')].map((dt) => [dt.textContent, dt.nextElementSibling.textContent])));
+  }
+
   /** Waits until a test of the figures holds. @throws Error with the figures when it takes longer */
   async until(what, holds, seconds = 20) {
     let figures;

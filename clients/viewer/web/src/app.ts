@@ -96,6 +96,7 @@ export class App implements LineListener {
 
   frame(frame: Frame, received: readonly Received[]): void {
     this.figures.frame(frame, received, performance.now());
+    if (!this.serving) return; // it waited while the server went
     this.frame_ = frame;
     this.view?.frame(frame);
     this.strips.add(frame.answers);
@@ -105,11 +106,17 @@ export class App implements LineListener {
     this.notice(text);
   }
 
+  private get serving(): boolean {
+    return this.server.level === 'good';
+  }
+
   private setTip(radius: number): void {
     if (radius > 0) this.tipRadius = radius;
   }
 
+  /** What the server says counts while it serves: after it has gone the viewer repeats its last words. */
   private status(status: Said): void {
+    if (!this.serving) return this.panel.heard({ type: 'status', viewer: status['viewer'] });
     this.setTip(numberIn(status, 'tip_radius'));
     this.parameters.status(status);
     this.panel.heard(status);
@@ -119,7 +126,7 @@ export class App implements LineListener {
     this.server = { level, text };
     element('state', HTMLParagraphElement).dataset['level'] = level;
     setText(element('state-text', HTMLSpanElement), text);
-    if (level !== 'good') this.forget();
+    if (!this.serving) this.forget();
   }
 
   private seen(): void {

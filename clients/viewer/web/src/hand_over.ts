@@ -24,6 +24,11 @@ export class HandOver {
     this.next();
   }
 
+  /** What waits is of a server, an organ or a line that is not there any more. What the page has got it still deals with. */
+  clear(): void {
+    this.waiting = undefined;
+  }
+
   /** The page has dealt with the last one. */
   taken(): void {
     this.busy = false;

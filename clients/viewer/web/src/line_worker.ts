@@ -12,9 +12,18 @@ onmessage = (event: MessageEvent<FromPage>) => {
   const message = event.data;
   if (message.kind === 'open')
     connection = new Connection(message.address, {
-      link: (open, text) => tell({ kind: 'link', open, text }),
-      said: (said) => tell({ kind: 'said', said }),
-      mesh: (mesh) => tell({ kind: 'mesh', mesh }),
+      link: (open, text) => {
+        handOver.clear();
+        tell({ kind: 'link', open, text });
+      },
+      said: (said) => {
+        if (said.type === 'state') handOver.clear();
+        tell({ kind: 'said', said });
+      },
+      mesh: (mesh) => {
+        handOver.clear();
+        tell({ kind: 'mesh', mesh });
+      },
       frame: (frame, received) => handOver.add(frame, received),
       clock: (reading) => tell({ kind: 'clock', reading }),
       trouble: (text) => tell({ kind: 'trouble', text }),

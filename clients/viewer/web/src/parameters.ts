@@ -47,8 +47,11 @@ export class Parameters {
   /** No server: nothing to set. */
   absent(): void {
     this.stiffness.disabled = this.friction.disabled = true;
-    setText(this.stiffnessText, '');
-    setText(this.frictionText, '');
+    this.inForce = { youngsFactor: NaN, friction: NaN };
+    this.wishes = {};
+    this.touchedMs = -Infinity;
+    setText(this.message, '');
+    this.write(NaN, NaN);
   }
 
   private wish(wish: { youngs_factor?: number; friction?: number }): void {
@@ -68,7 +71,7 @@ export class Parameters {
   private write(youngsFactor: number, friction: number): void {
     const times = youngsFactor > 0 ? `× ${youngsFactor.toFixed(2)}` : '';
     setText(this.stiffnessText, times);
-    this.stiffness.setAttribute('aria-valuetext', `${times} of the model's`);
+    this.stiffness.setAttribute('aria-valuetext', times && `${times} of the model's`);
     setText(this.frictionText, friction === Infinity ? 'never slides' : Number.isNaN(friction) ? '' : friction.toFixed(2));
   }
 }

@@ -80,3 +80,28 @@ test('a page that is busy gets one frame later, with the newest surface and ever
   assert.deepEqual([given[1].frame.seq, given[1].frame.surfaceSeq, given[1].frame.nodes, given[1].received.length], [4, 3, 6, 3]);
   assert.equal(joined(given[1], { ...frameOf(mesh, () => [0, 0, 0], 5) }, got).frame.surfaceSeq, 5);
 });
+
+test('what waited when the server or the line went is never handed over, what comes after it is', () => {
+  const mesh = ballMesh(0, 1);
+  const given: Parcel[] = [];
+  const over = new HandOver((parcel) => given.push(parcel));
+  const got = { bytes: 10, delayMs: 1 };
+  for (const seq of [1, 2]) over.add(frameOf(mesh, () => [seq * 1e-3, 0, 0], seq), got);
+  over.clear();
+  over.taken();
+  assert.deepEqual(given.map((parcel) => parcel.frame.seq), [1]);
+  over.add(frameOf(mesh, () => [0, 0, 0], 3), got);
+  assert.deepEqual(given.map((parcel) => [parcel.frame.seq, parcel.received.length]), [[1, 1], [3, 1]]);
+});
+
+test('a page that is busy through all of it gets no frame of the connection before', () => {
+  const mesh = ballMesh(0, 1);
+  const given: Parcel[] = [];
+  const over = new HandOver((parcel) => given.push(parcel));
+  const got = { bytes: 10, delayMs: 1 };
+  for (const seq of [1, 2]) over.add(frameOf(mesh, () => [seq * 1e-3, 0, 0], seq), got);
+  over.clear();
+  over.add({ ...frameOf(mesh, () => [0, 0, 0], 3), nodes: 0, displacement: new Int16Array(0) }, got);
+  over.taken();
+  assert.deepEqual(given.map((parcel) => [parcel.frame.seq, parcel.frame.nodes]), [[1, 6], [3, 0]]);
+});
