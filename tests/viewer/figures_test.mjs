@@ -25,11 +25,13 @@ test('the panel prints pictures a second, bytes a frame and the way from DDS to 
   const middle = await seen.middle();
   await seen.page.mouse.move(middle.x, middle.y);
   await seen.page.mouse.down();
-  const printed = [];
+  const [printed, medians] = [[], []]; // once a second
   for (let i = 0, end = Date.now() + 15_000; Date.now() < end; ++i) {
     await seen.page.mouse.move(middle.x + 60 * Math.sin(0.07 * i), middle.y + 25 * Math.sin(0.05 * i));
     await seen.page.waitForTimeout(20);
-    if (Date.now() > end - 15_000 + 1000 * (printed.length + 2)) printed.push(await seen.panel());
+    if (Date.now() < end - 15_000 + 1000 * (printed.length + 2)) continue;
+    printed.push(await seen.panel());
+    medians.push((await seen.figures()).decodedMs.p50);
   }
   const figures = await seen.figures();
   await seen.page.mouse.up();
@@ -39,9 +41,9 @@ test('the panel prints pictures a second, bytes a frame and the way from DDS to 
   assert.match(last['Pictures drawn'], /^[1-9]\d* \/ s/);
   const kilobytes = Number(/([\d.]+) kB/.exec(last['Frames received'])[1]);
   assert.ok(kilobytes > 1 && kilobytes < 60, last['Frames received']);
-  const medians = printed.map((p) => Number(/^([\d.]+) \//.exec(p['DDS to decoded'])?.[1])).filter(Number.isFinite);
-  assert.ok(medians.length > 3 && Math.min(...medians) > 0, `printed medians / ms: ${medians}`);
-  measured('DDS sample to decoded frame, p50 as the panel prints it', median(medians), 10, 'ms');
+  assert.ok(medians.length > 0 && medians.every((ms) => ms > 0), `medians / ms: ${medians}`);
+  assert.match(last['DDS to decoded'], /^\d+(\.\d)? \/ \d+(\.\d)? ms$/);
+  measured('DDS sample to decoded frame, p50', median(medians), 10, 'ms');
   assert.match(last['Tick'], /^\d+(\.\d)? \/ \d+(\.\d)? µs$/);
 });
 
