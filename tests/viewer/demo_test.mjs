@@ -24,12 +24,18 @@ after(async () => {
 const left = (mark) =>
   execFileSync('ps', ['-eo', 'args'], { encoding: 'utf8' }).split('\n').filter((line) => /palpate-(server|viewer)/.test(line) && line.includes(mark));
 
-test('tools/demo --serve serves a page that shows the organ, and Ctrl-C ends all of it', async () => {
-  const model = bench.model();
-  const program = new Program(demo, ['--serve', '--model', model, '--port', '0']);
+/** The demo, once it serves: {program, address, domain}. */
+async function served() {
+  const env = { ...process.env, PALPATE_DEMO_NO_BUILD: '1' }; // ctest runs what is built
+  const program = new Program(demo, ['--serve', '--model', bench.model(), '--port', '0'], { env });
   bench.programs.push(program);
-  const address = (await program.says(/page at (\S+)/, 500))[1];
+  const address = (await program.says(/page at (\S+)/, 120))[1];
   const domain = (await program.says(/DDS domain (\d+)/))[1];
+  return { program, address, domain };
+}
+
+test('tools/demo --serve serves a page that shows the organ, and Ctrl-C ends all of it', async () => {
+  const { program, address, domain } = await served();
   const times = [];
   for (let attempt = 0; attempt < 3; ++attempt) {
     const seen = await Seen.open(browser, address);
@@ -41,4 +47,11 @@ test('tools/demo --serve serves a page that shows the organ, and Ctrl-C ends all
   assert.equal(await program.stop('SIGINT'), 0, program.log);
   assert.deepEqual(left(`--domain ${domain} `), []);
   await assert.rejects(fetch(address));
+});
+
+test('what a test does with a demo that it leaves behind ends all of it', async () => {
+  const { program, domain } = await served();
+  assert.equal(left(`--domain ${domain} `).length, 2);
+  assert.equal(await program.end(), 143, program.log);
+  assert.deepEqual(left(`--domain ${domain} `), []);
 });

@@ -21,7 +21,8 @@ process.env.CYCLONEDDS_URI ??=
   '</Domain></CycloneDDS>';
 
 const running = new Set();
-process.on('exit', () => running.forEach((child) => child.kill('SIGKILL')));
+// SIGTERM, so that a script among them (tools/demo) still ends what it started itself.
+process.on('exit', () => running.forEach((child) => child.kill('SIGTERM')));
 
 /** A program that runs until it is stopped, and what it wrote. */
 export class Program {
@@ -53,6 +54,14 @@ export class Program {
   async stop(signal = 'SIGTERM') {
     this.child.kill(signal);
     return this.ended;
+  }
+
+  /** As somebody who waits: SIGTERM, and SIGKILL to what has not ended some seconds later. */
+  async end(seconds = 10) {
+    const hard = setTimeout(() => this.child.kill('SIGKILL'), 1000 * seconds);
+    const how = await this.stop('SIGTERM');
+    clearTimeout(hard);
+    return how;
   }
 }
 
@@ -110,7 +119,7 @@ export class Bench {
   }
 
   async close() {
-    for (const program of this.programs.reverse()) await program.stop('SIGKILL');
+    for (const program of this.programs.reverse()) await program.end();
     this.let_go();
     rmSync(this.folder, { recursive: true, force: true });
   }
