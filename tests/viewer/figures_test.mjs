@@ -68,4 +68,7 @@ test('flags are said in words', async () => {
   const words = await seen.page.locator('#flags').textContent();
   await seen.page.mouse.up();
   assert.match(words, /deeper than the model was computed for|force held at its limit/);
+  await seen.until('at rest', (f) => f.force === 0);
+  const gone = () => !/deeper than the model was computed for|force held at its limit/.test(document.querySelector('#flags').textContent);
+  await seen.page.waitForFunction(gone, undefined, { timeout: 20_000 }); // held for a few seconds, not for ever
 });

@@ -31,8 +31,8 @@ export async function openBrowser() {
 }
 
 /**
- * The page as somebody sees it: `see` gives pictures, `figures` the panel's numbers. Errors of its scripts fail the test
- * that closes it.
+ * The page as somebody sees it: `see` gives pictures, `figures` the panel's numbers. Errors of its scripts fail the
+ * test that closes it.
  */
 export class Seen {
   static async open(browser, address, { width = 1000, height = 700, dark = false, phone = false } = {}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times that were asked for, and what depends on them. Tests run on machines with other work, so a time is printed and judged only when somebody
-// who has left the machine alone says so: PALPATE_JUDGE_TIMES=1.
+// Times that were asked for, and what depends on them. Tests run on machines with other work, so a time is printed and
+// judged only when somebody who has left the machine alone says so: PALPATE_JUDGE_TIMES=1.
 import assert from 'node:assert/strict';
 
 const judged = process.env.PALPATE_JUDGE_TIMES === '1';

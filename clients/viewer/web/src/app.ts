@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { viewerAddress, type Received, type Said } from './connection';
 import { Figures } from './figures';
+import { flagsOfStatus, RecentFlags } from './flags';
 import { Hand } from './hand';
 import { Keys } from './keys';
 import { Legend } from './legend';
@@ -49,6 +50,7 @@ export class App implements LineListener {
   private readonly readout = new Readout();
   private readonly legend: Legend;
   private readonly panel: Panel;
+  private readonly flags = new RecentFlags();
 
   constructor() {
     this.stage = new Stage(this.canvas);
@@ -100,6 +102,7 @@ export class App implements LineListener {
     this.frame_ = frame;
     this.view?.frame(frame);
     this.strips.add(frame.answers);
+    for (const { flags } of [...frame.tools, ...frame.answers]) this.flags.add(flags, performance.now());
   }
 
   trouble(text: string): void {
@@ -111,7 +114,9 @@ export class App implements LineListener {
   }
 
   private setTip(radius: number): void {
-    if (radius > 0) this.tipRadius = radius;
+    if (!(radius > 0)) return;
+    this.tipRadius = radius;
+    this.view?.setTip(radius);
   }
 
   /** What the server says counts while it serves: after it has gone the viewer repeats its last words. */
@@ -120,6 +125,7 @@ export class App implements LineListener {
     this.setTip(numberIn(status, 'tip_radius'));
     this.parameters.status(status);
     this.panel.heard(status);
+    this.flags.add(flagsOfStatus(numberIn(status, 'flags')), performance.now());
   }
 
   private setState(level: string, text: string): void {
@@ -140,6 +146,7 @@ export class App implements LineListener {
     this.view?.calm();
     this.frame_ = undefined;
     this.strips.clear();
+    this.flags.clear();
     this.parameters.absent();
     this.panel.heard(undefined);
   }
@@ -171,7 +178,7 @@ export class App implements LineListener {
     }
     if (nowMs < this.nextPanel) return;
     this.nextPanel = nowMs + PANEL_MS;
-    this.panel.write(performance.now(), (this.frame_?.tools ?? []).reduce((all, t) => all | t.flags, 0));
+    this.panel.write(performance.now(), this.flags.at(performance.now()));
   }
 
   private drawChanges(nowMs: number, tool: Tool | undefined): void {

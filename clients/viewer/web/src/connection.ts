@@ -25,6 +25,7 @@ export interface Listener {
   trouble(text: string): void;
 }
 
+const BAD_MESSAGE = 4000; // close codes from 4000 on are the application's
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 3000;
 const PING_MS = 500;
@@ -75,7 +76,9 @@ export class Connection {
       this.send({ type: 'ping', t0: clockMs() });
       this.listener.link(true, '');
     };
-    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => this.heard(event.data);
+    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
+      if (socket.readyState === WebSocket.OPEN) this.heard(event.data); // not what came after it was given up
+    };
     socket.onclose = (event) => {
       this.held = undefined;
       this.listener.link(false, event.reason || 'no line to palpate-viewer');
@@ -90,7 +93,14 @@ export class Connection {
       else this.binary(data);
     } catch (error) {
       this.listener.trouble(error instanceof Error ? error.message : String(error));
+      this.giveUp();
     }
+  }
+
+  /** What cannot be decoded is never acknowledged, and two such frames are the last that come: begins anew, not at once. */
+  private giveUp(): void {
+    this.waitMs = LONGEST_WAIT_MS;
+    this.socket?.close(BAD_MESSAGE, 'palpate-viewer sent a bad message');
   }
 
   private text(message: Said): void {

@@ -14,7 +14,7 @@ export class FeltMap {
 
   constructor(
     private readonly surface: Surface,
-    private readonly reach: number, // m
+    private reach: number, // m
   ) {
     this.value = new Float32Array(surface.mesh.nodes);
     this.weight = new Float32Array(surface.mesh.nodes);
@@ -38,6 +38,12 @@ export class FeltMap {
   share(n: number): number {
     const range = this.high - this.low;
     return range > 0 ? (this.value[n] - this.low) / range : 0.5;
+  }
+
+  /** How far round the anchor a touch is painted, m; what was painted before goes. */
+  setReach(reach: number): void {
+    this.reach = reach;
+    this.clear();
   }
 
   clear(): void {

@@ -26,7 +26,7 @@ export class OrganView {
   constructor(
     mesh: Mesh,
     private readonly stage: Stage,
-    readonly tipRadius: number,
+    private tipRadius: number, // m
   ) {
     this.surface = new Surface(mesh);
     this.felt = new FeltMap(this.surface, REACH * tipRadius);
@@ -40,7 +40,21 @@ export class OrganView {
 
   remove(): void {
     this.organ.remove();
+    this.removeTools();
+  }
+
+  /** Another server, the same organ: what was felt with another tip is not what this one feels. */
+  setTip(radius: number): void {
+    if (radius === this.tipRadius) return;
+    this.tipRadius = radius;
+    this.removeTools();
+    this.felt.setReach(REACH * radius);
+    this.dirty = true;
+  }
+
+  private removeTools(): void {
     for (const tool of this.toolMeshes.values()) tool.remove();
+    this.toolMeshes.clear();
   }
 
   setColouring(colouring: Colouring): void {

@@ -13,6 +13,7 @@ const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 
 export class Panel {
   private readonly list = element('health-list', HTMLDListElement);
   private readonly flags = element('flags', HTMLUListElement);
+  private readonly event = element('event', HTMLParagraphElement);
   private readonly rows = new Map<string, HTMLElement>();
   private shownFlags = '';
   private status: Said | undefined;
@@ -27,11 +28,12 @@ export class Panel {
     this.status = status;
   }
 
-  /** @param flags  of the tools now shown, or-ed */
+  /** @param flags  of all tools in the last seconds, or-ed */
   write(nowMs: number, flags: number): void {
     this.page(nowMs);
     this.server(this.status ?? { type: 'status' });
     this.words(flags);
+    setText(this.event, String(this.status?.['message'] ?? ''));
   }
 
   private page(nowMs: number): void {

@@ -91,7 +91,7 @@ export class Stage {
   setLook(look: Look): void {
     for (const part of [...this.floor.children]) {
       this.floor.remove(part);
-      if (part instanceof ThreeMesh || part instanceof LineSegments) part.geometry.dispose();
+      if (part instanceof ThreeMesh || part instanceof LineSegments) dispose(part);
     }
     this.floor.add(shadowUnder(look), ringsOf(look));
     this.sky.groundColor = new Color(look.dark ? 0x5b5f6b : 0x9c9288);
@@ -150,6 +150,15 @@ function drawnInSoftware(): boolean {
   const name = gl && ext ? String(gl.getParameter(ext.UNMASKED_RENDERER_WEBGL)) : '';
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
+}
+
+/** Frees what the graphics card holds of it. */
+function dispose(part: ThreeMesh | LineSegments): void {
+  part.geometry.dispose();
+  for (const material of [part.material].flat()) {
+    if (material instanceof MeshBasicMaterial) material.map?.dispose();
+    material.dispose();
+  }
 }
 
 function shadowUnder(look: Look): ThreeMesh {

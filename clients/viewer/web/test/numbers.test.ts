@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { viewerUs, ViewerClock } from '../src/clock';
 import { DISPLACEMENT, encodedOf, labOf, linearOf, niceCeiling, STIFFNESS, type ColourMap } from '../src/colours';
 import { viewerAddress } from '../src/connection';
-import { FLAGS, flagWords } from '../src/flags';
+import { FLAGS, flagsOfStatus, flagWords, RecentFlags } from '../src/flags';
 import { Recent } from '../src/recent';
 import { csvOf, Strip, Strips } from '../src/strip';
 import type { Vec3 } from '../src/vec';
@@ -70,6 +70,25 @@ test('the flags are those of the IDL', () => {
   assert.ok(wire.length > 10);
   assert.deepEqual(FLAGS.map(({ name, bit }) => `${name} ${bit}`), wire);
   assert.deepEqual(flagWords(1 | 32).map(({ words }) => words), ['force held at its limit']);
+});
+
+test('a tool that nobody holds is no news', () => {
+  assert.deepEqual(flagWords(flagsOfStatus(8 | 65536)).map(({ words }) => words), ['ticks were missed']);
+});
+
+test('a flag of one tick can be read for seconds, and then goes', () => {
+  const flags = new RecentFlags();
+  flags.add(8 | 65536, 1000);
+  flags.add(1, 2000);
+  flags.add(8, 4000);
+  assert.equal(flags.at(4000), 1 | 8 | 65536);
+  assert.equal(flags.at(5500), 1 | 8);
+  assert.equal(flags.at(7000), 8);
+  assert.equal(flags.at(60_000), 0);
+  flags.add(65536, 60_000);
+  flags.clear(); // the server went
+  flags.add(flagsOfStatus(NaN), 60_000); // of a status without flags
+  assert.equal(flags.at(60_000), 0);
 });
 
 // Dichromats: F. Vienot, H. Brettel, J. Mollon, "Digital video colourmaps for checking the legibility of displays by

@@ -117,6 +117,22 @@ test('what is felt is painted round the anchor, but not the limits of a device',
   assert.ok(painted > 3 && painted < surface.mesh.nodes / 20, `${painted} nodes`);
 });
 
+test('another tip paints another width, and what the first one felt goes', () => {
+  const surface = ball();
+  const felt = new FeltMap(surface, 0.01);
+  const tool = { id: 0, state: 1, flags: 1, mine: true, tip: [0, 0, R] as Vec3, proxy: [0, 0, R] as Vec3, anchor: [0, 0, R] as Vec3,
+    force: [0, 0, 1] as Vec3, penetration: 0.001, domainRadius: 0.008 };
+  const answer = { toolId: 0, flags: 1, tUs: 1, force: 1, penetration: 0.001, wakeupUs: 0, stiffness: 400 };
+  const frame = { ...frameOf(surface.mesh, () => [0, 0, 0]), tools: [tool], answers: [answer] };
+  const painted = (): number => felt.weight.filter((w) => w > 0).length;
+  felt.learn(frame);
+  const narrow = painted();
+  felt.setReach(0.02);
+  assert.deepEqual([painted(), felt.low, felt.high], [0, Infinity, -Infinity]);
+  felt.learn(frame);
+  assert.ok(painted() > 2 * narrow, `${painted()} nodes, before ${narrow}`);
+});
+
 test('the camera keeps its distance when it turns, and the whole organ is seen at first', () => {
   const orbit = new Orbit();
   orbit.frame([0.1, 0.2, 0.3], 0.2, 0.56, 1.5);
