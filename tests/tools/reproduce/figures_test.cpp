@@ -2,10 +2,12 @@
 #include "palpate/reproduce/figures.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 namespace palpate::reproduce {
 namespace {
@@ -23,7 +25,8 @@ class Figures : public ::testing::Test {
     out << file.rdbuf();
     return out.str();
   }
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "palpate_figures_test";
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("palpate_figures_test_" + std::to_string(getpid()));
 };
 
 TEST_F(Figures, ChartNamesItsCurvesAndAxes) {

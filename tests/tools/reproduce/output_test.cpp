@@ -2,9 +2,11 @@
 #include "palpate/reproduce/output.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
+#include <string>
 
 namespace palpate::reproduce {
 namespace {
@@ -14,7 +16,7 @@ namespace fs = std::filesystem;
 class OutputFolder : public ::testing::Test {
  protected:
   ~OutputFolder() override { fs::remove_all(folder_); }
-  const fs::path folder_ = fs::temp_directory_path() / "palpate_output_test";
+  const fs::path folder_ = fs::temp_directory_path() / ("palpate_output_test_" + std::to_string(getpid()));
 };
 
 TEST_F(OutputFolder, IsMadeAndHoldsWhatIsWritten) {
