@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arrivals.h"
 
+#include <functional>
 #include <utility>
 
 #include "palpate/client/pacer.h"
@@ -15,8 +16,14 @@ Arrivals::Arrivals(const dds::Participant& participant, double rate_hz, WakeFunc
       field_reader_(participant, &Arrivals::onField, this, &Arrivals::admits),
       force_reader_(participant, &Arrivals::onForce, this, &Arrivals::admitsForce) {}
 
-bool Arrivals::admits(const dds::SurfaceDisplacement&, void* context) noexcept {
+std::uint64_t Arrivals::keyOf(std::uint32_t organ_id, std::string_view model_id) noexcept {
+  return (std::hash<std::string_view>{}(model_id)*31 + organ_id) | 1U << 31;
+}
+
+// Other organs' fields must not spend the pace.
+bool Arrivals::admits(const dds::SurfaceDisplacement& field, void* context) noexcept {
   auto& self = *static_cast<Arrivals*>(context);
+  if (keyOf(field.organ_id, field.model_id) != self.organ_.load(std::memory_order_relaxed)) return false;
   const std::int64_t now_ns = client::nowNs();
   self.pace_.setRate(self.rate_hz_.load(std::memory_order_relaxed));
   if (!self.pace_.due(now_ns)) return false;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pacing.h"
@@ -43,6 +44,11 @@ class Arrivals {
   /// At most so many fields a second are looked at. Threads: any.
   void setRate(double rate_hz) noexcept { rate_hz_.store(rate_hz, std::memory_order_relaxed); }
 
+  /// Only fields of this organ and model are looked at; before the first call none. Threads: any.
+  void setOrgan(std::uint32_t organ_id, std::string_view model_id) noexcept {
+    organ_.store(keyOf(organ_id, model_id), std::memory_order_relaxed);
+  }
+
   /// The newest field, if one came since the last call. Threads: one.
   [[nodiscard]] bool takeField(ArrivedField& field);
   /// Forces since the last call. @param[out] forces  replaced
@@ -53,12 +59,15 @@ class Arrivals {
   static bool admitsForce(const dds::ToolForce& force, void* context) noexcept;
   static void onField(dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept;
   static void onForce(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept;
+  /// Names organ and model in one number, never 0; two of the same are told apart later, by the surface.
+  static std::uint64_t keyOf(std::uint32_t organ_id, std::string_view model_id) noexcept;
   void keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns);
 
   WakeFunction wake_;
   void* context_;
   std::atomic<double> rate_hz_;
-  FramePace pace_;  // the filter's only
+  std::atomic<std::uint64_t> organ_{0};  // keyOf(); 0: none yet
+  FramePace pace_;                       // the filter's only
   std::mutex mutex_;
   ArrivedField field_;
   bool fresh_{false};

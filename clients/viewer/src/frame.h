@@ -51,7 +51,7 @@ struct AnswerRecord {
   float force{0.0F};        ///< size, N
   float penetration{0.0F};  ///< m
   float wakeup_us{0.0F};    ///< how late the tick woke
-  float stiffness{0.0F};    ///< -n.K n, N/m, along the force; 0 when free
+  float stiffness{0.0F};    ///< -n.K n, N/m, along the outward normal n; 0 when free
 };
 
 /// What one binary FRAME message holds.

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palpate/client/error.h"
-
 namespace palpate::viewer {
 namespace {
 
@@ -37,7 +35,7 @@ bool isGhost(const dds::ToolForce& force) {
 }
 
 bool sameSurface(const client::Surface& a, const client::Surface& b) {
-  return a.model_id == b.model_id && a.topology_revision == b.topology_revision &&
+  return a.organ_id == b.organ_id && a.model_id == b.model_id && a.topology_revision == b.topology_revision &&
          a.positions.size() == b.positions.size() && a.triangles.size() == b.triangles.size();
 }
 
@@ -54,7 +52,8 @@ OrganFeed::OrganFeed(const dds::Participant& participant, double rate_hz, WakeFu
 
 std::vector<std::uint32_t> OrganFeed::poll(std::int64_t now_ns, dds::WriterId own_writer) {
   pollServer(now_ns);
-  pollSurfaces();
+  const auto& status = watch_.status();
+  surfaces_.poll(status ? status->organ_id : 0, status ? status->model_id : "");
   selectSurface();
   pollField();
   pollForces();
@@ -64,41 +63,44 @@ std::vector<std::uint32_t> OrganFeed::poll(std::int64_t now_ns, dds::WriterId ow
 void OrganFeed::pollServer(std::int64_t now_ns) {
   std::array<dds::ServerStatus, dds::kMaxTake> statuses;
   const std::size_t count = statuses_.take(statuses);
-  for (std::size_t i = 0; i < count; ++i)
-    if (watch_.saw(statuses[i], now_ns)) ++status_version_;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto followed = watch_.status() ? std::optional(watch_.status()->server_id) : std::nullopt;
+    if (!watch_.saw(statuses[i], now_ns)) continue;
+    ++status_version_;
+    if (followed != statuses[i].server_id) stamp_clock_ = StampClock();
+  }
   std::array<dds::ServerParameters, dds::kMaxTake> answers;
   const std::size_t answered = parameter_answers_.take(answers);
-  for (std::size_t i = 0; i < answered; ++i) {
-    if (watch_.status() && watch_.status()->server_id != answers[i].server_id) continue;
-    parameters_ = answers[i];
-    new_parameters_.push_back(answers[i]);
-    ++status_version_;
-  }
+  for (std::size_t i = 0; i < answered; ++i) keepParameters(answers[i]);
 }
 
-void OrganFeed::pollSurfaces() {
-  constexpr std::size_t kMostOrgans = 8;
-  const auto samples = surfaces_.takeLoaned();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    try {
-      client::Surface surface = client::checkedSurface(samples[i]);
-      if (organs_.size() >= kMostOrgans && !organs_.contains(surface.organ_id)) organs_.clear();
-      organs_[surface.organ_id] = std::move(surface);
-      surface_refusal_.clear();
-    } catch (const client::ClientError& error) {
-      surface_refusal_ = error.what();
-      spdlog::warn("{}", surface_refusal_);
-    }
-  }
+// Of a server that is not followed yet too: they come once.
+void OrganFeed::keepParameters(const dds::ServerParameters& parameters) {
+  constexpr std::size_t kMostServers = 64;
+  const auto& status = watch_.status();
+  if (parameters_.size() >= kMostServers && !parameters_.contains(parameters.server_id))
+    std::erase_if(parameters_, [&](const auto& kept) { return !status || kept.first != status->server_id; });
+  parameters_[parameters.server_id] = parameters;
+  new_parameters_.push_back(parameters);
+  ++status_version_;
+}
+
+std::optional<dds::ServerParameters> OrganFeed::parameters() const {
+  const auto& status = watch_.status();
+  const auto at = status ? parameters_.find(status->server_id) : parameters_.end();
+  return at == parameters_.end() ? std::nullopt : std::optional(at->second);
+}
+
+const client::Surface* OrganFeed::followedSurface() const {
+  const auto& status = watch_.status();
+  return status ? surfaces_.find(status->organ_id, status->model_id) : nullptr;
 }
 
 void OrganFeed::selectSurface() {
-  const auto& status = watch_.status();
-  if (!status) return;
-  const auto at = organs_.find(status->organ_id);
-  if (at == organs_.end() || at->second.model_id != status->model_id) return;
-  if (revision_ > 0 && sameSurface(surface_, at->second)) return;
-  surface_ = at->second;
+  const client::Surface* wanted = followedSurface();
+  if (wanted == nullptr || (revision_ > 0 && sameSurface(surface_, *wanted))) return;
+  surface_ = *wanted;
+  arrivals_.setOrgan(surface_.organ_id, surface_.model_id);
   outward_ = Outward(surface_);
   has_field_ = false;
   ++revision_;
@@ -178,11 +180,12 @@ const OrganFeed::ToolView* OrganFeed::tool(std::uint32_t id, std::int64_t now_ns
 
 ServerState OrganFeed::state(std::int64_t now_ns) const {
   const auto& status = watch_.status();
-  const auto at = status ? organs_.find(status->organ_id) : organs_.end();
+  const client::Surface* wanted = followedSurface();
+  const std::string other = status ? surfaces_.anyModel(status->organ_id) : "";
   std::string mismatch = statuses_.mismatch();
   if (mismatch.empty()) mismatch = surfaces_.mismatch();
-  ServerState state = watch_.state(now_ns, at == organs_.end() ? "" : at->second.model_id, mismatch);
-  if (state.name == "waiting" && !surface_refusal_.empty()) state.text = surface_refusal_;
+  ServerState state = watch_.state(now_ns, wanted != nullptr ? wanted->model_id : other, mismatch);
+  if (state.name == "waiting" && !surfaces_.refusal().empty()) state.text = surfaces_.refusal();
   return state;
 }
 

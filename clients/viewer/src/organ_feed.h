@@ -16,6 +16,7 @@
 #include "pacing.h"
 #include "palpate/idl/reader.h"
 #include "server_watch.h"
+#include "surfaces.h"
 
 namespace palpate::viewer {
 
@@ -47,11 +48,10 @@ class OrganFeed {
   void setWatched(bool watched) noexcept { arrivals_.setRate(watched ? rate_hz_ : 1.0); }
 
   [[nodiscard]] const ServerWatch& watch() const noexcept { return watch_; }
-  [[nodiscard]] const std::optional<dds::ServerParameters>& parameters() const noexcept {
-    return parameters_;
-  }
+  /// Of the server that is followed; nothing before it said them.
+  [[nodiscard]] std::optional<dds::ServerParameters> parameters() const;
   [[nodiscard]] ServerState state(std::int64_t now_ns) const;
-  /// Rises when status or parameters have come.
+  /// Rises when a status of the server that is followed, or any parameters, have come.
   [[nodiscard]] std::uint64_t statusVersion() const noexcept { return status_version_; }
 
   /// The surface shown, nullptr before the first; revision 0 then, and rises with each other one.
@@ -76,21 +76,20 @@ class OrganFeed {
 
  private:
   void pollServer(std::int64_t now_ns);
-  void pollSurfaces();
+  void keepParameters(const dds::ServerParameters& parameters);
   void selectSurface();
   void pollField();
   void pollForces();
   [[nodiscard]] std::vector<std::uint32_t> pollPoses(dds::WriterId own_writer);
   void addAnswer(const TimedForce& timed);
   [[nodiscard]] bool fits(const ArrivedField& field) const;
+  [[nodiscard]] const client::Surface* followedSurface() const;
 
   double rate_hz_;
   ServerWatch watch_;
-  std::optional<dds::ServerParameters> parameters_;
+  std::map<std::uint32_t, dds::ServerParameters> parameters_;  // by server id
   std::vector<dds::ServerParameters> new_parameters_;
   std::uint64_t status_version_{0};
-  std::map<std::uint32_t, client::Surface> organs_;  // by organ id
-  std::string surface_refusal_;
   client::Surface surface_;
   std::uint32_t revision_{0};
   Outward outward_;
@@ -105,7 +104,7 @@ class OrganFeed {
   StampClock stamp_clock_;
   dds::Reader<dds::ServerStatus> statuses_;
   dds::Reader<dds::ServerParameters> parameter_answers_;
-  dds::Reader<dds::SurfaceMesh> surfaces_;
+  Surfaces surfaces_;
   dds::Reader<dds::ToolPose> poses_;
   Arrivals arrivals_;  // last: its callbacks stop first
 };

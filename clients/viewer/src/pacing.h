@@ -29,25 +29,33 @@ class TokenBucket {
 };
 
 /// When the next frame may go: `rate` a second in the mean. A source of just that rate, which comes now early, now
-/// late, passes whole: half a period early is early enough. Threads: one.
+/// late, passes whole: half a period early is early enough. A new rate holds at once. Threads: one.
 class FramePace {
  public:
+  static constexpr std::int64_t kLongestNs = 10'000'000'000;  ///< between frames; slower rates are this one
+
   explicit FramePace(double rate_hz) noexcept { setRate(rate_hz); }
   /// @param[in] rate_hz  0: never
   void setRate(double rate_hz) noexcept {
-    period_ns_ = rate_hz > 0.0 ? static_cast<std::int64_t>(1e9 / rate_hz) : 0;
+    constexpr auto kLongest = static_cast<double>(kLongestNs);
+    const std::int64_t period_ns =
+        rate_hz > 0.0 ? static_cast<std::int64_t>(std::clamp(1e9 / rate_hz, 1.0, kLongest)) : 0;
+    if (period_ns != period_ns_) planned_ns_ = std::min(planned_ns_, went_ns_);
+    period_ns_ = period_ns;
   }
   [[nodiscard]] bool due(std::int64_t now_ns) const noexcept {
-    return period_ns_ > 0 && now_ns >= next_ns_ - period_ns_ / 2;
+    return period_ns_ > 0 && now_ns >= planned_ns_ + period_ns_ - period_ns_ / 2;
   }
   /// One went now.
   void went(std::int64_t now_ns) noexcept {
-    next_ns_ = std::max(next_ns_, now_ns - period_ns_ / 2) + period_ns_;
+    planned_ns_ = std::max(planned_ns_ + period_ns_, now_ns - period_ns_ / 2);
+    went_ns_ = now_ns;
   }
 
  private:
   std::int64_t period_ns_{0};
-  std::int64_t next_ns_{0};
+  std::int64_t planned_ns_{-kLongestNs};  // of the newest one: when it was to go, at most half a period ahead
+  std::int64_t went_ns_{-kLongestNs};     // and when it went
 };
 
 }  // namespace palpate::viewer

@@ -32,7 +32,7 @@ Page::~Page() {
 }
 
 Close Page::receive(std::string_view part, bool first, bool last, bool binary, std::int64_t now_ns) {
-  if (!bucket_.take(now_ns)) return Close::kPolicy;
+  if (!parts_.take(now_ns) || (first && !messages_.take(now_ns))) return Close::kPolicy;
   if (binary) return Close::kNotText;
   if (first) incoming_.clear();
   if (incoming_.size() + part.size() > kMaxMessage) return Close::kTooLarge;
@@ -90,7 +90,16 @@ bool Page::statusDue(std::int64_t now_ns) const {
 
 bool Page::frameDue(std::int64_t now_ns) const {
   if (viewer_.feed.surface() == nullptr || sent_ - acked_ >= kInFlight || !pace_.due(now_ns)) return false;
-  return field_version_ != viewer_.feed.fieldVersion() || answer_place_ != viewer_.feed.answers().end();
+  return field_version_ != viewer_.feed.fieldVersion() || answer_place_ != viewer_.feed.answers().end() ||
+         shown_ != shownTools(now_ns);
+}
+
+// Of a server that is gone neither field nor answer comes: its tools go all the same.
+std::uint32_t Page::shownTools(std::int64_t now_ns) const {
+  std::uint32_t shown = 0;
+  for (std::uint32_t id = 0; id < OrganFeed::kTools; ++id)
+    if (viewer_.feed.tool(id, now_ns) != nullptr) shown |= 1U << id;
+  return shown;
 }
 
 bool Page::wants(std::int64_t now_ns) const {
@@ -146,6 +155,7 @@ void Page::frame(std::int64_t now_ns, Bytes& out) {
   const bool new_field = field_version_ != viewer_.feed.fieldVersion();
   viewer_.feed.answers().since(answer_place_, kMostAnswers, batch_);
   const std::vector<ToolRecord> records = tools(now_ns);
+  shown_ = shownTools(now_ns);
   Frame frame;
   frame.seq = ++sent_;
   frame.mesh_revision = mesh_revision_;

@@ -22,6 +22,7 @@ class Page {
  public:
   static constexpr std::uint32_t kInFlight = 2;
   static constexpr double kMessagesPerSecond = 400.0;
+  static constexpr double kPartsPerSecond = 1600.0;         ///< that messages come in
   static constexpr std::size_t kMostAnswers = 256;          ///< in a frame
   static constexpr std::int64_t kStatusNs = 1'000'000'000;  ///< between statuses when nothing changes
   static constexpr std::int64_t kLeastStatusNs = 100'000'000;
@@ -56,12 +57,14 @@ class Page {
   [[nodiscard]] bool frameDue(std::int64_t now_ns) const;
   void frame(std::int64_t now_ns, Bytes& out);
   [[nodiscard]] std::vector<ToolRecord> tools(std::int64_t now_ns) const;
+  [[nodiscard]] std::uint32_t shownTools(std::int64_t now_ns) const;
 
   std::uint64_t id_;
   Viewer& viewer_;
   double max_rate_hz_;
   FramePace pace_;
-  TokenBucket bucket_{kMessagesPerSecond, kMessagesPerSecond};
+  TokenBucket messages_{kMessagesPerSecond, kMessagesPerSecond};
+  TokenBucket parts_{kPartsPerSecond, kPartsPerSecond};
   std::string incoming_;
 
   bool hello_{true};  // what is to be sent
@@ -80,6 +83,7 @@ class Page {
   std::uint32_t counted_{0};  // frames at the last status
   std::uint64_t field_version_{0};
   std::uint64_t answer_place_;
+  std::uint32_t shown_{0};  // tools in the newest frame, bit by id
   std::vector<AnswerRecord> batch_;
 };
 

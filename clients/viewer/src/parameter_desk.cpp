@@ -55,37 +55,38 @@ void ParameterDesk::set(std::uint64_t page_id, const SetParameters& wanted) {
 }
 
 void ParameterDesk::saw(const dds::ServerParameters& answer) {
-  model_youngs_modulus_ = answer.model_youngs_modulus;
   for (auto& [page_id, wish] : wishes_) {
-    if (!wish.asked || wish.request.request_id != answer.request_id) continue;
+    if (!wish.asked || wish.request.request_id != answer.request_id ||
+        wish.request.server_id != answer.server_id)
+      continue;
     answers_.push_back({page_id, wish.asked->request, answer.accepted, answer.message});
     wish.asked.reset();
   }
 }
 
-bool ParameterDesk::startNext(std::uint64_t page_id, Wish& wish, std::optional<std::uint32_t> server_id,
-                              std::int64_t now_ns) {
-  if (!server_id || !model_youngs_modulus_) {
+bool ParameterDesk::startNext(std::uint64_t page_id, Wish& wish,
+                              const std::optional<dds::ServerParameters>& server, std::int64_t now_ns) {
+  if (!server) {
     answers_.push_back({page_id, wish.waiting->request, false, "no server has said its parameters yet"});
     wish.waiting.reset();
     return false;
   }
   wish.asked = std::exchange(wish.waiting, std::nullopt);
-  wish.request = requestOf(*wish.asked, *model_youngs_modulus_);
-  wish.request.server_id = *server_id;
+  wish.request = requestOf(*wish.asked, server->model_youngs_modulus);
+  wish.request.server_id = server->server_id;
   wish.request.request_id = next_id_++;
   wish.since_ns = now_ns;
   wish.sent_ns = 0;
   return true;
 }
 
-void ParameterDesk::tend(std::optional<std::uint32_t> server_id, std::int64_t now_ns) {
+void ParameterDesk::tend(const std::optional<dds::ServerParameters>& server, std::int64_t now_ns) {
   for (auto& [page_id, wish] : wishes_) {
     if (wish.asked && now_ns - wish.since_ns > kPatienceNs) {
       answers_.push_back({page_id, wish.asked->request, false, "the server did not answer within 3 s"});
       wish.asked.reset();
     }
-    if (!wish.asked && wish.waiting && !startNext(page_id, wish, server_id, now_ns)) continue;
+    if (!wish.asked && wish.waiting && !startNext(page_id, wish, server, now_ns)) continue;
     if (!wish.asked || now_ns - wish.sent_ns < kRepeatNs) continue;
     if (writer_.matched() > 0 && writer_.write(wish.request)) wish.sent_ns = now_ns;
   }

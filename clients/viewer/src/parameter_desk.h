@@ -41,8 +41,9 @@ class ParameterDesk {
 
   /// A server's answer came, to whomever.
   void saw(const dds::ServerParameters& answer);
-  /// Sends and repeats. @param[in] server_id  which server to ask; nothing: none is there
-  void tend(std::optional<std::uint32_t> server_id, std::int64_t now_ns);
+  /// Sends and repeats.
+  /// @param[in] server  parameters of the server to ask; nothing: none is there, or it has not said them
+  void tend(const std::optional<dds::ServerParameters>& server, std::int64_t now_ns);
 
   [[nodiscard]] std::vector<Answer> answers() { return std::exchange(answers_, {}); }
 
@@ -54,11 +55,10 @@ class ParameterDesk {
     std::int64_t since_ns{0};
     std::int64_t sent_ns{0};
   };
-  bool startNext(std::uint64_t page_id, Wish& wish, std::optional<std::uint32_t> server_id,
+  bool startNext(std::uint64_t page_id, Wish& wish, const std::optional<dds::ServerParameters>& server,
                  std::int64_t now_ns);
 
   dds::Writer<dds::ParameterRequest> writer_;
-  std::optional<double> model_youngs_modulus_;
   std::uint64_t next_id_;
   std::map<std::uint64_t, Wish> wishes_;  // by page
   std::vector<Answer> answers_;

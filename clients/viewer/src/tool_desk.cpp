@@ -53,9 +53,14 @@ ToolGrant ToolDesk::grab(std::uint64_t page_id) {
   if (server_tools_ == 0) return {false, 0, "no server answers tools yet"};
   const std::int64_t now_ns = client::nowNs();
   const std::lock_guard lock(mutex_);
+  // The answer to this is newer than what became of the tool before.
+  std::erase_if(endings_, [&](const Ending& ending) { return ending.page_id == page_id; });
   if (Tool* own = find(page_id)) {
-    own->driven->follower.regrab(now_ns);
-    return {true, static_cast<std::uint32_t>(own - tools_.data()), ""};
+    if (own->driven->follower.state() != PoseFollower::State::kOver) {
+      own->driven->follower.regrab(now_ns);
+      return {true, static_cast<std::uint32_t>(own - tools_.data()), ""};
+    }
+    rest(*own, now_ns);
   }
   for (const std::uint32_t id : ids_) {
     if (id >= std::min<std::size_t>(server_tools_, kTools)) continue;
@@ -88,10 +93,7 @@ void ToolDesk::release(std::uint64_t page_id) {
 
 void ToolDesk::drop(std::uint64_t page_id) {
   const std::lock_guard lock(mutex_);
-  if (Tool* tool = find(page_id)) {
-    tool->driven.reset();
-    tool->rests_ns = client::nowNs() + kRestNs;
-  }
+  if (Tool* tool = find(page_id)) rest(*tool, client::nowNs());
 }
 
 std::vector<ToolDesk::Ending> ToolDesk::endings() {
@@ -132,6 +134,10 @@ bool ToolDesk::anyDriven() const {
 
 void ToolDesk::end(Tool& tool, const char* message, std::int64_t now_ns) {
   endings_.push_back({tool.driven->page_id, message});
+  rest(tool, now_ns);
+}
+
+void ToolDesk::rest(Tool& tool, std::int64_t now_ns) {
   tool.driven.reset();
   tool.rests_ns = now_ns + kRestNs;
 }
@@ -142,10 +148,11 @@ void ToolDesk::stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses) {
     Tool& tool = tools_[id];
     if (!tool.driven) continue;
     PoseFollower& follower = tool.driven->follower;
-    const bool lifting = follower.state() == PoseFollower::State::kLifting;
+    const bool released = follower.state() == PoseFollower::State::kLifting ||
+                          follower.state() == PoseFollower::State::kOver;  // before its first target
     if (const auto p_WT = follower.step(now_ns)) poses.push_back(poseAt(id, ++tool.seq, now_ns, *p_WT));
     if (follower.state() == PoseFollower::State::kOver)
-      end(tool, lifting ? "released" : "no target came for 250 ms", now_ns);
+      end(tool, released ? "released" : "no target came for 250 ms", now_ns);
   }
 }
 

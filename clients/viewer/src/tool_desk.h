@@ -47,6 +47,7 @@ class ToolDesk {
   /// A pose of this tool came over the wire from another program.
   void sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept;
 
+  /// What became of the page's tool before is not told any more: the answer is newer.
   [[nodiscard]] ToolGrant grab(std::uint64_t page_id);
   /// @return false when the page has no tool
   bool target(std::uint64_t page_id, const client::Point& p_WT);
@@ -79,6 +80,7 @@ class ToolDesk {
   void run();
   void stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses);
   void end(Tool& tool, const char* message, std::int64_t now_ns);
+  static void rest(Tool& tool, std::int64_t now_ns);
   [[nodiscard]] Tool* find(std::uint64_t page_id);
   [[nodiscard]] bool anyDriven() const;
 

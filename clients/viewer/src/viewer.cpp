@@ -47,8 +47,7 @@ void Viewer::tendTools(std::int64_t now_ns) {
 
 void Viewer::tendParameters(std::int64_t now_ns) {
   for (const dds::ServerParameters& answer : feed.newParameters()) parameters.saw(answer);
-  const bool alive = feed.watch().alive(now_ns);
-  parameters.tend(alive ? std::optional(feed.watch().status()->server_id) : std::nullopt, now_ns);
+  parameters.tend(feed.watch().alive(now_ns) ? feed.parameters() : std::nullopt, now_ns);
   for (const ParameterDesk::Answer& answer : parameters.answers())
     if (Page* page = find(answer.page_id)) page->answered(answer);
 }

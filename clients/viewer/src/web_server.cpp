@@ -104,8 +104,9 @@ void WebServer::run(Viewer& viewer) {
   viewer_ = &viewer;
   tick_.server = this;
   onTick(&tick_.timer);
-  while (!client::stopRequested() && lws_service(context_, 0) >= 0) {
-  }
+  bool serves = true;
+  while (serves && !client::stopRequested()) serves = lws_service(context_, 0) >= 0;
+  const bool failed = !serves && !client::stopRequested();
   lws_sul_cancel(&tick_.timer);
   lws_context* context = nullptr;
   {
@@ -114,19 +115,25 @@ void WebServer::run(Viewer& viewer) {
   }
   lws_context_destroy(context);  // closes the pages, which leave the viewer
   viewer_ = nullptr;
+  if (failed) throw client::ClientError("libwebsockets gave up serving " + address());
 }
 
 void WebServer::onTick(lws_sorted_usec_list_t* timer) {
   WebServer* self = reinterpret_cast<Tick*>(timer)->server;  // timer is its first member
-  try {
-    self->tend();
-  } catch (const std::exception& error) {
-    warn(error.what());
-  }
+  self->tend();
   lws_sul_schedule(self->context_, 0, timer, &WebServer::onTick, kTickUs);
 }
 
-void WebServer::tend() {
+// Nothing leaves it: what came over DDS is no connection's fault, and none is closed for it.
+void WebServer::tend() noexcept {
+  try {
+    lookForNews();
+  } catch (const std::exception& error) {
+    warn(error.what());
+  }
+}
+
+void WebServer::lookForNews() {
   if (viewer_ == nullptr) return;
   const std::int64_t now_ns = client::nowNs();
   viewer_->tend(now_ns);

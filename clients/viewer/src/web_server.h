@@ -36,6 +36,7 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   /// Serves until a stop signal has come. `viewer` must outlive the server.
+  /// @throw client::ClientError  libwebsockets gave up before
   void run(Viewer& viewer);
 
   /// Lets run() look for news. Threads: any.
@@ -57,7 +58,8 @@ class WebServer {
   int handle(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length);
   int handlePage(lws* wsi, lws_callback_reasons reason, Connection* connection, void* in, std::size_t length);
   void listen();
-  void tend();
+  void tend() noexcept;
+  void lookForNews();
   int serveFile(lws* wsi, std::string_view uri) const;
   int judgeUpgrade(lws* wsi, std::string_view kind) const;
   void open(lws* wsi, Connection& connection);

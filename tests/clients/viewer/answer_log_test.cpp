@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <map>
 
 namespace palpate::viewer {
@@ -51,6 +52,16 @@ TEST(AnswerLog, TooManyAreThinnedEvenlyForEachToolAndTheNewestStays) {
   }
 }
 
+TEST(AnswerLog, WhatFitsIsNotThinnedThoughOneToolHasMoreThanItsShare) {
+  AnswerLog log;
+  for (int i = 0; i < 246; ++i) log.add(answer(0, i));
+  for (int i = 0; i < 10; ++i) log.add(answer(1, i));
+  std::uint64_t place = 0;
+  std::vector<AnswerRecord> out;
+  log.since(place, 256, out);
+  EXPECT_EQ(out.size(), 256U);
+}
+
 TEST(AnswerLog, AReaderWhoWasAwayGetsWhatIsLeft) {
   AnswerLog log;
   for (std::size_t i = 0; i < AnswerLog::kCapacity + 500; ++i) log.add(answer(0, static_cast<double>(i)));
@@ -82,6 +93,14 @@ TEST(StampClock, AServerWithAnotherClockIsFollowedAtOnce) {
   StampClock clock;
   (void)clock.toLocal(1'000, 5'000'000'000);
   EXPECT_EQ(clock.toLocal(90'000'000'000'000, 6'000'000'000), 6'000'000'000);
+}
+
+// With the sanitizers: no sum overflows.
+TEST(StampClock, AStampBeyondAllTimesDoesNoHarm) {
+  StampClock clock;
+  constexpr std::int64_t kNow = 5'000'000'000;
+  for (const std::int64_t stamp : {INT64_MIN, INT64_MAX, std::int64_t{0}, INT64_MAX, INT64_MIN})
+    EXPECT_EQ(clock.toLocal(stamp, kNow), kNow) << stamp;
 }
 
 }  // namespace

@@ -51,5 +51,35 @@ TEST(Pacing, NoRateIsNoFrame) {
   EXPECT_FALSE(pace.due(1'000'000 * kMs));
 }
 
+TEST(Pacing, AFasterRateHoldsAtOnce) {
+  for (const double slow : {1.0, 0.001, 1e-300}) {
+    FramePace pace(slow);
+    const std::int64_t start = 1'000'000 * kMs;
+    for (int i = 0; i < 2; ++i) {  // after a pause the second may go half a period early, and counts as later
+      ASSERT_TRUE(pace.due(start));
+      pace.went(start);
+    }
+    EXPECT_FALSE(pace.due(start + 400 * kMs)) << slow;
+    pace.setRate(0.0);
+    pace.setRate(60.0);
+    EXPECT_TRUE(pace.due(start + 20 * kMs)) << slow;
+  }
+}
+
+TEST(Pacing, ASlowerRateHoldsAtOnce) {
+  FramePace pace(60.0);
+  pace.went(1'000'000 * kMs);
+  pace.setRate(1.0);
+  EXPECT_FALSE(pace.due(1'000'100 * kMs));
+  EXPECT_TRUE(pace.due(1'001'000 * kMs));
+}
+
+TEST(Pacing, TheSlowestRateIsAFrameInTenSeconds) {
+  FramePace pace(1e-300);
+  for (int i = 0; i < 2; ++i) pace.went(1'000'000 * kMs);
+  EXPECT_FALSE(pace.due(1'009'000 * kMs));
+  EXPECT_TRUE(pace.due(1'010'000 * kMs));
+}
+
 }  // namespace
 }  // namespace palpate::viewer

@@ -41,13 +41,18 @@ struct Asked {
   Asked() {
     for (int i = 0; i < 1000 && requests.matched() == 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  // What a server with this number says of itself.
+  static dds::ServerParameters server(std::uint32_t id, double model_youngs_modulus) {
     dds::ServerParameters known{};
-    known.model_youngs_modulus = 100e3;
-    desk.saw(known);
+    known.server_id = id;
+    known.model_youngs_modulus = model_youngs_modulus;
+    return known;
   }
   // What has come, after a tend() at this time.
-  std::vector<dds::ParameterRequest> at(std::int64_t now_ns) {
-    desk.tend(0, now_ns);
+  std::vector<dds::ParameterRequest> at(std::int64_t now_ns,
+                                        const dds::ServerParameters& asked = server(0, 100e3)) {
+    desk.tend(asked, now_ns);
     std::array<dds::ParameterRequest, dds::kMaxTake> taken{};
     for (int i = 0; i < 100; ++i) {
       if (const std::size_t count = requests.take(taken); count > 0)
@@ -89,11 +94,30 @@ TEST(ParameterDesk, AServerThatDoesNotAnswerIsSaidSo) {
   Asked asked;
   asked.drag(0.1, 5);
   ASSERT_FALSE(asked.at(kStart).empty());
-  asked.desk.tend(0, kStart + ParameterDesk::kPatienceNs + kMs);
+  asked.desk.tend(Asked::server(0, 100e3), kStart + ParameterDesk::kPatienceNs + kMs);
   const auto answers = asked.desk.answers();
   ASSERT_EQ(answers.size(), 1U);
   EXPECT_FALSE(answers[0].accepted);
   EXPECT_EQ(answers[0].request, 5U);
+}
+
+TEST(ParameterDesk, TheFactorIsOfTheModelOfTheServerThatIsAsked) {
+  Asked asked;
+  SetParameters wanted{};
+  wanted.youngs_factor = 2.0;
+  asked.desk.set(7, wanted);
+  asked.desk.saw(Asked::server(1, 100e3));
+  const auto requests = asked.at(kStart, Asked::server(2, 300e3));
+  ASSERT_EQ(requests.size(), 1U);
+  EXPECT_EQ(requests[0].server_id, 2U);
+  EXPECT_EQ(requests[0].youngs_modulus, 600e3);
+  dds::ServerParameters answer = Asked::server(1, 100e3);  // another's, with the same number
+  answer.request_id = requests[0].request_id;
+  asked.desk.saw(answer);
+  EXPECT_TRUE(asked.desk.answers().empty());
+  answer.server_id = 2;
+  asked.desk.saw(answer);
+  EXPECT_EQ(asked.desk.answers().size(), 1U);
 }
 
 TEST(ParameterDesk, WithoutAServerTheWishIsRefused) {

@@ -77,6 +77,8 @@ void TestPage::takeFrame(const std::vector<std::uint8_t>& bytes) {
   int largest = 0;
   for (std::size_t i = 0; i < 3 * nodes; ++i)
     largest = std::max(largest, std::abs(static_cast<int>(at<std::int16_t>(bytes, 56 + 2 * i))));
+  sent_us = at<double>(bytes, 24);
+  if (nodes > 0) surface_seq = at<std::uint64_t>(bytes, 32);
   if (nodes > 0) largest_displacement = static_cast<double>(at<float>(bytes, 48)) * largest;
   std::size_t offset = toolsOffset(bytes);
   tools.clear();

@@ -49,6 +49,8 @@ class TestPage {
   std::size_t frame_size{0};
   double largest_displacement{0.0};  ///< of the newest field, m
   std::uint32_t frame_revision{0};
+  std::uint64_t surface_seq{0};  ///< of the newest field
+  double sent_us{0.0};           ///< of the newest frame
   std::uint16_t close_code{0};
   bool closed{false};
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-viewer between a real server and pages that are played by the test.
+#include <algorithm>
 #include <csignal>
+#include <mutex>
 
 #include "palpate/client/tool_client.h"
-#include "palpate/idl/types.h"
+#include "palpate/idl/reader.h"
 #include "viewer_fixture.h"
 
 namespace palpate::testing {
@@ -16,6 +18,36 @@ double forceOn(const TestPage& page, bool mine = true) {
     if ((tool.mine == 1) == mine) return sizeOf(tool.force);
   return 0.0;
 }
+
+// Counts the server's answers beside the viewer.
+class AnswersOnTheWire {
+ public:
+  explicit AnswersOnTheWire(const std::string& domain)
+      : participant_(static_cast<std::uint32_t>(std::stoul(domain))),
+        reader_(participant_, &AnswersOnTheWire::onForce, this) {}
+
+  // Answers that came with stamps in this time, of this machine's clock.
+  [[nodiscard]] std::size_t between(double from_us, double to_us) {
+    const std::lock_guard lock(mutex_);
+    return static_cast<std::size_t>(std::count_if(
+        stamps_us_.begin(), stamps_us_.end(), [&](double t_us) { return t_us >= from_us && t_us <= to_us; }));
+  }
+
+ private:
+  static void onForce(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept {
+    auto& self = *static_cast<AnswersOnTheWire*>(context);
+    std::array<dds::ToolForce, dds::kMaxTake> forces;
+    const std::size_t count = reader.take(forces);
+    const std::lock_guard lock(self.mutex_);
+    for (std::size_t i = 0; i < count; ++i)
+      self.stamps_us_.push_back(static_cast<double>(forces[i].stamp_ns) * 1e-3);
+  }
+
+  std::mutex mutex_;
+  std::vector<double> stamps_us_;
+  dds::Participant participant_;
+  dds::Reader<dds::ToolForce> reader_;
+};
 
 TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
   startServer();
@@ -54,11 +86,13 @@ TEST_F(ViewerEndToEnd, EveryAnswerOfTheServerReachesTheStripChart) {
   ASSERT_TRUE(grab(*page)["granted"]);
   page->press(kDepth, milliseconds(500));
   page->answers.clear();
+  AnswersOnTheWire wire(domain_);
   page->press(kDepth, seconds(2));
   ASSERT_FALSE(page->answers.empty());
-  const double span_s = (page->answers.back().t_us - page->answers.front().t_us) * 1e-6;
-  EXPECT_GT(static_cast<double>(page->answers.size()), 800.0 * span_s)
-      << "1 kHz, but for ticks missed under load";
+  const std::size_t made = wire.between(page->answers.front().t_us, page->answers.back().t_us);
+  ASSERT_GT(made, 100U);
+  // DDS keeps the newest answer only, so a busy machine loses some on either way; a viewer that thins loses half.
+  EXPECT_GT(3 * page->answers.size(), 2 * made);
   for (std::size_t i = 1; i < page->answers.size(); ++i)
     ASSERT_GT(page->answers[i].t_us, page->answers[i - 1].t_us) << "answer " << i;
 }
@@ -168,6 +202,20 @@ TEST_F(ViewerEndToEnd, OutlivesItsServerAndShowsTheNextOnesOrgan) {
   EXPECT_TRUE(page->listen(seconds(20), [&] { return page->texts["state"]["server"] == "gone"; }));
 }
 
+TEST_F(ViewerEndToEnd, TheForceOfAServerThatWasKilledGoesBeforeTheServerIsGivenUp) {
+  startServer();
+  startViewer();
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  ASSERT_TRUE(grab(*page)["granted"]);
+  ASSERT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));
+  server_->signal(SIGKILL);
+  const auto gone = [&] { return page->texts["state"]["server"] == "gone"; };
+  page->press(kDepth, seconds(20), [&] { return page->tools.empty() || gone(); });
+  EXPECT_TRUE(page->tools.empty());
+  EXPECT_FALSE(gone()) << "half a second without answers, not two and a half without a status";
+}
+
 TEST_F(ViewerEndToEnd, ASlowPageGetsFewerFramesAndNoOldOnes) {
   startServer();
   startViewer();
@@ -179,10 +227,10 @@ TEST_F(ViewerEndToEnd, ASlowPageGetsFewerFramesAndNoOldOnes) {
   slow->listen(seconds(1));
   EXPECT_EQ(slow->frame_seqs.size(), 2U) << "no third one before the first is acknowledged";
   EXPECT_TRUE(goesOn(*other));
+  const std::uint64_t seen = other->surface_seq;
   slow->client.say({{"type", "ping"}, {"t0", 1.5}});
   ASSERT_TRUE(slow->listen(seconds(5), [&] { return slow->has("pong"); }));
   EXPECT_EQ(slow->texts["pong"]["t0"], 1.5);
-  const double before_us = slow->texts["pong"]["t_us"];
   slow->acknowledges = true;
   slow->client.say({{"type", "ack"}, {"seq", 2}});
   std::vector<std::uint8_t> frame;
@@ -192,7 +240,7 @@ TEST_F(ViewerEndToEnd, ASlowPageGetsFewerFramesAndNoOldOnes) {
     if (message.kind == WsMessage::Kind::kBinary) frame = message.bytes;
   }
   EXPECT_EQ(at<std::uint32_t>(frame, 4), 3U);
-  EXPECT_GT(at<double>(frame, 16), before_us - 0.2e6) << "the field is of now, not of a second ago";
+  EXPECT_GE(at<std::uint64_t>(frame, 32), seen) << "not older than what the other page has seen long since";
 }
 
 TEST_F(ViewerEndToEnd, APageMayAskForFewerFramesOrNone) {
@@ -206,9 +254,11 @@ TEST_F(ViewerEndToEnd, APageMayAskForFewerFramesOrNone) {
   page->listen(seconds(1));
   EXPECT_LE(page->frame_seqs.size(), before + 1);
   page->client.say({{"type", "rate"}, {"hz", 10}});
-  page->listen(seconds(2));
-  EXPECT_LE(page->frame_seqs.size(), before + 24) << "20 and a little";
-  EXPECT_GE(page->frame_seqs.size(), before + 8);
+  ASSERT_TRUE(goesOn(*page));
+  const double start_us = page->sent_us;
+  const std::size_t first = page->frame_seqs.size();
+  ASSERT_TRUE(page->listen(seconds(20), [&] { return page->frame_seqs.size() >= first + 10; }));
+  EXPECT_GT(page->sent_us - start_us, 0.85e6) << "ten frames at 10 Hz, the first perhaps half a period early";
 }
 
 }  // namespace

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surfaces.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "palpate/client/error.h"
+
+namespace palpate::viewer {
+namespace {
+
+void expectAtMost(const char* field, std::size_t found) {
+  if (found > Surfaces::kMostNumbers)
+    throw client::ClientError(std::string("surface from the server: ") + field + " has " +
+                              std::to_string(found) + " entries, at most " +
+                              std::to_string(Surfaces::kMostNumbers) + " are shown");
+}
+
+}  // namespace
+
+Surfaces::Surfaces(const dds::Participant& participant)
+    : reader_(participant, nullptr, this, &Surfaces::copy) {}
+
+client::Surface Surfaces::bounded(const dds::SurfaceMesh& message) {
+  expectAtMost("positions", message.positions._length);
+  expectAtMost("triangles", message.triangles._length);
+  return client::checkedSurface(message);
+}
+
+// Asked of each sample before DDS keeps it, which it need not then.
+bool Surfaces::copy(const dds::SurfaceMesh& message, void* context) noexcept {
+  constexpr std::size_t kMostArrived = 16;  // between two polls, 20 ms
+  auto& self = *static_cast<Surfaces*>(context);
+  try {
+    Arrived arrived;
+    try {
+      arrived.surface = bounded(message);
+    } catch (const client::ClientError& error) {
+      arrived.refusal = error.what();
+    }
+    const std::lock_guard lock(self.mutex_);
+    if (self.arrived_.size() < kMostArrived) self.arrived_.push_back(std::move(arrived));
+  } catch (const std::exception& error) {  // out of memory
+    spdlog::error("a surface is lost: {}", error.what());
+  }
+  return false;
+}
+
+void Surfaces::poll(std::uint32_t organ_id, std::string_view model_id) {
+  std::vector<Arrived> arrived;
+  {
+    const std::lock_guard lock(mutex_);
+    arrived.swap(arrived_);
+  }
+  for (Arrived& one : arrived) {
+    refusal_ = one.refusal;
+    if (refusal_.empty()) keep(std::move(one.surface), organ_id, model_id);
+    if (!refusal_.empty()) spdlog::warn("{}", refusal_);
+  }
+}
+
+void Surfaces::keep(client::Surface surface, std::uint32_t organ_id, std::string_view model_id) {
+  std::erase_if(kept_, [&](const client::Surface& old) {
+    return old.organ_id == surface.organ_id && old.model_id == surface.model_id;
+  });
+  if (kept_.size() >= kMostKept) {
+    const auto oldest = std::find_if(kept_.begin(), kept_.end(), [&](const client::Surface& old) {
+      return old.organ_id != organ_id || old.model_id != model_id;
+    });
+    if (oldest != kept_.end()) kept_.erase(oldest);
+  }
+  kept_.push_back(std::move(surface));
+}
+
+const client::Surface* Surfaces::find(std::uint32_t organ_id, std::string_view model_id) const {
+  const auto at = std::find_if(kept_.begin(), kept_.end(), [&](const client::Surface& surface) {
+    return surface.organ_id == organ_id && surface.model_id == model_id;
+  });
+  return at == kept_.end() ? nullptr : &*at;
+}
+
+std::string Surfaces::anyModel(std::uint32_t organ_id) const {
+  const auto at = std::find_if(kept_.rbegin(), kept_.rend(),
+                               [&](const client::Surface& surface) { return surface.organ_id == organ_id; });
+  return at == kept_.rend() ? "" : at->model_id;
+}
+
+}  // namespace palpate::viewer

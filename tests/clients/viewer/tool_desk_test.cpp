@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grabbing and letting go, faster than the desk is asked what ended.
+#include "tool_desk.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "test_domain.h"
+
+namespace palpate::viewer {
+namespace {
+
+constexpr std::uint64_t kPage = 7;
+
+class ToolDeskOfAPage : public ::testing::Test {
+ protected:
+  ToolDeskOfAPage() { desk_.setServer(4, 0.0); }
+
+  // Waits until the page's tool is over.
+  [[nodiscard]] bool over() {
+    for (int i = 0; i < 2000 && desk_.toolOf(kPage); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return !desk_.toolOf(kPage);
+  }
+
+  dds::Participant participant_{testing::exclusiveDomain()};
+  ToolDesk desk_{participant_, {3, 2, 1, 0}};
+};
+
+TEST_F(ToolDeskOfAPage, AToolLetGoBeforeItsFirstTargetIsReleased) {
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  desk_.release(kPage);
+  ASSERT_TRUE(over());
+  const auto endings = desk_.endings();
+  ASSERT_EQ(endings.size(), 1U);
+  EXPECT_EQ(endings[0].page_id, kPage);
+  EXPECT_EQ(endings[0].message, "released");
+}
+
+TEST_F(ToolDeskOfAPage, AToolThatLiftedOffIsReleased) {
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  ASSERT_TRUE(desk_.target(kPage, {{0.0, 0.0, 0.1}}));
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  desk_.release(kPage);
+  ASSERT_TRUE(over());
+  const auto endings = desk_.endings();
+  ASSERT_EQ(endings.size(), 1U);
+  EXPECT_EQ(endings[0].message, "released");
+}
+
+TEST_F(ToolDeskOfAPage, TheEndOfAnOldToolIsNotToldAfterANewGrant) {
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  desk_.release(kPage);
+  ASSERT_TRUE(over());
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  EXPECT_TRUE(desk_.endings().empty());
+  EXPECT_TRUE(desk_.toolOf(kPage));
+}
+
+TEST_F(ToolDeskOfAPage, AGrabRightAfterAReleaseGetsAToolThatStays) {
+  for (int i = 0; i < 3; ++i) {  // the 1 kHz thread may or may not run in between
+    ASSERT_TRUE(desk_.grab(kPage).granted);
+    desk_.release(kPage);
+    const ToolGrant grant = desk_.grab(kPage);
+    ASSERT_TRUE(grant.granted) << grant.message;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(desk_.toolOf(kPage), grant.tool_id);
+    EXPECT_TRUE(desk_.endings().empty());
+    desk_.drop(kPage);
+    std::this_thread::sleep_for(std::chrono::nanoseconds(2 * ToolDesk::kRestNs));
+  }
+}
+
+TEST_F(ToolDeskOfAPage, OfAPageThatIsSilentTheToolIsTakenAway) {
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  ASSERT_TRUE(desk_.target(kPage, {{0.0, 0.0, 0.1}}));
+  ASSERT_TRUE(over());
+  const auto endings = desk_.endings();
+  ASSERT_EQ(endings.size(), 1U);
+  EXPECT_EQ(endings[0].message, "no target came for 250 ms");
+}
+
+}  // namespace
+}  // namespace palpate::viewer
