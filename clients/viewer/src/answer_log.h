@@ -34,7 +34,8 @@ class AnswerLog {
 };
 
 /// Turns a server's stamps into this machine's time. The clock may be another machine's: the offset is the least seen
-/// of arrival less stamp, which forgets at 100 ppm of 1 kHz answers. One server's: another needs a new one. Threads: one.
+/// of arrival less stamp, which forgets at 100 ppm of 1 kHz answers. One server's: another needs a new one.
+/// Threads: one.
 class StampClock {
  public:
   /// @return when the stamp was made, this machine's clock, ns; never after its arrival
