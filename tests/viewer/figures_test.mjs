@@ -64,7 +64,7 @@ test('flags are said in words', async () => {
   await seen.page.mouse.move(middle.x, middle.y);
   await seen.page.mouse.down();
   await seen.until('beyond the domain, or at the limit', (f) => (f.flags & (16 | 32)) !== 0);
-  await seen.page.waitForTimeout(600);
+  await seen.settled();
   const words = await seen.page.locator('#flags').textContent();
   await seen.page.mouse.up();
   assert.match(words, /deeper than the model was computed for|force held at its limit/);

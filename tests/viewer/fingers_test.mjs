@@ -42,7 +42,7 @@ test('on a phone all fits, a finger presses, two fingers turn it into zooming', 
   const before = await rule();
   await touch('touchMove', [{ x: middle.x + 80, y: middle.y + 8 }, { x: middle.x - 120, y: middle.y }]);
   await touch('touchEnd', []);
-  await seen.page.waitForTimeout(500);
+  await seen.settled();
   assert.notEqual(await rule(), before);
   await seen.close();
 });

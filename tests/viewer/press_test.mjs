@@ -30,7 +30,23 @@ const pressAt = async (place) => {
   await mouse().move(place.x, place.y);
   await mouse().down();
 };
-const steady = (wanted) => seen.until(`pressed ${wanted} mm deep`, (f) => Math.abs(1000 * f.penetration - wanted) < 0.15 && f.force > 0.2);
+/** Pressed so deep, and the force has not changed for a while: a page that is drawn slowly sinks in steps. */
+const steady = (wanted) => {
+  let since = 0, force = 0;
+  return seen.until(`pressed ${wanted} mm deep`, (f) => {
+    if (Math.abs(f.force - force) > 0.002 * force) [since, force] = [Date.now(), f.force];
+    return Math.abs(1000 * f.penetration - wanted) < 0.15 && f.force > 0.2 && Date.now() - since > 800;
+  });
+};
+/** Waits until the picture round a place differs from `before` by a share that `holds`. */
+const untilSeen = async (what, before, place, holds) => {
+  let share;
+  for (const end = Date.now() + 20_000; Date.now() < end; await seen.page.waitForTimeout(300)) {
+    share = shareChanged(before, await seen.around(place, 60));
+    if (holds(share)) return;
+  }
+  assert.fail(`${what} is not seen within 20 s: ${share} of the picture changed`);
+};
 const setSlider = (id, value) =>
   seen.page.locator(id).evaluate((slider, to) => {
     slider.value = to;
@@ -44,16 +60,15 @@ test('a drag makes a dent that is seen and a force that is shown, and both go wh
   const pressed = await steady(4);
   assert.ok(pressed.largestDisplacement > 0.0015, JSON.stringify(pressed));
   await mouse().move(place.x + 30, place.y + 10, { steps: 8 });
-  await seen.page.waitForTimeout(500);
+  await seen.settled();
   const shown = Number(await seen.page.locator('#force').textContent());
   assert.ok(shown > 0.2, `shown ${shown} N`);
   assert.ok(Number(await seen.page.locator('#penetration').textContent()) > 2);
-  assert.ok(shareChanged(before, await seen.around(place, 60)) > 0.1);
+  await untilSeen('the dent', before, place, (share) => share > 0.1);
   await seen.shot('pressed');
   await mouse().up();
   await seen.until('at rest again', (f) => f.largestDisplacement < 1e-4 && f.force === 0);
-  await seen.page.waitForTimeout(700);
-  assert.ok(shareChanged(before, await seen.around(place, 60)) < 0.02);
+  await untilSeen('the organ without a dent', before, place, (share) => share < 0.02);
 });
 
 test('the tool rests on the deformed surface, never inside', async () => {
@@ -137,17 +152,17 @@ test('a drag of 10 s gives a force curve without gaps, as saved', async () => {
 
 test('what was felt is painted where it was felt', async () => {
   await seen.page.locator('input[value=stiffness]').check({ force: true });
-  await seen.page.waitForTimeout(500);
+  await seen.settled();
   const place = await seen.middle();
   const before = await seen.around(place, 30);
   await pressAt(place);
   await steady(4);
   await mouse().move(place.x + 60, place.y, { steps: 10 });
-  await seen.page.waitForTimeout(500);
+  await seen.settled();
   await mouse().up();
   const { felt } = await seen.until('at rest', (f) => f.largestDisplacement < 1e-4);
   assert.ok(felt.low > 50 && felt.high >= felt.low, JSON.stringify(felt));
-  await seen.page.waitForTimeout(700);
+  await seen.settled();
   assert.ok(shareChanged(before, await seen.around(place, 30)) > 0.3);
   await seen.shot('felt');
 });

@@ -42,7 +42,7 @@ test('it is pixels: the middle is organ, the edge is not, and turning changes th
   const before = await seen.see(canvas);
   await seen.page.locator('#organ').focus();
   for (let i = 0; i < 4; ++i) await seen.page.keyboard.press('ArrowDown');
-  await seen.page.waitForTimeout(700);
+  await seen.settled();
   const changed = shareChanged(before, await seen.see(canvas), 6);
   assert.ok(changed > 0.02, `${changed} of the pixels`);
   await seen.close();
@@ -56,7 +56,7 @@ test('colours follow the choice, and light and dark the system and the button', 
   const colours = {};
   for (const choice of ['displacement', 'stiffness', 'plain']) {
     await seen.page.locator(`input[value=${choice}]`).check({ force: true });
-    await seen.page.waitForTimeout(700);
+    await seen.settled();
     colours[choice] = meanOf(await seen.around(middle, 20));
   }
   const apart = (a, b) => Math.max(...colours[a].map((v, k) => Math.abs(v - colours[b][k])));
@@ -65,7 +65,7 @@ test('colours follow the choice, and light and dark the system and the button', 
   const corner = { x: 30, y: 300 };
   const dark = meanOf(await seen.around(corner, 8));
   await seen.page.locator('#theme').click();
-  await seen.page.waitForTimeout(500);
+  await seen.settled();
   const light = meanOf(await seen.around(corner, 8));
   assert.ok(light[0] > dark[0] + 120, `dark ${dark}, light ${light}`);
   await seen.close();

@@ -68,6 +68,17 @@ export class Seen {
     throw new Error(`not within ${seconds} s: ${what}; ${JSON.stringify(figures)}`);
   }
 
+  /** Waits until nothing new has been drawn for half a second, for at most 5 s (a page that is pressed may go on). */
+  async settled() {
+    await this.page.waitForTimeout(500);
+    let pictures = -1;
+    for (const end = Date.now() + 5000; Date.now() < end; await this.page.waitForTimeout(500)) {
+      const now = (await this.figures()).pictures;
+      if (now === pictures) return;
+      pictures = now;
+    }
+  }
+
   organ() {
     return this.until('an organ is seen', (f) => f.nodes > 0 && f.organSeenMs > 0);
   }
