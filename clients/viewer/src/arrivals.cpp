@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arrivals.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "palpate/client/pacer.h"
 
 namespace palpate::viewer {
+namespace {
+
+// Pages are sent float32, also sums and lengths of these; what it cannot hold, or is no number, is not an answer.
+bool allFit(std::span<const double> numbers) noexcept {
+  constexpr double kLargest = 1e30;
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::fabs(x) <= kLargest; });
+}
+
+}  // namespace
 
 Arrivals::Arrivals(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context)
     : wake_(wake),
@@ -32,7 +44,10 @@ bool Arrivals::admits(const dds::SurfaceDisplacement& field, void* context) noex
 }
 
 bool Arrivals::admitsForce(const dds::ToolForce& force, void*) noexcept {
-  return force.tool_id < 4;  // palpate.idl
+  const double sizes[] = {force.penetration, force.domain_radius};
+  return force.tool_id < 4 &&  // palpate.idl
+         allFit(force.force) && allFit(force.stiffness) && allFit(force.anchor) && allFit(force.proxy) &&
+         allFit(sizes);
 }
 
 void Arrivals::keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns) {

@@ -26,7 +26,9 @@ double normalStiffness(const dds::ToolForce& force, const client::Point& n) {
 }
 
 bool admitsPose(const dds::ToolPose& pose, void*) noexcept {
-  return pose.tool_id < OrganFeed::kTools;
+  constexpr double kFurthest = 1e6;  // m: of no organ; pages are sent float32
+  return pose.tool_id < OrganFeed::kTools && std::all_of(std::begin(pose.position), std::end(pose.position),
+                                                         [](double x) { return std::fabs(x) <= kFurthest; });
 }
 
 // The tool's poses stopped, and the force has ended: the server answers on, but nobody holds it.

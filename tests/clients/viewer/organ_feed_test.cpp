@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <thread>
 
 #include "../small_surface.h"
@@ -26,7 +27,7 @@ class FeedOfManyServers : public ::testing::Test {
   }
   [[nodiscard]] bool matched() const {
     return statuses_.matched() > 0 && surfaces_.matched() > 0 && parameters_.matched() > 0 &&
-           fields_.matched() > 0;
+           fields_.matched() > 0 && forces_.matched() > 0 && poses_.matched() > 0;
   }
   // Polls until it is so; not for ever.
   bool until(const std::function<bool()>& so) {
@@ -76,6 +77,8 @@ class FeedOfManyServers : public ::testing::Test {
   dds::Writer<dds::SurfaceMesh> surfaces_{participant_};
   dds::Writer<dds::ServerParameters> parameters_{participant_};
   dds::Writer<dds::SurfaceDisplacement> fields_{participant_};
+  dds::Writer<dds::ToolForce> forces_{participant_};
+  dds::Writer<dds::ToolPose> poses_{participant_};
   OrganFeed feed_{participant_, kNeverTwice, [](void*) noexcept {}, nullptr};
 };
 
@@ -131,6 +134,46 @@ TEST_F(FeedOfManyServers, AServerThatSaidNoParametersHasNotThoseOfTheOneBefore) 
   sayStatus(2, 0, "bb");
   ASSERT_TRUE(until([&] { return feed_.watch().status()->server_id == 2; }));
   EXPECT_FALSE(feed_.parameters());
+}
+
+TEST_F(FeedOfManyServers, AnswersAndPosesThatAreNoNumbersAreNotShown) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  const auto answer = [&](std::uint32_t tool_id, const std::function<void(dds::ToolForce&)>& spoil) {
+    dds::ToolForce message{};
+    message.tool_id = tool_id;
+    message.force[1] = 1.0;
+    spoil(message);
+    ASSERT_TRUE(forces_.write(message));
+  };
+  const auto pose = [&](double x) {
+    dds::ToolPose message{};
+    message.tool_id = 3;
+    message.position[0] = x;
+    ASSERT_TRUE(poses_.write(message));
+  };
+  for (const double wrong : {nan, -infinity, 1e300, 3e38}) {  // three of the last are no float
+    answer(0, [&](dds::ToolForce& f) { f.force[1] = wrong; });
+    answer(0, [&](dds::ToolForce& f) { f.stiffness[8] = wrong; });
+    answer(1, [&](dds::ToolForce& f) { f.anchor[2] = wrong; });
+    answer(1, [&](dds::ToolForce& f) { f.proxy[0] = wrong; });
+    answer(2, [&](dds::ToolForce& f) { f.penetration = wrong; });
+    answer(2, [&](dds::ToolForce& f) { f.domain_radius = wrong; });
+  }
+  const auto good = [](dds::ToolForce&) {};
+  pose(0.25);
+  const auto shown = [&](std::uint32_t id) { return feed_.tool(id, client::nowNs()); };
+  ASSERT_TRUE(until([&] {
+    answer(3, good);
+    return shown(3) != nullptr && shown(3)->tip_known;
+  }));
+  pose(nan);
+  pose(1e300);
+  EXPECT_FALSE(until([&] {
+    answer(3, good);
+    return shown(3) == nullptr || shown(3)->tip[0] != 0.25;
+  }));
+  for (const std::uint32_t id : {0U, 1U, 2U}) EXPECT_EQ(shown(id), nullptr) << id;
 }
 
 TEST_F(FeedOfManyServers, FieldsOfOtherOrgansAndModelsDoNotSpendThePace) {
