@@ -9,7 +9,6 @@
 #include "palpate/core/meta_model.h"
 #include "palpate/core/response.h"
 #include "palpate/mesh/box_mesh.h"
-#include "palpate/mesh/topology.h"
 #include "palpate/modelfile/model_file.h"
 #include "palpate/offline/newton.h"
 
@@ -36,8 +35,7 @@ class SolvedBlock : public ::testing::Test {
       modelfile::writeModel(path, data);
       fe = std::make_unique<FeModel>(organ.nodes, organ.tetrahedra, organ.groups.at("fixed"),
                                      StVenantKirchhoff{c.E, c.nu});
-      const mesh::BoundarySurface boundary = mesh::boundaryOf(organ);
-      surface = std::make_unique<ContactSurface>(*fe, boundary.nodes, boundary.triangles);
+      surface = std::make_unique<ContactSurface>(SolverSetup(c, organ).surface);
     }
     ~World() { std::filesystem::remove(path); }
     World(const World&) = delete;
@@ -111,6 +109,21 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
     EXPECT_LT(errors.force, 0.1);
     EXPECT_LT(errors.field, 0.15);
   }
+}
+
+// So that what is stored for the tick ends before the clamped nodes (PackedModes).
+TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
+  const MetaModel model = MetaModel::load(world_->path);
+  const ModelView& view = model.view();
+  bool clamped = false;
+  for (std::size_t i = 0; i < view.surfaceNodes(); ++i) {
+    const bool held = !world_->fe->isFree(view.mesh_surface_node[i]);
+    EXPECT_LE(clamped, held) << "node " << i << " is free behind clamped ones";
+    clamped = held;
+    for (std::size_t number = 3 * i; held && number < view.modes_X.size(); number += 3 * view.surfaceNodes())
+      ASSERT_EQ(view.modes_X[number], 0.0F);
+  }
+  EXPECT_TRUE(clamped);
 }
 
 TEST_F(SolvedBlock, HelpersAreNotAccessible) {

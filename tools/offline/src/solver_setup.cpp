@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <string>
 
 #include "palpate/mesh/topology.h"
@@ -37,8 +38,24 @@ std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, cons
   return accessible;
 }
 
+/// Clamped nodes last, otherwise in the order of the mesh: nothing moves them, and the packed modes end before them.
+void clampedLast(const FeModel& model, mesh::BoundarySurface& boundary) {
+  std::vector<int> order(boundary.nodes.size()), place(boundary.nodes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(),
+                        [&](int node) { return model.isFree(boundary.nodes[at(node)]); });
+  const std::vector<std::int32_t> nodes = boundary.nodes;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    boundary.nodes[i] = nodes[at(order[i])];
+    place[at(order[i])] = static_cast<int>(i);
+  }
+  for (auto& triangle : boundary.triangles)
+    for (std::int32_t& node : triangle) node = place[at(node)];
+}
+
 ContactSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
   mesh::BoundarySurface boundary = mesh::boundaryOf(mesh);
+  clampedLast(model, boundary);
   return ContactSurface(model, std::move(boundary.nodes), std::move(boundary.triangles));
 }
 

@@ -20,7 +20,7 @@ struct SurfacePoint {
 
 /// The surface that a tool may touch, in surface-node numbering, with what patches are measured by.
 struct ContactSurface {
-  std::vector<std::int32_t> nodes;                     ///< Ns volume nodes
+  std::vector<std::int32_t> nodes;                     ///< Ns volume nodes, in any order
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, outward
   std::vector<Vec3> positions;                         ///< Ns, m
   SurfaceGraph graph;                                  ///< the same, as distances are measured on it
