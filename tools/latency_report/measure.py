@@ -89,28 +89,43 @@ def _realtime_granted():
 
 
 def cyclictest(setup):
-    """Wake-up lateness of a thread like the tick: priority, policy, clock_nanosleep on CLOCK_MONOTONIC each ms, memory locked."""
+    """Wake-up lateness of a thread like the tick: priority, policy, clock_nanosleep on CLOCK_MONOTONIC each ms, memory locked.
+    On a machine that stands still so often that 1 % of the wake-ups are beyond 1 ms: in whole us, up to 1 s."""
+    for nanoseconds in (True, False):
+        found = wakeups(_cyclictest_thread(setup, nanoseconds), 1e-3 if nanoseconds else 1.0)
+        if found is not None:
+            return found
+    raise Failure("cyclictest: 1 % of its wake-ups lie beyond 1 s")
+
+
+def _cyclictest_thread(setup, nanoseconds):
     result = setup.out / "cyclictest.json"
-    command = ["cyclictest", "--quiet", "--mlockall", "--threads=1", "--interval=1000", "--nsecs", "--histogram=1000000",
+    command = ["cyclictest", "--quiet", "--mlockall", "--threads=1", "--interval=1000", "--histogram=1000000",
                f"--duration={max(1, round(setup.seconds))}", f"--json={result}"]
+    if nanoseconds:
+        command.append("--nsecs")
     command += [f"--priority={TICK_PRIORITY}", "--policy=fifo"] if setup.realtime else ["--policy=other"]
     if setup.tick_cpus != os.sched_getaffinity(0):
         command.append("--affinity=" + ",".join(str(cpu) for cpu in sorted(setup.tick_cpus)))
     processes.output_of(command, setup.log("cyclictest"), setup.seconds + 30)
-    thread = json.loads(result.read_text(encoding="utf-8"))["thread"]["0"]
-    lateness = sorted((int(ns), count) for ns, count in thread["histogram"].items())
-    return {"p50": _quantile(lateness, thread["cycles"], 0.5) * 1e-3, "p99": _quantile(lateness, thread["cycles"], 0.99) * 1e-3,
-            "max": thread["max"] * 1e-3}
+    return json.loads(result.read_text(encoding="utf-8"))["thread"]["0"]
+
+
+def wakeups(thread, unit):
+    """Of what cyclictest writes of a thread, in units of `unit` us. @return None when p99 lies beyond its histogram"""
+    lateness = sorted((int(value), count) for value, count in thread["histogram"].items())
+    p50, p99 = (_quantile(lateness, thread["cycles"], q) for q in (0.5, 0.99))
+    return None if p99 is None else {"p50": p50 * unit, "p99": p99 * unit, "max": thread["max"] * unit}
 
 
 def _quantile(counts, total, q):
-    """counts: sorted (value, how often); what is beyond the histogram is counted in total only."""
+    """counts: sorted (value, how often); what is beyond the histogram is counted in total only. @return None there"""
     seen = 0
     for value, count in counts:
         seen += count
         if seen >= q * total:
             return value
-    raise Failure(f"cyclictest: {100 * q:g} % of {total} wake-ups lie beyond its histogram of 1 ms")
+    return None
 
 
 _STATISTICS = re.compile(r"size \d+ mean [\d.]+us min [\d.]+us 50% ([\d.]+)us 90% [\d.]+us 99% ([\d.]+)us max ([\d.]+)us cnt (\d+)")
@@ -119,7 +134,7 @@ _STATISTICS = re.compile(r"size \d+ mean [\d.]+us min [\d.]+us 50% ([\d.]+)us 90
 def ping_pong(text):
     """Of what `ddsperf ping` prints. It prints half of each round trip, (now - time of the ping) / 2: twice that is the whole."""
     found = [tuple(float(x) for x in match) for match in _STATISTICS.findall(text)]
-    full = [second for second in found[1:] if second[3] > 500]  # in the first one they find each other
+    full = [second for second in found[1:] if second[3] > 100]  # in the first one they find each other
     if not full:
         return None
     return {"p50": 2.0 * statistics.median(s[0] for s in full), "p99": 2.0 * statistics.median(s[1] for s in full),

@@ -55,8 +55,12 @@ class Numbers(unittest.TestCase):
         counts = [(10, 50), (20, 49)]
         self.assertEqual(measure._quantile(counts, 100, 0.5), 10)
         self.assertEqual(measure._quantile(counts, 100, 0.99), 20)
-        with self.assertRaisesRegex(processes.Failure, "99 % of 101 wake-ups"):
-            measure._quantile(counts, 101, 0.99)
+        self.assertIsNone(measure._quantile(counts, 101, 0.99))
+
+    def test_wakeups_of_cyclictest_are_in_us_unless_they_lie_beyond_its_histogram(self):
+        thread = {"histogram": {"3000": 98, "9500": 1}, "cycles": 100, "max": 2500000}
+        self.assertEqual(measure.wakeups(thread, 1e-3), times(3.0, 9.5, 2500.0))
+        self.assertIsNone(measure.wakeups(dict(thread, cycles=101), 1e-3))
 
     def test_statistics_of_ddsperf_are_understood(self):
         line = ("[72] 1.000  vm:71 size 288 mean 123.652us min 46.967us 50% 79.272us 90% 90.558us 99% 1567.062us "
