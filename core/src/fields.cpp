@@ -69,13 +69,18 @@ void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const doubl
 
 void SeparatedField::expand(std::span<const float> y, float unseen, ModeSelection& use,
                             std::span<float> u) const noexcept PALPATE_NONBLOCKING {
-  addWeightedRows(X_.data(), u.size(), y.data(), counts_.f32, u.size(), u.data());
+  const bool onto = counts_.f32 > 0 || packed_.empty();
+  if (onto) {
+    std::fill(u.begin(), u.end(), 0.0F);
+    addWeightedRows(X_.data(), u.size(), y.data(), counts_.f32, u.size(), u.data());
+  }
   if (packed_.empty()) return;
   use.choose(y, peak_, packed_, unseen);
+  const TileWeights weights{use.pairs16().data(), use.weights16(),     use.pairs16().size(),
+                            use.unit16(),         use.quads8().data(), use.weights8(),
+                            use.quads8().size(),  use.unit8(),         use.start8()};
+  sumTiles(packed_, counts_.pairs(), counts_.quads(), weights, onto, u);
   if (!use.finite()) std::fill(u.begin(), u.end(), std::numeric_limits<float>::quiet_NaN());
-  const TileWeights weights{use.pairs16().data(), use.weights16(), use.pairs16().size(), use.unit16(),
-                            use.quads8().data(),  use.weights8(),  use.quads8().size(),  use.unit8()};
-  addTiles(packed_, counts_.pairs(), counts_.quads(), weights, u);
 }
 
 Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING {

@@ -59,7 +59,6 @@ template <typename T>
 hid_t fileType() {
   if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
   if constexpr (std::is_same_v<T, float>) return H5T_IEEE_F32LE;
-  if constexpr (std::is_same_v<T, std::int8_t>) return H5T_STD_I8LE;
   if constexpr (std::is_same_v<T, std::int16_t>) return H5T_STD_I16LE;
   if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
   if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
@@ -278,7 +277,5 @@ template std::span<const std::uint8_t> Hdf5Reader::dataset(const std::string&,
                                                            std::initializer_list<Length*>) const;
 template std::span<const std::int16_t> Hdf5Reader::dataset(const std::string&,
                                                            std::initializer_list<Length*>) const;
-template std::span<const std::int8_t> Hdf5Reader::dataset(const std::string&,
-                                                          std::initializer_list<Length*>) const;
 
 }  // namespace palpate

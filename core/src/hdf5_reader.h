@@ -55,7 +55,7 @@ class Hdf5Reader {
   void numbers(const char* attribute, std::span<double> values) const;
   [[nodiscard]] int integer(const char* attribute) const;
   [[nodiscard]] std::string text(const char* attribute) const;
-  /// A dataset where it lies in the image: double, float, int8, int16, int32, int64 or uint8. Unknown lengths are filled in.
+  /// A dataset where it lies in the image: double, float, int16, int32, int64 or uint8. Unknown lengths are filled in.
   template <typename T>
   [[nodiscard]] std::span<const T> dataset(const std::string& path,
                                            std::initializer_list<Length*> shape) const;

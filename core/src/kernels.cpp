@@ -2,6 +2,8 @@
 #include "kernels.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 // Compiled once for each instruction set; the first call finds the best that the processor has.
 #undef HWY_TARGET_INCLUDE
@@ -92,6 +94,34 @@ void AddWeightedRows(const float* A, std::size_t stride, const float* weight, st
   mixAll<true>([=](std::size_t r) { return A + r * stride; }, weight, rows, length, y);
 }
 
+bool AllFinite(const float* x, std::size_t length) {
+  const hn::ScalableTag<float> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const std::size_t lanes = hn::Lanes(d);
+  // Of the bits without sign: a number has an exponent below the last.
+  auto most = hn::Zero(du), others = hn::Zero(du);
+  const auto amount = hn::Set(du, 0x7FFFFFFFU);
+  const auto bitsAt = [&](std::size_t i) { return hn::And(hn::BitCast(du, hn::LoadU(d, x + i)), amount); };
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= length; i += 2 * lanes) {
+    most = hn::Max(most, bitsAt(i));
+    others = hn::Max(others, bitsAt(i + lanes));
+  }
+  std::uint32_t largest = hn::GetLane(hn::MaxOfLanes(du, hn::Max(most, others)));
+  for (; i < length; ++i) largest = std::max(largest, std::bit_cast<std::uint32_t>(x[i]) & 0x7FFFFFFFU);
+  return largest < 0x7F800000U;
+}
+
+void MixInto(const float* from, float share, std::size_t length, float* y) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto old = hn::Set(d, share), now = hn::Set(d, 1.0F - share);
+  std::size_t i = 0;
+  for (; i + lanes <= length; i += lanes)
+    hn::StoreU(hn::MulAdd(now, hn::LoadU(d, y + i), hn::Mul(old, hn::LoadU(d, from + i))), d, y + i);
+  for (; i < length; ++i) y[i] = (1.0F - share) * y[i] + share * from[i];
+}
+
 void DotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
              float* out) {
   dotAll([=](std::size_t r) { return A + r * stride; }, y, rows, length, out);
@@ -123,6 +153,8 @@ PALPATE_TRUSTED_BEGIN  // the table of instruction sets begins with a function t
 
     HWY_EXPORT(AddWeightedRows);
 HWY_EXPORT(DotRows);
+HWY_EXPORT(AllFinite);
+HWY_EXPORT(MixInto);
 HWY_EXPORT(MixPlacedRows);
 HWY_EXPORT(DotPlacedRows);
 
@@ -138,6 +170,14 @@ void addWeightedRows(const float* A, std::size_t stride, const float* weight, st
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
              float* out) noexcept PALPATE_NONBLOCKING {
   HWY_DYNAMIC_DISPATCH(DotRows)(A, stride, y, rows, length, out);
+}
+
+bool allFinite(std::span<const float> x) noexcept PALPATE_NONBLOCKING {
+  return HWY_DYNAMIC_DISPATCH(AllFinite)(x.data(), x.size());
+}
+
+void mixInto(std::span<const float> from, float share, std::span<float> y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(MixInto)(from.data(), share, y.size(), y.data());
 }
 
 void mixRows(const Rows& rows, const double* weight, std::size_t length,

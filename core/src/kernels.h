@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "palpate/core/types.h"
 
@@ -21,6 +22,12 @@ void addWeightedRows(const float* A, std::size_t stride, const float* weight, st
 /// out[r] = sum over i < length of A[r * stride + i] * y[i]. Real-time: yes.
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
              float* out) noexcept PALPATE_NONBLOCKING;
+
+/// No infinity and no NaN. Real-time: yes.
+[[nodiscard]] bool allFinite(std::span<const float> x) noexcept PALPATE_NONBLOCKING;
+
+/// y = (1 - share) y + share from. @param from  at least as long as y. Real-time: yes.
+void mixInto(std::span<const float> from, float share, std::span<float> y) noexcept PALPATE_NONBLOCKING;
 
 /// Rows that lie here and there: number r begins at A + stride * row[r], r < count.
 struct Rows {

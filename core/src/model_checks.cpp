@@ -182,29 +182,41 @@ void checkNearOnce(const ModelView& v, const Checker& check) {
   }
 }
 
+/// No scale so large that a mode would be rounded to nothing, or that its weight would leave none to the others.
+void checkScales(const ModelView& v, const ModeCounts& counts, const Checker& check) {
+  const std::size_t numbers = 3 * v.surfaceNodes();
+  for (std::size_t k = 0; k < v.modes_packed.scale.size(); ++k) {
+    const float scale = v.modes_packed.scale[k];
+    if (!(std::isfinite(scale) && scale > 0.0F))
+      check.failAt("/modes/scale", k, "is " + text(scale), "more than 0");
+    float most = 0.0F;
+    for (const float x : v.modes_X.subspan((counts.f32 + k) * numbers, numbers))
+      most = std::max(most, std::abs(x));
+    const float top = k < counts.i16 ? 32767.0F : 94.0F;  // a shared byte takes 33 of 127
+    const float largest = 1.1F * std::max(most / top, kLeastScale);
+    if (scale > largest)
+      check.failAt("/modes/scale", k, "is " + text(scale), "at most " + text(largest) + ", as /modes/X is");
+  }
+}
+
 /// What the tick reads is what X says, rounded.
 void checkPacked(const ModelView& v, const Checker& check) {
   const PackedModes& packed = v.modes_packed;
   const std::size_t numbers = 3 * v.surfaceNodes();
   const ModeCounts counts = countModes(packed, v.modes());
-  check.require(
-      std::max(counts.i16, counts.i8) <= ModeSelection::kMostModes,
-      "/modes/scale16 or scale8 has " + std::to_string(std::max(counts.i16, counts.i8)) + " numbers",
-      "at most " + std::to_string(ModeSelection::kMostModes));
-  const auto positive = [&](const char* dataset, std::span<const float> scale) {
-    for (std::size_t k = 0; k < scale.size(); ++k)
-      if (!(std::isfinite(scale[k]) && scale[k] > 0.0F))
-        check.failAt(dataset, k, "is " + text(scale[k]), "more than 0");
-  };
-  positive("/modes/scale16", packed.scale16);
-  positive("/modes/scale8", packed.scale8);
+  const std::size_t most = std::max(counts.i16, counts.inBytes());
+  check.require(most <= ModeSelection::kMostModes,
+                "/modes/kinds has " + std::to_string(most) + " modes in int16 or in bytes",
+                "at most " + std::to_string(ModeSelection::kMostModes));
+  checkScales(v, counts, check);
   for (std::size_t mode = counts.f32; mode < v.modes(); ++mode) {
-    const float bound = 0.51F * scaleOf(packed, counts, mode);
+    const float bound = 1.02F * roundingOf(packed, counts, mode);
     for (std::size_t i = 0; i < numbers; ++i) {
       const float x = v.modes_X[mode * numbers + i], found = unpack(packed, counts, mode, i);
       if (!(std::abs(found - x) <= bound))
-        check.failAt(mode < counts.f32 + counts.i16 ? "/modes/X16, of /modes/X" : "/modes/X8, of /modes/X",
-                     mode * numbers + i, "is " + text(found), text(x) + " within " + text(bound));
+        check.failAt(
+            mode < counts.f32 + counts.i16 ? "/modes/int16, of /modes/X" : "/modes/bytes, of /modes/X",
+            mode * numbers + i, "is " + text(found), text(x) + " within " + text(bound));
     }
   }
 }

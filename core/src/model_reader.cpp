@@ -88,20 +88,42 @@ void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size
   v.contact_domain_radius = file.dataset<double>("contact/domain_radius", {&size.M});
 }
 
+/// How many modes are packed in each way, none of them more than there are.
+std::uint64_t readKinds(const Hdf5Reader& file, const Lengths& size, PackedModes& packed) {
+  Length kinds(kPackedKinds);
+  packed.kinds = file.dataset<std::int32_t>("modes/kinds", {&kinds});
+  std::int64_t sum = 0;
+  for (std::size_t k = 0; k < kPackedKinds; ++k) {
+    if (packed.kinds[k] < 0)
+      file.fail("/modes/kinds number " + std::to_string(k) + " is " + std::to_string(packed.kinds[k]) +
+                ", expected at least 0");
+    sum += packed.kinds[k];
+  }
+  if (static_cast<std::uint64_t>(sum) > size.n.value)
+    file.fail("/modes/kinds adds up to " + std::to_string(sum) + ", expected at most " + size.n.text());
+  return static_cast<std::uint64_t>(sum);
+}
+
 /// Modes in mixed precision, of files that have them.
 void readPacked(const Hdf5Reader& file, const Lengths& size, PackedModes& packed) {
   const auto has = [&](const char* dataset) { return file.hasDataset(dataset); };
-  constexpr std::array kAll{"modes/scale16", "modes/scale8", "modes/X16", "modes/X8"};  // or none of them
+  for (const char* old : {"modes/X16", "modes/X8", "modes/scale16", "modes/scale8"})  // never released
+    if (has(old))
+      file.fail(std::string("/") + old +
+                " is a storage of modes that is no longer read, expected /modes/int16, " +
+                "bytes, scale and kinds: solve the model again");
+  constexpr std::array kAll{"modes/kinds", "modes/scale", "modes/int16", "modes/bytes"};  // or none of them
   if (std::none_of(kAll.begin(), kAll.end(), has)) return;
-  Length tiles(tilesOf(3 * size.Ns.value)), tile(kTile), two(2), four(4), i16("n16"), i8("n8");
-  packed.scale16 = file.dataset<float>("modes/scale16", {&i16});
-  packed.scale8 = file.dataset<float>("modes/scale8", {&i8});
-  if (i16.value + i8.value > size.n.value)
-    file.fail("/modes/scale16 and scale8 have " + std::to_string(i16.value + i8.value) +
-              " numbers, expected at most " + size.n.text());
-  Length pairs((i16.value + 1) / 2), quads((i8.value + 3) / 4);
-  packed.X16 = file.dataset<std::int16_t>("modes/X16", {&tiles, &pairs, &tile, &two});
-  packed.X8 = file.dataset<std::int8_t>("modes/X8", {&tiles, &quads, &tile, &four});
+  Length tiles("tiles"), tile(kTile), two(2), four(4), all(readKinds(file, size, packed));
+  packed.scale = file.dataset<float>("modes/scale", {&all});
+  const ModeCounts counts = countModes(packed, static_cast<std::size_t>(size.n.value));
+  Length pairs(counts.pairs()), quads(counts.quads());
+  packed.X16 = file.dataset<std::int16_t>("modes/int16", {&tiles, &pairs, &tile, &two});
+  packed.X8 = file.dataset<std::uint8_t>("modes/bytes", {&tiles, &quads, &tile, &four});
+  if (tiles.value > tilesOf(3 * size.Ns.value))
+    file.fail("/modes/int16 has " + tiles.text() + ", expected at most " +
+              std::to_string(tilesOf(3 * size.Ns.value)));
+  packed.tiles = static_cast<std::size_t>(tiles.value);
 }
 
 void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {

@@ -3,23 +3,37 @@
 
 namespace palpate {
 
-float unpack(const PackedModes& packed, const ModeCounts& counts, std::size_t mode, std::size_t i) noexcept {
-  const std::size_t tile = i / kTile, place = i % kTile, row = mode - counts.f32;
-  if (row < counts.i16) {
-    const std::size_t pair = (tile * counts.pairs() + row / 2) * kTile + place;
-    return packed.scale16[row] * static_cast<float>(packed.X16[2 * pair + row % 2]);
-  }
-  const std::size_t lane = row - counts.i16;
-  const std::int8_t* const quad = packed.X8.data() + ((tile * counts.quads() + lane / 4) * kTile + place) * 4;
-  const auto number = static_cast<float>(quad[lane % 4]);
-  if (lane % 2 == 0) return packed.scale8[lane] * number;
-  const auto below = static_cast<float>(static_cast<std::uint8_t>(quad[lane % 4 - 1])) / 256.0F;
-  return packed.scale8[lane] * (number + below);
+ModeCounts countModes(const PackedModes& packed, std::size_t modes) noexcept {
+  if (packed.kinds.size() != kPackedKinds) return {modes, 0, 0, 0};
+  const auto of = [&](std::size_t kind) { return static_cast<std::size_t>(packed.kinds[kind]); };
+  ModeCounts counts{0, of(0), of(1), of(2)};
+  counts.f32 = modes - counts.packed();
+  return counts;
 }
 
-float scaleOf(const PackedModes& packed, const ModeCounts& counts, std::size_t mode) noexcept {
+float unpack(const PackedModes& packed, const ModeCounts& counts, std::size_t mode, std::size_t i) noexcept {
+  const std::size_t tile = i / kTile, place = i % kTile;
+  if (tile >= packed.tiles) return 0.0F;
+  std::size_t row = mode - counts.f32;
+  const float scale = packed.scale[row];
+  if (row < counts.i16) {
+    const std::size_t pair = (tile * counts.pairs() + row / 2) * kTile + place;
+    return scale * static_cast<float>(packed.X16[2 * pair + row % 2]);
+  }
+  row -= counts.i16;
+  const auto byte = [&](std::size_t slot) {
+    return packed.X8[((tile * counts.quads() + slot / 4) * kTile + place) * 4 + slot % 4] - 128;
+  };
+  const SharedByte shared = sharedByte(counts, row);
+  const int below = shared.share == 0 ? 0 : shared.share * byte(shared.slot);
+  return scale * static_cast<float>(256 * byte(row) + below) / 256.0F;
+}
+
+float roundingOf(const PackedModes& packed, const ModeCounts& counts, std::size_t mode) noexcept {
   const std::size_t row = mode - counts.f32;
-  return row < counts.i16 ? packed.scale16[row] : packed.scale8[row - counts.i16];
+  const bool bits10 = row >= counts.i16 && row < counts.i16 + counts.bits10;
+  const float steps = bits10 ? 0.125F : 0.5F;
+  return steps * packed.scale[row];
 }
 
 }  // namespace palpate

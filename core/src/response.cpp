@@ -208,13 +208,12 @@ void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources
 
 void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<float> u) noexcept PALPATE_NONBLOCKING {
-  std::fill(u.begin(), u.end(), 0.0F);
-  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
-    model.nearField().add(mix, phi, gain, scratch.near_block, u);
-  });
   const bool displaced = model.attributes().parameters == Parameters::kDisplacement;
   const double unseen = displaced ? kUnseenShare * imposed(sources) : 0.0;
   model.farField().expand(scratch.amplitudes, static_cast<float>(unseen), scratch.selection, u);
+  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
+    model.nearField().add(mix, phi, gain, scratch.near_block, u);
+  });
 }
 
 void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, const FieldScratch& scratch,

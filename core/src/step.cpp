@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kernels.h"
 #include "tool_group.h"
 #include "tool_surface.h"
 
@@ -218,8 +219,7 @@ void Tick::showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE
   work.overflowed_ = !evaluateSurface(model, work.sources_.all(), work.scratch_, u);
   work.shown_ = work.sources_;
   work.shown_known_ = weight == 0.0F && !work.overflowed_;
-  for (std::size_t i = 0; weight > 0.0F && i < u.size(); ++i)
-    u[i] = (1.0F - weight) * u[i] + weight * work.displacement_from_[i];  // no difference, which may overflow
+  if (weight > 0.0F) mixInto(work.displacement_from_, weight, u);  // no difference, which may overflow
 }
 
 void Tick::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING {

@@ -2,24 +2,12 @@
 #include "tool_surface.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "field_parts.h"
+#include "kernels.h"
 #include "palpate/core/tool_coupling.h"
 
 namespace palpate {
-
-namespace {
-
-bool isFinite(std::span<const float> values) noexcept PALPATE_NONBLOCKING {
-  int bad = 0;  // counted without a branch, so that the loop runs in vectors
-  for (const float value : values)
-    bad |= static_cast<int>(!(std::abs(value) <= std::numeric_limits<float>::max()));
-  return bad == 0;
-}
-
-}  // namespace
 
 ToolSurface::ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools,
                          FieldScratch& scratch) noexcept PALPATE_NONBLOCKING : model_(model),
@@ -64,7 +52,7 @@ bool evaluateSurface(const MetaModel& model, std::span<const FieldSource> source
                      std::span<float> u) noexcept PALPATE_NONBLOCKING {
   if (!sources.empty()) {
     fieldOf(model, sources, scratch, u);
-    if (isFinite(u)) return true;
+    if (allFinite(u)) return true;
   }
   std::fill(u.begin(), u.end(), 0.0F);
   return sources.empty();

@@ -55,7 +55,7 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--steps", options.steps, "pgd-explicit, pgd-euler: load steps")
       ->check(CLI::Range(1, 100000));
   app.add_option("--storage", options.storage,
-                 "modes: mixed (float32, int16 or int8, each as its rounding allows) or float32")
+                 "modes: mixed (8 to 16 bits or float32, each as its rounding allows) or float32")
       ->check(CLI::IsMember({"mixed", "float32"}))
       ->capture_default_str();
   app.add_option("--scratch", options.scratch, "folder of the scratch file (default: beside the output)");

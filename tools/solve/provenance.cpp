@@ -67,8 +67,8 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
   hash.add(data.modes_Y);
   hash.add(data.modes_packed.X16);
   hash.add(data.modes_packed.X8);
-  hash.add(data.modes_packed.scale16);
-  hash.add(data.modes_packed.scale8);
+  hash.add(data.modes_packed.scale);
+  hash.add(data.modes_packed.kinds);
   hash.add(data.near_field);
   data.attributes.model_id = hash.text();
   nlohmann::json provenance{{"program", "palpate-solve"},

@@ -71,11 +71,11 @@ void printTimes(const json& seconds) {
 
 void printStorage(const json& storage) {
   std::fprintf(stderr,
-               "modes kept as: %zu float32, %zu int16, %zu int8, %.2f MB; rounding costs %.3f %% of the "
-               "largest displacement\n",
+               "modes kept as: %zu float32, %zu of 16 bits, %zu of 10, %zu of 8, %.2f MB; rounding costs "
+               "%.3f %% of the largest displacement\n",
                storage["float32"].get<std::size_t>(), storage["int16"].get<std::size_t>(),
-               storage["int8"].get<std::size_t>(), 1e-6 * storage["bytes"].get<double>(),
-               100.0 * storage["error_max"].get<double>());
+               storage["bits10"].get<std::size_t>(), storage["bits8"].get<std::size_t>(),
+               1e-6 * storage["bytes"].get<double>(), 100.0 * storage["error_max"].get<double>());
 }
 
 void printRadius(const json& s) {
@@ -107,8 +107,10 @@ double ownError(const offline::BuildReport& report) {
 }
 
 json toJson(const modelfile::StorageReport& storage) {
-  return {{"float32", storage.counts.f32},  {"int16", storage.counts.i16},        {"int8", storage.counts.i8},
-          {"error_max", storage.error_max}, {"error_limit", storage.error_limit}, {"bytes", storage.bytes}};
+  return {{"float32", storage.counts.f32},   {"int16", storage.counts.i16},
+          {"bits10", storage.counts.bits10}, {"bits8", storage.counts.bits8},
+          {"error_max", storage.error_max},  {"error_limit", storage.error_limit},
+          {"bytes", storage.bytes}};
 }
 
 json stages(Method method, const offline::BuildReport& report) {

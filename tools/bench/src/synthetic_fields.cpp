@@ -34,7 +34,9 @@ Wave randomWave(int mode, std::mt19937& random) {
   return {(direction * count / kSize).cast<float>(), static_cast<float>(phase(random))};
 }
 
-void fillX(const Ellipsoid& surface, int modes, std::mt19937& random, std::vector<float>& X) {
+/// Clamped nodes stay where they are.
+void fillX(const Ellipsoid& surface, int modes, std::mt19937& random, ModelData& data) {
+  std::vector<float>& X = data.modes_X;
   const std::size_t row = 3 * surface.nodes.size();
   const float size = std::sqrt(2.0F / 3.0F / kWaves);  // mean square of the vector 1
   X.assign(static_cast<std::size_t>(modes) * row, 0.0F);
@@ -45,6 +47,7 @@ void fillX(const Ellipsoid& surface, int modes, std::mt19937& random, std::vecto
         float* const x = X.data() + static_cast<std::size_t>(k) * row + axis;
         for (std::size_t i = 0; i < surface.nodes.size(); ++i)
           x[3 * i] += size * std::cos(wave.number.dot(surface.nodes[i].cast<float>()) + wave.phase);
+        for (const std::int32_t node : data.mesh_fixed) x[3 * static_cast<std::size_t>(node)] = 0.0F;
       }
 }
 
@@ -83,7 +86,7 @@ Vec3 dent(const ModelAttributes& a, const MultiIndex& alpha, double r) {
 
 void fillModes(const Ellipsoid& surface, int modes, ModelData& data) {
   std::mt19937 random(1);
-  fillX(surface, modes, random, data.modes_X);
+  fillX(surface, modes, random, data);
   fillY(surface, modes, random, data);
 }
 

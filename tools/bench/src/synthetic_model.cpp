@@ -40,7 +40,7 @@ void fillSurface(const Ellipsoid& surface, ModelData& data) {
     const auto node = static_cast<std::int32_t>(data.surface_mesh_tag.size());
     data.surface_mesh_tag.push_back(node + 1);
     data.mesh_surface_node.push_back(node);
-    if (X.z() < -0.7 * kSemiAxes.z()) data.mesh_fixed.push_back(node);
+    if (X.z() < -0.8 * kSemiAxes.z()) data.mesh_fixed.push_back(node);  // a tenth, as of the default organ
   }
   for (const auto& triangle : surface.triangles)
     data.surface_triangles.insert(data.surface_triangles.end(), triangle.begin(), triangle.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_sizes.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -64,14 +65,23 @@ void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t 
 
 void checkPacked(const ModelData& d, std::size_t Ns) {
   const PackedModesData& packed = d.modes_packed;
-  const std::size_t i16 = packed.scale16.size(), i8 = packed.scale8.size();
-  if (i16 + i8 > modeCount(d))
-    throw ModelFileError("/modes/scale16 and scale8 have " + std::to_string(i16 + i8) +
-                         " numbers, expected at most " + std::to_string(modeCount(d)));
+  expectSize("modes/kinds", packed.kinds.size(), packed.scale.empty() ? 0 : kPackedKinds);
+  std::size_t modes = 0;
+  for (const std::int32_t kind : packed.kinds) {
+    if (kind < 0) throw ModelFileError("/modes/kinds has " + std::to_string(kind) + ", expected at least 0");
+    modes += static_cast<std::size_t>(kind);
+  }
+  expectSize("modes/scale", packed.scale.size(), modes);
+  if (modes > modeCount(d))
+    throw ModelFileError("/modes/kinds adds up to " + std::to_string(modes) + ", expected at most " +
+                         std::to_string(modeCount(d)));
   const ModeCounts counts = countModes(packed.view(), modeCount(d));
-  const std::size_t tile_numbers = tilesOf(3 * Ns) * kTile;
-  expectSize("modes/X16", packed.X16.size(), counts.pairs() * tile_numbers * 2);
-  expectSize("modes/X8", packed.X8.size(), counts.quads() * tile_numbers * 4);
+  if (packed.tiles > tilesOf(3 * Ns))
+    throw ModelFileError("/modes/int16 and bytes have " + std::to_string(packed.tiles) +
+                         " tiles, expected at most " + std::to_string(tilesOf(3 * Ns)));
+  const std::size_t tile_numbers = packed.tiles * kTile;
+  expectSize("modes/int16", packed.X16.size(), counts.pairs() * tile_numbers * 2);
+  expectSize("modes/bytes", packed.X8.size(), counts.quads() * tile_numbers * 4);
 }
 
 void checkMesh(const ModelData& d) {

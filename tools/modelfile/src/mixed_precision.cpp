@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "palpate/core/multi_index.h"
 #include "palpate/core/parameter_functions.h"
@@ -67,26 +68,29 @@ Samples sample(const ModelData& data, const Rows& X) {
 
 using Kinds = std::vector<ModePrecision>;
 
-/// Kind of each mode when rounding errors may have the standard deviation sigma: int8 where it costs least, then
-/// int16. @param size  of each mode's largest number in a typical field
-Kinds chooseKinds(std::span<const float> size, double sigma) {
-  constexpr double kUniform = 0.29;  // standard deviation of a rounding error, in steps
-  Kinds kinds(size.size(), ModePrecision::kFloat32);
-  std::vector<std::size_t> order(size.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return size[a] < size[b]; });
-  std::size_t next = 0;
-  const auto fill = [&](ModePrecision kind, double step, double variance) {
-    for (; next < order.size(); ++next) {
-      const double error = kUniform * step * static_cast<double>(size[order[next]]);
-      if (error * error > variance) return;
-      variance -= error * error;
-      kinds[order[next]] = kind;
-    }
-  };
-  fill(ModePrecision::kInt8, 1.0 / 127.0, 0.8 * sigma * sigma);
-  fill(ModePrecision::kInt16, 1.0 / 32767.0, 0.2 * sigma * sigma);
+/// What a kind costs, and its largest rounding error over the largest number of a mode.
+struct Cost {
+  ModePrecision kind;
+  double bits;
+  double rounding;
+};
+constexpr std::array kCosts{
+    Cost{ModePrecision::kFloat32, 32.0, 0.0}, Cost{ModePrecision::kInt16, 16.0, 0.5 / 32767.0},
+    Cost{ModePrecision::kBits10, 10.0, 0.5 / 4.0 / 115.0}, Cost{ModePrecision::kBits8, 8.0, 0.5 / 127.0}};
+
+/// The kind of each mode that costs least when a squared rounding error of `price` costs a bit.
+/// @param size  of each mode's largest number in a typical field
+Kinds chooseKinds(std::span<const float> size, double price) {
+  Kinds kinds;
+  for (const float s : size) {
+    const auto cost = [&](const Cost& c) {
+      const double error = c.rounding * static_cast<double>(s);
+      return c.bits + error * error / price;
+    };
+    kinds.push_back(std::min_element(kCosts.begin(), kCosts.end(), [&](const Cost& a, const Cost& b) {
+                      return cost(a) < cost(b);
+                    })->kind);
+  }
   return kinds;
 }
 
@@ -94,16 +98,19 @@ ModeCounts count(const Kinds& kinds) {
   const auto of = [&](ModePrecision kind) {
     return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kind));
   };
-  return {of(ModePrecision::kFloat32), of(ModePrecision::kInt16), of(ModePrecision::kInt8)};
+  return {of(ModePrecision::kFloat32), of(ModePrecision::kInt16), of(ModePrecision::kBits10),
+          of(ModePrecision::kBits8)};
 }
 
-/// Modes by kind, each kind in the order it had.
-std::vector<Index> orderOf(const Kinds& kinds) {
+/// Modes by kind, those of a kind by size: what shares a quad is seen together.
+std::vector<Index> orderOf(const Kinds& kinds, std::span<const float> size) {
   std::vector<Index> order(kinds.size());
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return kinds[static_cast<std::size_t>(a)] < kinds[static_cast<std::size_t>(b)];
-  });
+  const auto rank = [&](Index k) {
+    const auto place = static_cast<std::size_t>(k);
+    return std::pair(kinds[place], -size[place]);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return rank(a) < rank(b); });
   return order;
 }
 
@@ -115,8 +122,13 @@ struct Storage {
   double error{0.0};
 };
 
-Storage store(const Rows& X, const Samples& samples, const Kinds& kinds) {
-  Storage storage{orderOf(kinds), count(kinds), {}, 0.0};
+std::size_t bytesOf(const Storage& storage, Index numbers) {
+  return sizeof(float) * storage.counts.f32 * static_cast<std::size_t>(numbers) +
+         sizeof(std::int16_t) * storage.packed.X16.size() + storage.packed.X8.size();
+}
+
+Storage store(const Rows& X, const Samples& samples, std::span<const float> size, const Kinds& kinds) {
+  Storage storage{orderOf(kinds, size), count(kinds), {}, 0.0};
   const Rows ordered = X(storage.order, Eigen::all);
   const std::size_t numbers = static_cast<std::size_t>(X.cols());
   storage.packed =
@@ -133,24 +145,20 @@ Storage store(const Rows& X, const Samples& samples, const Kinds& kinds) {
   return storage;
 }
 
-/// The fewest bits that keep the limit: the spread of errors that a largest one of `limit` allows is found by trial.
+/// The fewest bytes that keep the limit: the price of a bit is found by trial, as errors go with its root.
 Storage search(const Rows& X, const Samples& samples, double limit) {
-  constexpr int kTrials = 6;
+  constexpr int kTrials = 8;
   std::vector<float> size;
   for (Index k = 0; k < X.rows(); ++k)
     size.push_back(samples.typical[static_cast<std::size_t>(k)] * X.row(k).cwiseAbs().maxCoeff());
-  Storage best = store(X, samples, Kinds(size.size(), ModePrecision::kFloat32));
-  std::size_t fewest = 4 * size.size();
-  double sigma = limit / 5.0;
+  Storage best = store(X, samples, size, Kinds(size.size(), ModePrecision::kFloat32));
+  double price = limit * limit / 500.0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    Storage storage = store(X, samples, chooseKinds(size, sigma));
-    const std::size_t bytes = 4 * storage.counts.f32 + 2 * storage.counts.i16 + storage.counts.i8;
-    const double error = std::max(storage.error, 1e-3 * limit);
-    if (storage.error <= limit && bytes < fewest) {
-      fewest = bytes;
+    Storage storage = store(X, samples, size, chooseKinds(size, price));
+    const double share = 0.97 * limit / std::max(storage.error, 1e-3 * limit);
+    if (storage.error <= limit && bytesOf(storage, X.cols()) < bytesOf(best, X.cols()))
       best = std::move(storage);
-    }
-    sigma *= 0.95 * limit / error;
+    price *= share * share;
   }
   return best;
 }
@@ -180,11 +188,10 @@ StorageReport storeMixed(ModelData& data, double own_error) {
   Storage storage = search(X, sample(data, X), report.error_limit);
   if (storage.packed.view().empty()) return report;
   reorder(storage, X, data);
+  report.bytes = bytesOf(storage, X.cols());
   data.modes_packed = std::move(storage.packed);
   report.counts = storage.counts;
   report.error_max = storage.error;
-  report.bytes = 4 * storage.counts.f32 * static_cast<std::size_t>(X.cols()) +
-                 2 * data.modes_packed.X16.size() + data.modes_packed.X8.size();
   return report;
 }
 

@@ -29,9 +29,6 @@ hid_t fileType(double) {
 hid_t fileType(float) {
   return H5T_IEEE_F32LE;
 }
-hid_t fileType(std::int8_t) {
-  return H5T_STD_I8LE;
-}
 hid_t fileType(std::int16_t) {
   return H5T_STD_I16LE;
 }
@@ -49,9 +46,6 @@ hid_t memoryType(double) {
 }
 hid_t memoryType(float) {
   return H5T_NATIVE_FLOAT;
-}
-hid_t memoryType(std::int8_t) {
-  return H5T_NATIVE_INT8;
 }
 hid_t memoryType(std::int16_t) {
   return H5T_NATIVE_INT16;
@@ -181,11 +175,10 @@ void writePacked(const Hdf5Handle& file, const ModelData& d) {
   const PackedModesData& packed = d.modes_packed;
   if (packed.view().empty()) return;
   const ModeCounts counts = countModes(packed.view(), modeCount(d));
-  const hsize_t tiles = tilesOf(d.modes_X.size() / modeCount(d));
-  writeDataset(file, "modes/X16", packed.X16, {tiles, counts.pairs(), kTile, 2});
-  writeDataset(file, "modes/X8", packed.X8, {tiles, counts.quads(), kTile, 4});
-  writeDataset(file, "modes/scale16", packed.scale16, {counts.i16});
-  writeDataset(file, "modes/scale8", packed.scale8, {counts.i8});
+  writeDataset(file, "modes/int16", packed.X16, {packed.tiles, counts.pairs(), kTile, 2});
+  writeDataset(file, "modes/bytes", packed.X8, {packed.tiles, counts.quads(), kTile, 4});
+  writeDataset(file, "modes/scale", packed.scale, {counts.packed()});
+  writeDataset(file, "modes/kinds", packed.kinds, {kPackedKinds});
 }
 
 void writeDatasets(const Hdf5Handle& file, const ModelData& d) {

@@ -31,7 +31,7 @@ class SeparatedField {
   /// @param phi  [C] ParameterFunctions at p, @param y  [n]. Cost O(C n). Real-time: yes.
   void addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
-  /// u += X^T y, m; packed modes that together cannot move a node by more than `unseen` are left out. NaN where y is
+  /// u = X^T y, m; packed modes that together cannot move a node by more than `unseen` are left out. NaN where y is
   /// too large for numbers. @param unseen  m, 0 for none  @param use  scratch  @param u  [Ns][3]
   /// Cost O(n Ns). Real-time: yes.
   void expand(std::span<const float> y, float unseen, ModeSelection& use,

@@ -15,21 +15,21 @@ namespace palpate {
 /// Whole-number weights of two modes, as they are multiplied by one instruction.
 using WeightPair = std::array<std::int16_t, 2>;
 
-/// Weights of four int8 modes a, b, c, d.
+/// Weights of a quad of bytes: byte k counts pair[k / 2] * byte[k]. Two bytes with their weights fit sixteen bits, as
+/// the amounts of the weights add up to at most 128.
 struct QuadWeights {
-  WeightPair bd;
-  WeightPair ac;
+  std::array<std::int8_t, 4> byte{};
+  WeightPair pair{};
 };
 
-/// Which packed modes a field needs at its amplitudes y, and with what weights: whole numbers, whose amounts add up to
-/// at most kLargestSum for each kind of modes, so that a sum of products fits 32 bits. Scratch of one thread, allocated
-/// before the loop.
+/// Which packed modes a field needs at its amplitudes y, and with what weights: whole numbers, small enough that a sum
+/// of products fits 32 bits. A quad may come twice. Scratch of one thread, allocated before the loop.
 class ModeSelection {
  public:
   explicit ModeSelection(const ModeCounts& counts);
 
-  /// Leaves out modes that cannot be seen: those with the smallest |y_k| peak_k, as many as have a sum of at most
-  /// `unseen`, found by half octaves. That sum bounds what leaving them out costs at any node.
+  /// Leaves out pairs and quads of modes that cannot be seen: those with the smallest sums of |y_k| peak_k, as many as
+  /// add up to at most `unseen`, found by half octaves. That bounds what leaving them out costs at any node.
   /// @param y  [n] m  @param peak  [n] largest displacement of a node in each mode  @param packed  the modes
   /// @param unseen  m; 0 leaves out nothing  Cost O(n). Real-time: yes.
   void choose(std::span<const float> y, std::span<const float> peak, const PackedModes& packed,
@@ -41,28 +41,41 @@ class ModeSelection {
   [[nodiscard]] std::span<const std::uint32_t> pairs16() const noexcept { return {pair16_.data(), count16_}; }
   [[nodiscard]] const WeightPair* weights16() const noexcept { return weight16_.data(); }
   [[nodiscard]] float unit16() const noexcept { return unit16_; }
-  /// Quads of int8 modes likewise; a number of a mode counts 256 times.
+  /// Quads of bytes likewise; the sums begin with start8, as bytes count from 128.
   [[nodiscard]] std::span<const std::uint32_t> quads8() const noexcept { return {quad8_.data(), count8_}; }
   [[nodiscard]] const QuadWeights* weights8() const noexcept { return weight8_.data(); }
   [[nodiscard]] float unit8() const noexcept { return unit8_; }
+  [[nodiscard]] std::int32_t start8() const noexcept { return start8_; }
 
-  /// Products of sixteen bits, 2^15 each at most, that fit 32 bits.
+  /// What the amounts of int16 weights may add up to: products of sixteen bits, 2^15 each at most, that fit 32 bits.
   static constexpr std::size_t kLargestSum = 65535;
-  /// Of one kind. Weights are made to add up to kLargestSum - n and rounded by up to a half each, so that any n keeps
-  /// the sum; but with more modes than this rounding would take more than an eighth of it.
+  /// And those of bytes, byte[k] * pair[k / 2]: bytes differ from 128 by at most 2^7.
+  static constexpr std::size_t kLargestByteSum = std::size_t{1} << 24U;
+  /// Of int16, and of bytes. Weights are made to add up to less than the largest sum by what rounding may add: with
+  /// more modes than this that would be more than an eighth of it.
   static constexpr std::size_t kMostModes = 16384;
 
  private:
-  [[nodiscard]] int firstSeen(float per_tolerance) const noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] float findWeights(std::span<const float> y, std::span<const float> scale,
-                                  std::span<std::int16_t> weight) noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool anySeen(std::size_t first, std::size_t count) const noexcept PALPATE_NONBLOCKING;
+  void findSeen(std::span<const float> y, std::span<const float> peak,
+                float unseen) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool seen(std::size_t group) const noexcept PALPATE_NONBLOCKING;
+  void chooseInt16(std::span<const float> y, std::span<const float> scale) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] float findWeights(std::span<const float> y,
+                                  std::span<const float> scale) noexcept PALPATE_NONBLOCKING;
+  void chooseBytes(std::span<const float> y, std::span<const float> scale) noexcept PALPATE_NONBLOCKING;
+  void findSlots(std::span<const float> y, std::span<const float> scale) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] float unitOfBytes() noexcept PALPATE_NONBLOCKING;
+  void splitSlots() noexcept PALPATE_NONBLOCKING;
+  void addQuad(std::size_t quad, std::size_t first) noexcept PALPATE_NONBLOCKING;
 
   ModeCounts counts_;
-  std::vector<float> amount_;
-  float per_tolerance_{0.0F};
+  std::vector<float> group_;  // amount of each pair, then of each quad of modes, over what may be left out
   int first_seen_{0};
-  std::vector<std::int16_t> whole_;  // of one kind of modes
+  std::vector<std::int16_t> whole_;  // of int16 modes
+  std::vector<float> slot_;          // amplitude of each byte
+  std::vector<float> even_, odd_, left_;
+  std::vector<std::int16_t> bytes_, weight_;
+  std::vector<std::uint32_t> again_;
   std::vector<std::uint32_t> pair16_;
   std::vector<WeightPair> weight16_;
   std::vector<std::uint32_t> quad8_;
@@ -71,6 +84,7 @@ class ModeSelection {
   std::size_t count8_{0};
   float unit16_{0.0F};
   float unit8_{0.0F};
+  std::int32_t start8_{0};
   bool finite_{true};
 };
 

@@ -11,30 +11,45 @@ namespace palpate {
 inline constexpr std::size_t kTile = 64;
 
 /// How a mode's numbers are kept for the tick: as they are, or as whole numbers with a scale.
-enum class ModePrecision : std::uint8_t { kFloat32, kInt16, kInt8 };
+enum class ModePrecision : std::uint8_t { kFloat32, kInt16, kBits10, kBits8 };
+inline constexpr std::size_t kPackedKinds = 3;  ///< all but float32
 
-/// How many modes of each kind there are, in the order of the file: float32 first, int8 last.
+/// Of a mode without a number to speak of.
+inline constexpr float kLeastScale = 1e-30F;
+
+/// How many modes of each kind there are, in the order of the file. All but the first two kinds are kept in bytes.
 struct ModeCounts {
   std::size_t f32{0};
   std::size_t i16{0};
-  std::size_t i8{0};
+  std::size_t bits10{0};
+  std::size_t bits8{0};
 
+  [[nodiscard]] std::size_t inBytes() const noexcept { return bits10 + bits8; }
+  [[nodiscard]] std::size_t packed() const noexcept { return i16 + inBytes(); }
+  [[nodiscard]] std::size_t all() const noexcept { return f32 + packed(); }
+  /// Pairs of int16 modes.
   [[nodiscard]] std::size_t pairs() const noexcept { return (i16 + 1) / 2; }
-  [[nodiscard]] std::size_t quads() const noexcept { return (i8 + 3) / 4; }
+  /// Quads of bytes: first a byte of each mode, then, in quads of their own, the bytes that modes share.
+  [[nodiscard]] std::size_t ownQuads() const noexcept { return (inBytes() + 3) / 4; }
+  [[nodiscard]] std::size_t shared() const noexcept { return (bits10 + 3) / 4; }
+  [[nodiscard]] std::size_t quads() const noexcept { return ownQuads() + (shared() + 3) / 4; }
 };
 
 /// The modes of a file in mixed precision, as the tick reads them; all empty where X is read instead.
-/// For modes f32 .. n - 1, a number of a mode is scale * what is stored. Tiles of kTile numbers follow each other, the
-/// last one filled up with zeros; tiles = ceil(3 Ns / kTile).
-/// In a quad of int8 modes a, b, c, d the sixteen bits that hold a and b are 256 times the number of b as they stand,
-/// and 256 times that of a when they are moved up by eight: b is rounded knowing a, and is as exact.
+/// Tiles of kTile numbers follow each other, the last one filled up, as many as it takes to hold every number that is
+/// not zero in all modes: clamped nodes at the end of the surface need none.
+/// An int16 mode's number is scale * what is stored. Bytes count from 128. A number of a mode in bytes is
+/// scale * (own + share / 256 * shared): four modes of 10 bits share a byte, with shares 1, 4, 16 and 64. Modulo 1 the
+/// shared byte then says two bits more of each, and what it adds beyond that the own byte takes back: nothing has to be
+/// taken apart, a field is a weighted sum of bytes.
 struct PackedModes {
-  std::span<const std::int16_t> X16;  ///< [tiles][ceil(i16 / 2)][kTile][2]
-  std::span<const std::int8_t> X8;    ///< [tiles][ceil(i8 / 4)][kTile][4]
-  std::span<const float> scale16;     ///< [i16]
-  std::span<const float> scale8;      ///< [i8]
+  std::span<const std::int16_t> X16;    ///< [tiles][ceil(i16 / 2)][kTile][2]
+  std::span<const std::uint8_t> X8;     ///< [tiles][quads][kTile][4]
+  std::span<const float> scale;         ///< [i16 + bits10 + bits8]
+  std::span<const std::int32_t> kinds;  ///< [kPackedKinds] how many modes have 16, 10 and 8 bits
+  std::size_t tiles{0};                 ///< at most tilesOf(3 Ns)
 
-  [[nodiscard]] bool empty() const noexcept { return scale16.empty() && scale8.empty(); }
+  [[nodiscard]] bool empty() const noexcept { return scale.empty(); }
 };
 
 [[nodiscard]] constexpr std::size_t tilesOf(std::size_t numbers) noexcept {
@@ -42,16 +57,25 @@ struct PackedModes {
 }
 
 /// @param modes  n, at least as many as are packed
-[[nodiscard]] inline ModeCounts countModes(const PackedModes& packed, std::size_t modes) noexcept {
-  const std::size_t i16 = packed.scale16.size(), i8 = packed.scale8.size();
-  return {modes - i16 - i8, i16, i8};
+[[nodiscard]] ModeCounts countModes(const PackedModes& packed, std::size_t modes) noexcept;
+
+/// Of a mode in bytes: which shared byte it has, and how much of it.
+struct SharedByte {
+  std::size_t slot;  ///< byte in all quads of a tile, from 4 * ownQuads() on
+  int share;         ///< of 256; 0: none
+};
+/// @param row  of the modes in bytes, 0 to inBytes() - 1
+[[nodiscard]] inline SharedByte sharedByte(const ModeCounts& counts, std::size_t row) noexcept {
+  const std::size_t first = 4 * counts.ownQuads();
+  return row < counts.bits10 ? SharedByte{first + row / 4, 1 << (2 * (row % 4))} : SharedByte{first, 0};
 }
 
 /// Number i of a mode that is not float32. @param mode  of the file, counts.f32 to n - 1  @param i  below 3 Ns
 [[nodiscard]] float unpack(const PackedModes& packed, const ModeCounts& counts, std::size_t mode,
                            std::size_t i) noexcept;
 
-/// The scale of a mode that is not float32: half of it is the largest rounding error of a number.
-[[nodiscard]] float scaleOf(const PackedModes& packed, const ModeCounts& counts, std::size_t mode) noexcept;
+/// The largest rounding error of a number of a mode that is not float32.
+[[nodiscard]] float roundingOf(const PackedModes& packed, const ModeCounts& counts,
+                               std::size_t mode) noexcept;
 
 }  // namespace palpate

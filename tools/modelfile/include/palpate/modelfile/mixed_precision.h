@@ -19,13 +19,13 @@ struct StorageReport {
   std::size_t bytes{0};  ///< of modes that a tick reads
 };
 
-/// Rounding may cost this much of the largest displacement, however large the model's own error is; with what is left
-/// out (kUnseenShare) it stays below 1e-3.
+/// Rounding may cost this much of the largest displacement, however large the model's own error is: so that with what
+/// is left out (kUnseenShare) and with weights that are whole numbers, 1e-3 was not reached (core/README.md).
 inline constexpr double kMostRounding = 7e-4;
 
-/// Chooses for each mode float32, int16 or int8 with a scale, as few bits as keep the rounding of a field under a
-/// tenth of the model's own error and under kMostRounding; measured on fields of random contacts within the domain,
-/// against the modes as they are.                                                                DESIGN 3.3
+/// Chooses for each mode float32 or 16, 10 or 8 bits with a scale (PackedModes), as few as keep the rounding of a
+/// field under a tenth of the model's own error and under kMostRounding; measured on fields of random contacts within
+/// the domain, against the modes as they are.                                                    DESIGN 3.3
 /// Orders the modes by kind (modes_X and modes_Y) and fills modes_packed, which stays empty where all
 /// modes need float32. @param data  complete but for these  @param own_error  of the model's fields, over the
 /// displacement; 0 keeps float32. O(samples n Ns).

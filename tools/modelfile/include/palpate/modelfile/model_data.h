@@ -18,11 +18,12 @@ namespace palpate::modelfile {
 /// What PackedModes views.
 struct PackedModesData {
   std::vector<std::int16_t> X16;
-  std::vector<std::int8_t> X8;
-  std::vector<float> scale16;
-  std::vector<float> scale8;
+  std::vector<std::uint8_t> X8;
+  std::vector<float> scale;
+  std::vector<std::int32_t> kinds;
+  std::size_t tiles{0};
 
-  [[nodiscard]] PackedModes view() const { return {X16, X8, scale16, scale8}; }
+  [[nodiscard]] PackedModes view() const { return {X16, X8, scale, kinds, tiles}; }
 };
 
 /// Everything that a model file holds, as vectors. Shapes are row-major as in core/README.md "The model
