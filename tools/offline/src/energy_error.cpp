@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/offline/energy_error.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "dense_decompositions.h"
 #include "palpate/offline/parallel.h"
 
 namespace palpate::offline {
@@ -81,8 +81,7 @@ MatrixXd complianceMatrix(const ParametricProblem& problem, int workers) {
 VectorXd energySingularValues(const MatrixXd& compliance, const VectorXd& weights) {
   const VectorXd root = weights.cwiseSqrt();
   const MatrixXd A = root.asDiagonal() * compliance * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+  return eigenvalues(A).cwiseMax(0.0).cwiseSqrt();
 }
 
 double bestError(const VectorXd& singular_values, Index n) {

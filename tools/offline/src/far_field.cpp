@@ -2,13 +2,13 @@
 #include "palpate/offline/far_field.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 
 #include "ball_moments.h"
+#include "dense_decompositions.h"
 #include "far_field_fit.h"
 #include "palpate/offline/parallel.h"
 #include "palpate/offline/progress.h"
@@ -137,8 +137,7 @@ void FarFieldFit::sweep(bool last) {
 void FarFieldFit::orderByEnergy() {
   const MatrixXf Z = whitenedY();
   const MatrixXf gram = Z * Z.transpose();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram.cast<double>());
-  const MatrixXf turn = eigen.eigenvectors().rowwise().reverse().cast<float>();
+  const MatrixXf turn = eigenpairs(gram.cast<double>()).V.cast<float>();
   result_.X = (result_.X * turn).eval();
   result_.Y = (turn.transpose() * result_.Y).eval();
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/offline/level_solution.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "dense_decompositions.h"
 
 namespace palpate::offline {
 
@@ -43,9 +43,9 @@ Eigen::MatrixXd levelVectors(const std::vector<Eigen::MatrixXd>& Y, const Eigen:
   const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(table);
   const Eigen::Index rank = std::min(table.rows(), steps);
   const Eigen::MatrixXd R = table.topRows(rank).triangularView<Eigen::Upper>();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(R, Eigen::ComputeThinV);
-  const Eigen::Index count = leading(svd.singularValues().cwiseAbs2(), cut.tolerance);
-  return svd.matrixV().leftCols(std::min<Eigen::Index>(count, cut.max_levels));
+  const SingularValues svd = singularValues(R);
+  const Eigen::Index count = leading(svd.values.cwiseAbs2(), cut.tolerance);
+  return svd.V.leftCols(std::min<Eigen::Index>(count, cut.max_levels));
 }
 
 /// X to columns of largest entry 1; Y takes the factor.
@@ -77,8 +77,8 @@ HistoryModes historyModes(const LevelHistory& history, const Eigen::VectorXd& v)
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
   for (const Eigen::MatrixXd& Y : history.Y)
     gram.topLeftCorner(Y.rows(), Y.rows()).noalias() += Y * v.asDiagonal() * Y.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  return {eigen.eigenvectors().rowwise().reverse(), eigen.eigenvalues().reverse().cwiseMax(0.0)};
+  const Eigenpairs eigen = eigenpairs(gram);
+  return {eigen.V, eigen.values.cwiseMax(0.0)};
 }
 
 LevelSolution separateLevels(LevelHistory history, const Eigen::VectorXd& v, const LevelCut& cut) {

@@ -2,12 +2,13 @@
 #include "palpate/offline/load_separation.h"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 #include <string>
+
+#include "dense_decompositions.h"
 
 namespace palpate::offline {
 
@@ -52,11 +53,11 @@ SeparatedLoad::SeparatedLoad(const SparseMatrix& loads, const Eigen::VectorXd& w
   const SparseMatrix A = loads * root.asDiagonal();
   const MatrixXd Q = strongRange(A, std::min<Index>(terms + kOversampling, most), seed);
   const MatrixXd B = Q.transpose() * A;
-  const Eigen::BDCSVD<MatrixXd> svd(B, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  f_ = Q * svd.matrixU().leftCols(terms);
-  g_ = svd.singularValues().head(terms).asDiagonal() * svd.matrixV().leftCols(terms).transpose() *
+  const SingularValues svd = singularValues(B);
+  f_ = Q * svd.U.leftCols(terms);
+  g_ = svd.values.head(terms).asDiagonal() * svd.V.leftCols(terms).transpose() *
        root.cwiseInverse().asDiagonal();
-  const double kept = svd.singularValues().head(terms).squaredNorm();
+  const double kept = svd.values.head(terms).squaredNorm();
   error_ = std::sqrt(std::max(0.0, 1.0 - kept / A.squaredNorm()));
   truncated_ = true;
   loads_ = SparseMatrix();

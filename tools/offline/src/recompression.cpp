@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/offline/recompression.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "dense_decompositions.h"
 
 namespace palpate::offline {
 
@@ -98,15 +99,14 @@ Recompressed recompress(const ScalarPairs& pairs, const InnerProduct& product, c
   check(pairs, weights, n);
   const OrthonormalBasis x = orthonormalize(pairs.X, product);
   const OrthonormalBasis y = orthonormalize(pairs.Y.transpose(), diagonalProduct(weights));
-  const Eigen::BDCSVD<MatrixXd> svd(x.R * y.R.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const SingularValues svd = singularValues(x.R * y.R.transpose());
   Recompressed result;
-  result.singular_values = svd.singularValues();
+  result.singular_values = svd.values;
   const double least = 1e-15 * result.singular_values.head(1).sum();
   const Index rank = (result.singular_values.array() > least).count();
   const Index kept = std::min(n, rank);
-  result.pairs.X = x.Q * svd.matrixU().leftCols(kept);
-  result.pairs.Y =
-      result.singular_values.head(kept).asDiagonal() * (y.Q * svd.matrixV().leftCols(kept)).transpose();
+  result.pairs.X = x.Q * svd.U.leftCols(kept);
+  result.pairs.Y = result.singular_values.head(kept).asDiagonal() * (y.Q * svd.V.leftCols(kept)).transpose();
   return result;
 }
 
