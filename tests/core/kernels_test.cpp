@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "byte_weights.h"
 #include "instruction_sets.h"
@@ -50,7 +52,8 @@ TEST(Kernels, MixIntoMovesOverByItsShare) {
   }
 }
 
-// Of any two amplitudes: what is left is what the weights do not say, and less than a hundredth of a step of 1 / 127.
+// Of any two amplitudes: what is left is what the weights do not say, and less than a hundredth of the larger
+// amplitude or 64 units.
 TEST(Kernels, WeighPairsSaysWhatIsLeft) {
   constexpr std::size_t kPairs = 100, kRoom = pairBlocks(kPairs);
   std::mt19937 random(5);

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace palpate::testing {
@@ -75,6 +77,33 @@ TEST(ModeSelection, WeightsOfBytesAreExactToATwentiethOfAStep) {
     EXPECT_NEAR(sum[1], -1.0F, 4e-4F);
   }
   EXPECT_GT(twice, 0U);
+}
+
+// The quads of a second pass lie anywhere among the others.
+TEST(ModeSelection, SecondPassesBelongToTheirQuads) {
+  constexpr std::size_t kModes = 203, kQuads = (kModes + 3) / 4;
+  std::vector<float> peak(kModes, 1.0F), scale(kModes, 1.0F), y(kModes);
+  const std::vector<std::int32_t> kinds{0, 0, kModes};
+  const PackedModes packed{{}, {}, scale, kinds, 0};
+  ModeSelection selection({0, 0, 0, kModes});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> number(-1.0F, 1.0F);
+  std::array<int, kQuads> twice{};
+  for (int trial = 0; trial < 200; ++trial) {
+    for (float& amplitude : y) amplitude = number(random);
+    selection.choose(y, peak, packed, 0.0F);
+    std::vector<float> sum(4 * kQuads, 0.0F);
+    for (std::size_t i = 0; i < selection.quads8().size(); ++i) {
+      const std::size_t quad = selection.quads8()[i];
+      const QuadWeights& w = selection.weights8()[i];
+      for (std::size_t k = 0; k < 4; ++k)
+        sum[4 * quad + k] += selection.unit8() * static_cast<float>(w.pair[k / 2] * w.byte[k]);
+      if (i >= kQuads) ++twice[quad];
+    }
+    for (std::size_t k = 0; k < kModes; ++k)
+      ASSERT_NEAR(sum[k], y[k], 513.0F * selection.unit8()) << "mode " << k << " of trial " << trial;
+  }
+  EXPECT_GT(std::count_if(twice.begin(), twice.end(), [](int times) { return times > 0; }), 10);
 }
 
 }  // namespace palpate::testing

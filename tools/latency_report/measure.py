@@ -88,12 +88,18 @@ def _realtime_granted():
     return probe.returncode == 0
 
 
+_COARSE = ("more than 1 % of cyclictest's wake-ups were later than 1 ms: it was run again in whole us; the machine stands still "
+           "too often for these figures to say much")
+
+
 def cyclictest(setup):
     """Wake-up lateness of a thread like the tick: priority, policy, clock_nanosleep on CLOCK_MONOTONIC each ms, memory locked.
     On a machine that stands still so often that 1 % of the wake-ups are beyond 1 ms: in whole us, up to 1 s."""
     for nanoseconds in (True, False):
         found = wakeups(_cyclictest_thread(setup, nanoseconds), 1e-3 if nanoseconds else 1.0)
         if found is not None:
+            if not nanoseconds and _COARSE not in setup.notes:
+                setup.notes.append(_COARSE)
             return found
     raise Failure("cyclictest: 1 % of its wake-ups lie beyond 1 s")
 
@@ -134,13 +140,14 @@ _STATISTICS = re.compile(r"size \d+ mean [\d.]+us min [\d.]+us 50% ([\d.]+)us 90
 def ping_pong(text):
     """Of what `ddsperf ping` prints. It prints half of each round trip, (now - time of the ping) / 2: twice that is the whole."""
     found = [tuple(float(x) for x in match) for match in _STATISTICS.findall(text)]
-    full = [second for second in found[1:] if second[3] > 100]  # in the first one they find each other
+    full = [second for second in found[1:] if second[3] > _ENOUGH_PINGS]  # in the first one they find each other
     if not full:
         return None
     return {"p50": 2.0 * statistics.median(s[0] for s in full), "p99": 2.0 * statistics.median(s[1] for s in full),
             "max": 2.0 * max(s[2] for s in full)}
 
 
+_ENOUGH_PINGS = 250    # of 1000 a second: some are lost where the machine stands still, most where a side has just begun or ended
 _DDSPERF_ATTEMPTS = 3  # best effort: on a machine that is busy with others a lost ping can cost ddsperf its seconds
 
 
@@ -151,7 +158,7 @@ def ddsperf(setup, size):
         found = ping_pong(_ddsperf_output(setup, size, log))
         if found is not None:
             return found
-    raise Failure(f"ddsperf reported no full second of ping-pong of {size} bytes in {_DDSPERF_ATTEMPTS} runs; see {log}")
+    raise Failure(f"ddsperf reported no second with enough ping-pong of {size} bytes in {_DDSPERF_ATTEMPTS} runs; see {log}")
 
 
 def _ddsperf_output(setup, size, log):

@@ -107,10 +107,10 @@ double ownError(const offline::BuildReport& report) {
 }
 
 json toJson(const modelfile::StorageReport& storage) {
-  return {{"float32", storage.counts.f32},   {"int16", storage.counts.i16},
-          {"bits10", storage.counts.bits10}, {"bits8", storage.counts.bits8},
-          {"error_max", storage.error_max},  {"error_limit", storage.error_limit},
-          {"bytes", storage.bytes}};
+  return {{"float32", storage.counts.f32},      {"int16", storage.counts.i16},
+          {"int8", storage.counts.inBytes()},   {"bits10", storage.counts.bits10},
+          {"bits8", storage.counts.bits8},      {"error_max", storage.error_max},
+          {"error_limit", storage.error_limit}, {"bytes", storage.bytes}};
 }
 
 json stages(Method method, const offline::BuildReport& report) {

@@ -72,6 +72,8 @@ class Numbers(unittest.TestCase):
         text = line.format(1, 900, 995) + line.format(2, 40, 1000) + line.format(3, 7, 3)
         self.assertEqual(measure.ping_pong(text), times(80.0, 180.0, 1000.0))
         self.assertIsNone(measure.ping_pong(line.format(1, 40, 1000)))
+        self.assertIsNone(measure.ping_pong(line.format(1, 40, 1000) + line.format(2, 40, 250)))
+        self.assertIsNotNone(measure.ping_pong(line.format(1, 40, 1000) + line.format(2, 40, 251)))
 
     def test_middle_is_the_median_and_the_largest_maximum(self):
         found = [results(tick=times(x, 10 * x, 100 * x)) for x in (3.0, 1.0, 50.0)]

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -10,6 +11,7 @@
 #include "palpate/core/hdf5_handle.h"
 #include "palpate/core/load_error.h"
 #include "palpate/core/meta_model.h"
+#include "palpate/core/mode_selection.h"
 #include "palpate/core/response.h"
 #include "palpate/modelfile/mixed_precision.h"
 #include "palpate/modelfile/model_file.h"

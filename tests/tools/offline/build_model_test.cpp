@@ -120,8 +120,9 @@ TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
     const bool held = !world_->fe->isFree(view.mesh_surface_node[i]);
     EXPECT_LE(clamped, held) << "node " << i << " is free behind clamped ones";
     clamped = held;
-    for (std::size_t number = 3 * i; held && number < view.modes_X.size(); number += 3 * view.surfaceNodes())
-      ASSERT_EQ(view.modes_X[number], 0.0F);
+    for (std::size_t mode = 0; held && mode < view.modes(); ++mode)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        ASSERT_EQ(view.modes_X[3 * (mode * view.surfaceNodes() + i) + axis], 0.0F);
   }
   EXPECT_TRUE(clamped);
 }
