@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every way in which a file of version 2, a load-driven model, can be wrong.
 #include <algorithm>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <random>
 
+#include "load_case.h"
 #include "palpate/core/response.h"
 #include "palpate/modelfile/model_file.h"
 #include "palpate/testing/synthetic_model.h"
@@ -44,8 +44,6 @@ struct WrongFile {
   std::string expected;
   std::function<void(const std::filesystem::path&)> spoil;
 };
-
-constexpr auto kCaseName = [](const auto& test) { return test.param.name; };
 
 void setVector(const std::filesystem::path& path, const char* name, std::vector<double> values) {
   const Hdf5Handle file = openForSpoiling(path);
@@ -99,12 +97,6 @@ void setLevelFunctions(const std::filesystem::path& path, hsize_t functions) {
   replaceWith(path, "contact/displacement", H5T_IEEE_F64LE, {M, functions, 3});
   deleteThing(path, nullptr, "old");
   replaceWith(path, "modes/Y", H5T_IEEE_F32LE, {M, functions, 2});
-}
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, std::span<const T> b) {
-  if (a.size() != b.size()) return false;
-  return b.empty() || std::memcmp(a.data(), b.data(), b.size_bytes()) == 0;
 }
 
 }  // namespace
