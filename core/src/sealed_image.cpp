@@ -114,8 +114,14 @@ void SealedImage::writeCopy(const std::filesystem::path& path, std::span<const s
 }
 
 void SealedImage::seal(const std::filesystem::path& path) const {
-  if (::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL) != 0)
-    failSystem(path, "its copy in memory cannot be sealed");
+  // Linux says EBUSY while it holds some of the pages itself, as when it moves them; it has then waited 0.15 s for them.
+  constexpr int kAttempts = 20;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL) == 0)
+      return;
+    if (errno != EBUSY && errno != EINTR) break;
+  }
+  failSystem(path, "its copy in memory cannot be sealed");
 }
 
 void SealedImage::map(const std::filesystem::path& path) {
