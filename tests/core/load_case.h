@@ -18,6 +18,11 @@ inline const modelfile::ModelData& goodData() {
   return data;
 }
 
+/// The same, driven by a load (files of version 2).
+inline modelfile::ModelData goodData(Parameters parameters) {
+  return syntheticModel({.subdivisions = 1, .modes = 2, .parameters = parameters});
+}
+
 /// One way in which a model file can be wrong, and what is said of it.
 struct LoadCase {
   std::string name;
