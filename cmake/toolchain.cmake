@@ -10,7 +10,7 @@ target_compile_options(palpate_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
     $<IF:$<CXX_COMPILER_ID:Clang>,-Wcast-align,-Wcast-align=strict> -Wdouble-promotion>)
 
-# Real time stands in the signature (STYLE 4): a function effect where the compiler has it, else nothing.
+# Real time stands in the signature (docs/design.md, Threads): a function effect where the compiler has it, else nothing.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 20)
   target_compile_definitions(palpate_options INTERFACE "PALPATE_NONBLOCKING=[[clang::nonblocking]]")
   # What clang alone warns of is no error, but this is. gcc judges the rest.

@@ -8,7 +8,7 @@ namespace palpate {
 
 namespace {
 
-// Limits: DESIGN 3.2, the makers' data sheets.
+// Limits: docs/design.md, Safety, the makers' data sheets.
 constexpr std::array<DevicePreset, 5> kPresets{{
     {"touch", 3.3, 400.0, 300.0, 0.3},
     {"omni", 3.3, 700.0, 400.0, 0.9},

@@ -8,7 +8,7 @@
 
 namespace palpate {
 
-/// One contact at one tip position, while its anchor is being found.                            DESIGN 3.1
+/// One contact at one tip position, while its anchor is being found.                  docs/design.md, Contact
 ///   g = c - X(s) - R n(s),   f = f(s, d) - df/dd e = K_vc (g - d),   T = f_t - (dW/ds) / (1 + R kappa),   f_n = -f . n
 /// e the displacement of the patch that other tools cause; kappa the surface's curvature (a matrix): the tip goes
 /// 1 + R kappa times as far as the anchor; t: along the surface, normal to n(s). Coulomb's law,

@@ -99,7 +99,7 @@ void checkLevels(const ModelView& v, const Checker& check) {
       check.failAt("/levels/Z", q * points, "is " + text(v.levels_Z[q * points]), "0 at level 0");
 }
 
-/// Displacement along the load, e . d(s, t), must rise up to t_max: a level is found by it.   DESIGN 2.1
+/// Displacement along the load, e . d(s, t), must rise up to t_max: a level is found by it.   docs/design.md, Reproduction
 void checkRising(const ModelAttributes& a, const ModelView& v, const Checker& check) {
   const auto e = Eigen::Map<const Vec3>(a.load_direction.data());
   const std::size_t C = v.level_functions, points = v.levels_Z.size() / C;
@@ -122,7 +122,7 @@ void checkRising(const ModelAttributes& a, const ModelView& v, const Checker& ch
   }
 }
 
-/// A load-driven model has modes only.                                                       DESIGN 2.1
+/// A load-driven model has modes only.                                           docs/design.md, Reproduction
 void checkNoNear(const ModelAttributes& a, const ModelView& v, const Checker& check) {
   const std::string should =
       "none: a model with parameters \"" + std::string(toString(a.parameters)) + "\" has no near field";

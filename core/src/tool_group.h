@@ -8,7 +8,7 @@
 
 namespace palpate {
 
-/// The tools of one tick, and what each feels of the others.                                     DESIGN 3.1
+/// The tools of one tick, and what each feels of the others.                          docs/design.md, Contact
 /// The organ between them is taken as its tangent at the contacts that the last tick left. Tools move one after the
 /// other, each with what it feels of itself through the others (Contact::carried's slope) and the others as they are by
 /// then: a descent in the energy of all, tool by tool (Gauss-Seidel), where the others as they were a tick ago would

@@ -8,7 +8,7 @@
 
 namespace palpate {
 
-/// The surface under all tools together; a tool whose force fades takes its dimple with it.          DESIGN 2.3
+/// The surface under all tools together; a tool whose force fades takes its dimple with it.   docs/design.md, Parts
 /// Borrows the model. Real-time: yes.
 class ToolSurface {
  public:

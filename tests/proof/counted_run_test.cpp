@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real server, from inside: what its tick thread calls while two tools press and slide (DESIGN 3.3).
+// The real server, from inside: what its tick thread calls while two tools press and slide (docs/design.md, Threads).
 #include "counted_run.h"
 
 #include <gtest/gtest.h>

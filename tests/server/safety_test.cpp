@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each line of DESIGN 3.2, sent to palpate-server over DDS: the flag is seen, the force stays bounded, and a good tool
+// Each line of docs/design.md, Safety, sent to palpate-server over DDS: the flag is seen, the force stays bounded, and a good tool
 // is answered afterwards.
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@ import time
 from . import processes, wire
 from .processes import Failure
 
-TICK_PRIORITY = 80     # DESIGN 3.3
+TICK_PRIORITY = 80     # docs/design.md, Threads
 RECEIVE_PRIORITY = 70  # of palpate's threads that receive; ddsperf gets the same
 SWEEP_RATE = 991       # poses a second: against 1000 ticks a second a run goes nine times a second through all waits
 

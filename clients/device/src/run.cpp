@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 constexpr double kPeriod = 1e-3;  // s
 constexpr std::int64_t kPeriodNs = 1'000'000;
 constexpr std::uint64_t kPatience = 1000;  // periods
-constexpr int kPriority = 60;              // below the server's threads (DESIGN 3.3)
+constexpr int kPriority = 60;              // below the server's threads (docs/design.md, Threads)
 constexpr int kReceivePriority = 65;
 
 // One exchange with the server each period.

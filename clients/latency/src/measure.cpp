@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kPriority = 60;  // below the server's threads (DESIGN 3.3)
+constexpr int kPriority = 60;  // below the server's threads (docs/design.md, Threads)
 constexpr int kReceivePriority = 65;
 constexpr double kApproachSeconds = 1.0;
 

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
-constexpr int kPriority = 60;  // below the server's threads (DESIGN 3.3)
+constexpr int kPriority = 60;  // below the server's threads (docs/design.md, Threads)
 constexpr int kReceivePriority = 65;
 
 // Written by the receive thread; read once the ToolClient, and with it the receiving, has ended.

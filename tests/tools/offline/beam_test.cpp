@@ -7,7 +7,7 @@
 namespace palpate::offline {
 namespace {
 
-// DESIGN 2.1: 21 x 9 x 9 nodes, E = 1 MPa, nu = 0.25, one nodal force along -z at (400, 20, 40) mm.
+// docs/design.md, Reproduction: 21 x 9 x 9 nodes, E = 1 MPa, nu = 0.25, one nodal force along -z at (400, 20, 40) mm.
 class Beam : public ::testing::Test {
  protected:
   const Box box_{20, 8, 8, Vec3(0.4, 0.04, 0.04)};

@@ -32,7 +32,7 @@ int pinTo(int cpu) {
 }
 
 void raiseLikeTheTick() {
-  constexpr int kTickPriority = 80;  // DESIGN 3.3
+  constexpr int kTickPriority = 80;  // docs/design.md, Threads
   sched_param parameters{};
   parameters.sched_priority = kTickPriority;
   if (sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)

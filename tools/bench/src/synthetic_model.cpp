@@ -21,7 +21,7 @@ constexpr double kStiffness = 500.0;        // N/m
 constexpr double kReference = 0.004;        // d_ref, m
 constexpr double kDomain = 0.0065;          // d_max, m
 constexpr double kOwnError =
-    0.01;  // of the fields, over the displacement: DESIGN 2.3, 60 to 100 modes and a near field
+    0.01;  // of the fields, over the displacement: docs/design.md, Parts, 60 to 100 modes and a near field
 constexpr int kOrder = 3, kForceOrder = 6;
 
 /// Distance between neighbours, m, as if each had its share of the area in a triangular grid.

@@ -68,7 +68,7 @@ void ForceBuilder::solveSeries(FieldTable& table) {
 }
 
 /// The best modes in the area product, positions counting by relative error: no near field takes the dimple
-/// over, so no node is weighted down, and soft spots must not outweigh stiff ones.                  DESIGN 2.1
+/// over, so no node is weighted down, and soft spots must not outweigh stiff ones.   docs/design.md, Reproduction
 void ForceBuilder::fit(const FieldTable& table, const FitSize& fit_size) {
   const Stopwatch watch;
   const std::vector<FitWeights> weights(setup_.positions.nodes.size());

@@ -185,7 +185,7 @@ Pairs PgdBuilder::solveExplicitly(const BodyProblem& body) {
   return {std::move(solution.X), std::move(solution.Y)};
 }
 
-/// t_max(s): up to the level before an element is squeezed below min det F = 0.3.                  DESIGN 2.2
+/// t_max(s): up to the level before an element is squeezed below min det F = 0.3.      docs/design.md, Series
 void PgdBuilder::limitLevels(const BodyProblem& body, const LevelSolution& solution) {
   constexpr double kMinDetF = 0.3;
   constexpr int kSamples = 10;

@@ -11,7 +11,7 @@ namespace palpate::offline {
 namespace {
 
 /// What a series leaves out, from its last terms: they go on falling as slowly as they did over the last
-/// degree or the last two (DESIGN 2.2 asks for the last terms alone; near the radius of convergence the tail
+/// degree or the last two (docs/design.md, Series asks for the last terms alone; near the radius of convergence the tail
 /// is larger).
 double remainder(double last, double previous, double before_previous) {
   if (last == 0.0) return 0.0;

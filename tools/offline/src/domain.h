@@ -15,7 +15,7 @@ namespace palpate::offline {
 
 /// Largest radius, at most `cap`, up to which in every sampled direction the part of the answer to degree
 /// `kept` is within `tolerance` of the whole, what lies beyond the last degree estimated, and its derivative
-/// is positive definite.                                                                        DESIGN 2.2
+/// is positive definite.                                                               docs/design.md, Series
 /// @param answer  coefficients of f(d), or of d(f)
 [[nodiscard]] double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept,
                                   double cap, double tolerance);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two steps of a sweep: least squares in Y for given X, and in X for given Y.                DESIGN 2.3
+// The two steps of a sweep: least squares in Y for given X, and in X for given Y.       docs/design.md, Parts
 #include <Eigen/Cholesky>
 #include <algorithm>
 

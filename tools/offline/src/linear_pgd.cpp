@@ -118,7 +118,7 @@ void Greedy::add(const NewPairs& pairs) {
   load_on_X_.bottomRows(R.cols()) = load_.project(R);
 }
 
-/// All Y again for fixed X: sum_l a(X_k, X_l) Y_l(s) = l_s(X_k).                                DESIGN 2.1
+/// All Y again for fixed X: sum_l a(X_k, X_l) Y_l(s) = l_s(X_k).                 docs/design.md, Reproduction
 void Greedy::update() {
   MatrixXd gram = gram_;
   gram.diagonal().array() += 1e-14;  // the X are of norm 1; against a component without any displacement

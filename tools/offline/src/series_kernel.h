@@ -41,7 +41,7 @@ struct KernelInput {
 };
 
 /// r[node][k - first][3] += r_alpha for the coefficients first <= k < last of one degree:
-///   S'_alpha = C : sum H_b^T H_c / 2,  r_alpha = int (S'_alpha + sum H_b S_c) : grad delta     DESIGN 2.2
+///   S'_alpha = C : sum H_b^T H_c / 2,  r_alpha = int (S'_alpha + sum H_b S_c) : grad delta   docs/design.md, Series
 /// The coefficients below `first` must be in U.
 void assembleDegree(const KernelInput& input, const CauchyProduct& product, int first, int last, Lanes* r);
 

@@ -10,7 +10,7 @@
 namespace palpate::reproduce {
 
 /// The beam of Section 4.2: 400 x 40 x 40 mm, E = 1 MPa, nu = 0.25, clamped at x = 0; a single nodal force downward
-/// at any free node of the upper surface.                                                             DESIGN 2.1
+/// at any free node of the upper surface.                                        docs/design.md, Reproduction
 struct Beam {
   mesh::TetMesh mesh;
   offline::FeModel model;

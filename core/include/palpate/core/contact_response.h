@@ -29,7 +29,7 @@ class ContactSeries {
   void evaluate(const Vec3& p, Vec3& value, Mat3& gradient,
                 std::array<Mat3, 3>& turn) const noexcept PALPATE_NONBLOCKING;
   /// W(d) = int_0^1 f(tau d) . d dtau of a "displacement" model, J: the energy that the patch has stored, whose
-  /// gradient f is (DESIGN 2.2). Cost O(C). Real-time: yes.
+  /// gradient f is (docs/design.md, Series). Cost O(C). Real-time: yes.
   [[nodiscard]] double energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING;
   /// |p| up to which the answer is trusted: d_max in m, f_max in N, or t_max.
   [[nodiscard]] double limit() const noexcept { return limit_; }
@@ -48,8 +48,8 @@ class ContactSeries {
   double limit_{0.0};
 };
 
-/// The contact's own answer. Of a "displacement" model it is not truncated to the modes (DESIGN 2.2, 2.3), of
-/// the load-driven kinds it is what the modes give (DESIGN 2.1). Borrows the model's arrays, or copies them.
+/// The contact's own answer. Of a "displacement" model it is not truncated to the modes (docs/design.md, Series, Parts), of
+/// the load-driven kinds it is what the modes give (docs/design.md, Reproduction). Borrows the model's arrays, or copies them.
 /// Differs from the paper: exact in its order, displacement-driven (the first kind).
 class ContactResponse {
  public:

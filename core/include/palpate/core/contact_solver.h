@@ -29,7 +29,7 @@ struct Contact {
   bool jumped{false};             ///< the last update made a force that does not follow from the one before
 };
 
-/// Moves a tool through free, stick and slide                                            DESIGN 3.1
+/// Moves a tool through free, stick and slide                                         docs/design.md, Contact
 ///   free -> stick:  the tip's centre lies less than R above an accessible point of the contact surface, in the
 ///                   direction of the interpolated normal: c = X(s) + h n(s), h < R. That s is the anchor, so
 ///                   that the force begins at zero
@@ -37,7 +37,7 @@ struct Contact {
 ///                   part no anchor goes: it waits there, flagged kNotAccessible
 ///   -> free:        f . n > 0, the tool would pull; or the tip's sphere, grown by 0.5 mm, has left the contact
 ///                   surface, as other tools displaced it: a tool drawn off sideways is not held from afar
-/// Differs from DESIGN 3.1: the direction m from anchor to tip is n(s) itself, not (c - X) / |c - X| at capture. So g
+/// Differs from docs/design.md, Contact: the direction m from anchor to tip is n(s) itself, not (c - X) / |c - X| at capture. So g
 /// depends on where the anchor is and not on how it came there, and the surface that a tip of radius R slides on,
 /// X(s) + R n(s), has no edges.
 class ContactSolver {

@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-/// The surface that tools slide on: the rest surface, rounded.                                    DESIGN 3.1
+/// The surface that tools slide on: the rest surface, rounded.                        docs/design.md, Contact
 /// A tip on flat triangles is pushed along the interpolated normal while it moves along the triangle: the two are not
 /// normal to each other, and energy comes from nowhere. So each triangle is divided into 4, a few times over; the new
 /// node on an edge a-b is the middle of the cubic that has the edge's ends and, there, its direction laid into the

@@ -28,7 +28,7 @@ struct CoupledResponse {
   Mat3 stiffness = Mat3::Zero();  ///< df/dg, N/m: organ and coupling in series
 };
 
-/// The virtual coupling: tool - spring - patch, the organ as it answers                            DESIGN 3.1
+/// The virtual coupling: tool - spring - patch, the organ as it answers               docs/design.md, Contact
 ///   f(s, d) - df/dd e(d) = K_vc (g - d),   g where the tool would have the patch if the spring were rigid
 /// Its derivative is taken as df/dd (1 - de/dd).
 /// Newton on d, from `out.displacement`, halved where it does not help; at most 8 steps of up to 5 evaluations, 1 or 2

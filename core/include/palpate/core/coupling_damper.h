@@ -6,7 +6,7 @@
 
 namespace palpate {
 
-/// The damper beside the coupling's spring:  f + b de/dt,  e = f / K_vc the spring's stretch.       DESIGN 3.1
+/// The damper beside the coupling's spring:  f + b de/dt,  e = f / K_vc the spring's stretch.   docs/design.md, Contact
 /// So it is f + (b / K_vc) df/dt, which needs no velocity of the tool; df/dt is smoothed over 2 ms. It never makes the
 /// force pull, nor longer than twice what it was: it comes and goes with the force, without a step at the contact.
 /// A step of the pose is answered in its first tick with K (1 + (b / K_vc) / (dt + 2 ms)), K <= K_vc the spring's and

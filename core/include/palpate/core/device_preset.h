@@ -9,7 +9,7 @@
 
 namespace palpate {
 
-/// What a haptic device stands, and the coupling that keeps it stable.                     DESIGN 3.2
+/// What a haptic device stands, and the coupling that keeps it stable.                 docs/design.md, Safety
 /// The damping keeps what a step of the pose is answered with in one tick, at 1 kHz from rest, within the limit too:
 ///   K_vc (1 + (b / K_vc) / 3 ms) <= stiffness_limit                                      coupling_damper.h
 struct DevicePreset {

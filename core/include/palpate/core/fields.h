@@ -14,7 +14,7 @@
 
 namespace palpate {
 
-/// The far field, and all of a load-driven model's:                                         DESIGN 2.1, 2.3
+/// The far field, and all of a load-driven model's:                       docs/design.md, Reproduction, Parts
 ///   u(X; s, p) = sum_k X_k(X) y_k,   y_k = sum_b lambda_b sum_alpha phi_alpha(p) Y_{k,alpha}(p_b)
 /// Linear in y: the y of several tools add up before the one product with X, which reads the packed modes where the
 /// file has them. Borrows the model's arrays.
@@ -49,7 +49,7 @@ class SeparatedField {
   std::vector<float> by_node_;  // [Ns][3][n] X, so that one node's numbers lie together
 };
 
-/// The near field: what the modes miss close to s, already windowed to zero at the near radius (DESIGN 2.3).
+/// The near field: what the modes miss close to s, already windowed to zero at the near radius (docs/design.md, Parts).
 class NearField {
  public:
   explicit NearField(const ModelView& view);

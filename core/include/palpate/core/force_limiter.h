@@ -43,7 +43,7 @@ struct LimitedForce {
   std::uint32_t flags{0};  ///< kForceLimited, kForceRateLimited, kStalePose, kRamping, kShuttingDown
 };
 
-/// Keeps what a device gets safe and continuous (DESIGN 3.2).
+/// Keeps what a device gets safe and continuous (docs/design.md, Safety).
 ///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
 ///   what stands behind the gain changes no faster than the rate limit allows; letting go is not held up by it, and a
 ///   force limit that falls is kept at once

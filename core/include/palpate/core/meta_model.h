@@ -21,7 +21,7 @@ namespace palpate {
 class MetaModel {
  public:
   /// Copies the file into sealed memory, checks every size, index and number of the copy, and maps it
-  /// read-only, populated, locked where the system allows it (DESIGN 3.4).
+  /// read-only, populated, locked where the system allows it (docs/model_file.md).
   /// @throw LoadError one sentence: file, dataset, found, expected. Real-time: no (reads, allocates).
   [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
 

@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-/// What is prescribed at the contact: the parameter of a model beside s.                       DESIGN 2.1, 2.2
+/// What is prescribed at the contact: the parameter of a model beside s.   docs/design.md, Reproduction, Series
 enum class Parameters {
   kDisplacement,  ///< the patch displacement d: u(X; s, d), f(s, d); file version 1
   kForce,         ///< the tool's force f: u(X; s, f), d(s, f); file version 2

@@ -14,7 +14,7 @@ namespace palpate {
 using MultiIndex = std::array<int, 3>;
 
 /// The monomials d^alpha with 1 <= |alpha| <= p, in the order in which every file and table holds them
-///                                                                                          DESIGN 1, 2.2
+///                                                                            docs/design.md, Symbols, Series
 ///   by degree, then lexicographically descending: x y z | xx xy xz yy yz zz | xxx xxy ...
 /// There is no constant term: an organ that is not touched does not move.
 class MonomialBasis {

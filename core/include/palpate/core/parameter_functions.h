@@ -11,9 +11,9 @@
 namespace palpate {
 
 /// The functions phi_k of the parameter p that the coefficients of a model belong to:
-///   "displacement": phi_alpha(d) = (d / d_ref)^alpha                                         DESIGN 2.2
+///   "displacement": phi_alpha(d) = (d / d_ref)^alpha                                  docs/design.md, Series
 ///   "force":        phi_alpha(f) = (f / f_ref)^alpha
-///   "level":        phi_q(t) = Z_q(t), piecewise linear, zero at t = 0                       DESIGN 2.1
+///   "level":        phi_q(t) = Z_q(t), piecewise linear, zero at t = 0          docs/design.md, Reproduction
 /// p is a vector in every case; a level is (t, 0, 0). Borrows the model's arrays.
 class ParameterFunctions {
  public:

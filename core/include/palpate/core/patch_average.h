@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-/// What of a surface field a contact patch feels: its average with the patch weights w_i(s).           DESIGN 1
+/// What of a surface field a contact patch feels: its average with the patch weights w_i(s).   docs/design.md, Symbols
 ///   P_s u = sum_i w_i(s) u_i,   w_i(p) ~ A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, free nodes only, sum 1
 /// at each contact position p, mixed barycentrically between them like every other answer. The same patch that
 /// the solver imposes d on. Built at load: the patches, and the modes averaged over each.

@@ -44,7 +44,7 @@ class PatchResponse {
   ContactSeries series_;
 };
 
-/// Reaction of the organ to a tool that displaced its contact patch at s by d            DESIGN 2.2, 3.1
+/// Reaction of the organ to a tool that displaced its contact patch at s by d   docs/design.md, Series, Contact
 /// |d| beyond the domain is scaled to it, d_c = d_max d / |d|, and the force goes on along the symmetrized,
 /// positive part of the stiffness there: f = f(s, d_c) + (df/dd)+ (d - d_c). It is continuous, and never less stiff
 /// than nothing; stiffness is its derivative.
@@ -62,7 +62,7 @@ class PatchResponse {
 [[nodiscard]] ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                      Response& out) noexcept PALPATE_NONBLOCKING;
 
-/// What a load-driven model says when its load is given.                                     DESIGN 2.1
+/// What a load-driven model says when its load is given.                         docs/design.md, Reproduction
 /// @param[in]  load  f in W, N, of a "force" model, clamped to f_max(s); (t, 0, 0) of a "level" model, t clamped
 ///             to [0, t_max(s)]
 /// @param[out] out  always written; stiffness is (dd/df)^-1, zero where dd/df is not positive definite; what is no
@@ -93,7 +93,7 @@ struct FieldSource {
   }
 };
 
-/// Displacement of the surface nodes, far plus near field, superposed over the tools (DESIGN 2.3). Of a "displacement"
+/// Displacement of the surface nodes, far plus near field, superposed over the tools (docs/design.md, Parts). Of a "displacement"
 /// model, packed modes that together are below kUnseenShare of the largest displacement imposed are left out.
 /// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Real-time: yes.
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,

@@ -9,7 +9,7 @@ namespace palpate {
 
 /// A copy of a file in anonymous memory that nobody can write, grow or shrink any more, mapped read-only.
 /// Nothing can change between a check and a use, and truncating the file cannot kill the reader with SIGBUS
-/// DESIGN 3.4
+/// docs/model_file.md
 class SealedImage {
  public:
   /// @throw LoadError when the file is no regular file, empty, changes while it is read, or memory is short

@@ -62,7 +62,7 @@ static_assert(std::is_trivially_copyable_v<StepInput> && std::is_trivially_copya
 /// kFlagged: some tool has a flag other than kInContact; its answer is safe but not simply the model's.
 enum class StepStatus { kOk, kFlagged };
 
-/// One tick: poses in, forces and the surface's displacement out (DESIGN 3.1, 3.2): stepForces(), then stepSurface()
+/// One tick: poses in, forces and the surface's displacement out (docs/design.md, Contact, Safety): stepForces(), then stepSurface()
 /// unless it is skipped. Bad input never stops it and never comes out: each has a defined, safe, continuous answer and a
 /// flag; kNonFiniteForce of a surface that overflows where no tool is comes with the next tick. Allocates nothing, takes
 /// no lock, throws nothing. Real-time: yes. Threads: one per Workspace.

@@ -32,7 +32,7 @@ struct StepConfig {
   double force_rate_limit{std::numeric_limits<double>::infinity()};  ///< N/s, in [10, 1e6] or infinity
   double speed_limit{2.0};  ///< of a tool; faster is a jump, m/s, in [0.01, 100] or infinity
   double youngs_modulus{
-      0.0};      ///< E, Pa, in [100, 1e9]; 0: the model's own. Forces scale with it (DESIGN 2.2)
+      0.0};      ///< E, Pa, in [100, 1e9]; 0: the model's own. Forces scale with it (docs/design.md, Series)
   int tools{4};  ///< tools that are answered, in [1, kMaxTools]
 };
 

@@ -41,7 +41,7 @@ class SurfaceGraph {
   }
   /// Triangles that a node belongs to, in rising order.
   [[nodiscard]] std::span<const std::int32_t> trianglesOf(std::int32_t node) const noexcept;
-  /// A_i, the lumped rest area of each node, [Ns], m^2: a third of each of its triangles.             DESIGN 1
+  /// A_i, the lumped rest area of each node, [Ns], m^2: a third of each of its triangles.   docs/design.md, Symbols
   [[nodiscard]] std::vector<double> lumpedAreas() const;
 
  private:
@@ -54,7 +54,7 @@ class SurfaceGraph {
 
 /// Distances along a surface, by a front that unfolds one triangle at a time: exact on a flat (or developable)
 /// surface where the shortest path crosses the edge it is unfolded over, else the shorter way along an edge.
-/// Of contact patches: through space a ball reaches the other side of a thin lobe.                DESIGN 2.3
+/// Of contact patches: through space a ball reaches the other side of a thin lobe.      docs/design.md, Parts
 /// Holds the memory of the search; one per thread. Borrows the graph. Not real-time (allocates).
 class SurfaceFront {
  public:

@@ -33,7 +33,7 @@ struct SurfaceFrame {
 /// Whether a way over the surface may leave the accessible part.
 enum class Reach { kAccessible, kEverywhere };
 
-/// The rest surface: positions, normals, nearest points, and where the organ can be touched (DESIGN 3.1).
+/// The rest surface: positions, normals, nearest points, and where the organ can be touched (docs/design.md, Contact).
 /// Borrows the arrays of the view; built before the loop, then const.
 class SurfaceMesh {
  public:

@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-/// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.    DESIGN 1, 2.3
+/// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.   docs/design.md, Symbols, Parts
 /// @param source  the other tool's own part, clamped to the domain as in evaluateField()
 /// @return m, W; zero where the model has no answer at `at` or at source.s
 /// Cost O(C n); with the default organ see core/README.md. Real-time: yes. Threads: one per scratch.
@@ -29,7 +29,7 @@ namespace palpate {
 /// How the displacement of each patch that the others cause changes with what is prescribed: [A][B] de_A/dd_B, 1.
 using InfluenceTable = std::array<std::array<Mat3, kMaxTools>, kMaxTools>;
 
-/// Tools that press together: what each imposes by itself, so that all patches move as prescribed.  DESIGN 3.1
+/// Tools that press together: what each imposes by itself, so that all patches move as prescribed.  docs/design.md, Contact
 ///   d_own,A + sum_{B != A} P_A [u(s_B, d_B) + u'(s_B, d_B) (d_own,B - d_B)] = d_A
 /// Linear in d_own: the tangent at what each patch really does, so that the tools' own parts, which may be several
 /// times d and cancel each other, need no nonlinear answer far from it. With y_A = d_own,A - d_A

@@ -7,7 +7,7 @@
 
 namespace palpate::dds {
 
-/// The three rows of the QoS table in DESIGN 4, and a pair for questions.
+/// The three rows of the QoS table in docs/design.md, Wire, and a pair for questions.
 enum class QosProfile {
   kServo,    ///< 1 kHz: best effort, keep last 1, deadline 5 ms, liveliness automatic 50 ms
   kField,    ///< best effort, keep last 1

@@ -6,7 +6,7 @@
 
 namespace palpate::dds {
 
-/// Name, type and QoS of the topic that carries T: the table of DESIGN 4, and the only place where it is
+/// Name, type and QoS of the topic that carries T: the table of docs/design.md, Wire, and the only place where it is
 /// written.
 ///   kName        the topic's name
 ///   kProfile     its QoS, on both ends

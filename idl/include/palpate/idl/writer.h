@@ -22,7 +22,7 @@ class Writer {
 
   /// Sends one sample. Sequences may point into the caller's memory (set _release to false): nothing is kept.
   /// @return false when Cyclone refused it; nothing is thrown
-  /// Allocates and locks inside Cyclone (DESIGN 3.3), so never from the tick; fine in a helper thread.
+  /// Allocates and locks inside Cyclone (docs/design.md, Threads), so never from the tick; fine in a helper thread.
   /// Threads: any.
   [[nodiscard]] bool write(const T& sample) noexcept {
     return dds_write(entity_.handle(), &sample) == DDS_RETCODE_OK;

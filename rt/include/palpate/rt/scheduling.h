@@ -38,7 +38,7 @@ class RealtimeError : public std::runtime_error {
 [[nodiscard]] std::size_t raiseThreadsNamed(std::span<const std::string_view> names, int priority);
 
 /// Keeps processors out of deep sleep for as long as it lives: holds /dev/cpu_dma_latency open at 0 us.
-/// Halves the wake-up latency (DESIGN 3.3), costs power.
+/// Halves the wake-up latency (docs/design.md, Threads), costs power.
 class CpuLatencyHold {
  public:
   CpuLatencyHold() noexcept;

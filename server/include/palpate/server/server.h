@@ -22,7 +22,7 @@
 
 namespace palpate::server {
 
-/// A running server: the threads of DESIGN 3.3 and what they work on, from construction to stop().
+/// A running server: the threads of docs/design.md, Threads and what they work on, from construction to stop().
 class Server {
  public:
   /// Starts everything. `model` must outlive the server.

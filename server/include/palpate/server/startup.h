@@ -11,7 +11,7 @@
 
 namespace palpate::server {
 
-// DESIGN 3.3.
+// docs/design.md, Threads.
 inline constexpr int kTickPriority = 80;
 inline constexpr int kForcePriority = 75;
 inline constexpr int kReceivePriority = 70;

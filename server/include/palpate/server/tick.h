@@ -20,7 +20,7 @@ struct TickPlan {
   bool phase_lock{false};  ///< ticks follow the poses' arrival
 };
 
-/// One tick: newest poses in, one step of the engine, forces and surface out (DESIGN 3.1, 3.3).
+/// One tick: newest poses in, one step of the engine, forces and surface out (docs/design.md, Contact, Threads).
 /// Takes no lock, allocates nothing, logs nothing, knows no DDS. What it keeps from tick to tick is
 /// bookkeeping only; the state of the contact lives in the Workspace. Threads: one, the tick thread.
 /// Real-time: yes.

@@ -10,7 +10,7 @@ namespace palpate::client {
 [[nodiscard]] bool raiseThisThread(int priority) noexcept;
 
 /// The same for the threads in which Cyclone DDS receives (named recv...), once a participant exists; its
-/// configuration cannot do it (DESIGN 4).
+/// configuration cannot do it (docs/design.md, Wire).
 /// @return how many were raised
 int raiseReceiveThreads(int priority) noexcept;
 

@@ -35,7 +35,7 @@ class ToolClient {
   /// @return its seq, which starts at the clock so that a restarted client does not fall behind its past; 0
   /// when DDS
   ///         refused it
-  /// No allocation of ours (Cyclone's own: DESIGN 3.3). Threads: one.
+  /// No allocation of ours (Cyclone's own: docs/design.md, Threads). Threads: one.
   std::uint64_t publish(const Point& position, const std::array<double, 4>& orientation = {0, 0, 0, 1},
                         std::uint32_t buttons = 0) noexcept;
 

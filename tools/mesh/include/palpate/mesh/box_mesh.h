@@ -9,14 +9,14 @@
 namespace palpate::mesh {
 
 /// A box [0, size] of equal cells, six tetrahedra a cell, all six around the diagonal from the cell's
-/// smallest to its largest corner (Kuhn's subdivision): the beam of DESIGN 2.1.
+/// smallest to its largest corner (Kuhn's subdivision): the beam of docs/design.md, Reproduction.
 ///   Node (i, j, k) has the index i + nx (j + ny k).
 /// @param size   edge lengths, m, positive
 /// @param nodes  nodes along x, y, z, each at least 2
 /// @throw MeshError when a size or a count is out of range
 [[nodiscard]] TetMesh makeBox(const Eigen::Vector3d& size, const std::array<int, 3>& nodes);
 
-/// The beam of DESIGN 2.1: 400 x 40 x 40 mm, 21 x 9 x 9 nodes, groups `fixed` (x = 0) and `accessible` (the
+/// The beam of docs/design.md, Reproduction: 400 x 40 x 40 mm, 21 x 9 x 9 nodes, groups `fixed` (x = 0) and `accessible` (the
 /// other surface nodes).
 [[nodiscard]] TetMesh makeBeam();
 

@@ -21,7 +21,7 @@ struct MeshStatistics {
   double worst_quality{0};            ///< smallest quality(), in [0, 1]
   std::int64_t worst_tetrahedron{0};  ///< its number in the mesh file
   double mean_edge{0};                ///< over the volume's edges
-  double median_surface_edge{0};      ///< sets the default patch width, DESIGN 1
+  double median_surface_edge{0};      ///< sets the default patch width, docs/design.md, Symbols
 };
 
 /// Shape of a tetrahedron: three times the radius of the inscribed sphere over that of the circumscribed one,

@@ -25,7 +25,7 @@ inline constexpr double kMostRounding = 7e-4;
 
 /// Chooses for each mode float32 or 16, 10 or 8 bits with a scale (PackedModes), as few as keep the rounding of a
 /// field under a tenth of the model's own error and under kMostRounding; measured on fields of random contacts within
-/// the domain, against the modes as they are.                                                    DESIGN 3.3
+/// the domain, against the modes as they are.                                         docs/design.md, Threads
 /// Orders the modes by kind (modes_X and modes_Y) and fills modes_packed, which stays empty where all
 /// modes need float32. @param data  complete but for these  @param own_error  of the model's fields, over the
 /// displacement; 0 keeps float32. O(samples n Ns).

@@ -17,7 +17,7 @@ class CaseError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How the model is computed, and what it is a function of beside s.                            DESIGN 2.1, 2.2
+/// How the model is computed, and what it is a function of beside s.     docs/design.md, Reproduction, Series
 enum class Method : std::uint8_t {
   kSeriesDisplacement,  ///< series in d, three parts: u(X; s, d), f(s, d)
   kSeriesForce,         ///< series in f, modes only: u(X; s, f)

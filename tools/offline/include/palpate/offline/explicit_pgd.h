@@ -6,7 +6,7 @@
 
 namespace palpate::offline {
 
-/// How the increment D_s from t_{j-1} to t_j is linearized about u_s.                         DESIGN 2.1
+/// How the increment D_s from t_{j-1} to t_j is linearized about u_s.            docs/design.md, Reproduction
 enum class LoadStepping {
   kTenTerms,        ///< K_T(u_s) D_s = t_j l_s - f_int(u_s): Eq. (19), the residual carried over
   kForwardEuler,    ///< K_T(u_s) D_s = (t_j - t_{j-1}) l_s: Remark 2, no residual

@@ -30,7 +30,7 @@ struct FitOptions {
   bool quiet{false};
 };
 
-/// u_far(X; s, d) = sum_k X_k(X) sum_alpha (d / d_ref)^alpha Y_k,alpha(s)                       DESIGN 2.3
+/// u_far(X; s, d) = sum_k X_k(X) sum_alpha (d / d_ref)^alpha Y_k,alpha(s)               docs/design.md, Parts
 struct FarField {
   Eigen::MatrixXf X;  ///< 3 Ns x n, node-interleaved; orthonormal in the area-weighted product; by energy
   Eigen::MatrixXf Y;  ///< n x (M C), column position * C + k, m
@@ -40,7 +40,7 @@ struct FarField {
 /// Weighted alternating directions: least squares in X and Y in turn of what remains wrong after the near
 /// field has done its part, the weight of node i for position s being A_i (1 - window(r_is))^2 g(r_is); over
 /// d uniform in the ball of each position, relative to |d|. Entries under a window of 1 are free.
-/// Source: DESIGN 2.3; g and the mean over the ball are ours. Reads the table once a sweep.
+/// Source: docs/design.md, Parts; g and the mean over the ball are ours. Reads the table once a sweep.
 /// @throw std::runtime_error on a bad table
 [[nodiscard]] FarField fitFarField(const FitProblem& problem, const FitOptions& options);
 

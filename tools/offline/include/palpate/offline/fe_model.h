@@ -53,7 +53,7 @@ class FeModel {
 
   /// H = du/dX of one element, 3 x 3. @param u  nodal displacements, 3 N, m
   [[nodiscard]] Mat3 displacementGradient(int element, const Eigen::VectorXd& u) const noexcept;
-  /// Nodal forces f_int = int P(u) : grad delta, 3 N, N.                          DESIGN 2.2
+  /// Nodal forces f_int = int P(u) : grad delta, 3 N, N.                          docs/design.md, Series
   [[nodiscard]] Eigen::VectorXd internalForce(const Eigen::VectorXd& u) const;
   /// Elastic energy int Psi(u), J.
   [[nodiscard]] double energy(const Eigen::VectorXd& u) const;

@@ -15,7 +15,7 @@ struct FitSize {
 };
 
 /// Method series-force: u(X; s, f) = sum_k X_k(X) sum_alpha (f / f_ref)^alpha Y_k,alpha(s), compressed to each of
-/// several sizes; the series itself is solved once.                                            DESIGN 2.1, 2.2
+/// several sizes; the series itself is solved once.                      docs/design.md, Reproduction, Series
 /// @param report  of the last size  @return one model for each size
 /// @throw CaseError, std::runtime_error
 [[nodiscard]] std::vector<modelfile::ModelData> buildForceSeries(const Case& c, const mesh::TetMesh& mesh,

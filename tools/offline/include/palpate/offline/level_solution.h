@@ -42,7 +42,7 @@ struct LevelCut {
 };
 
 /// The eigenvectors of sum_j sum_s v_s Y_j(s) Y_j(s)^T, n x n, and its eigenvalues, largest first: X V are the
-/// modes of the history in the energy of K0.                                                DESIGN 2.1
+/// modes of the history in the energy of K0.                                     docs/design.md, Reproduction
 struct HistoryModes {
   Eigen::MatrixXd V;
   Eigen::VectorXd energy;  ///< n, >= 0

@@ -34,7 +34,7 @@ struct LinearPgdOptions {
 [[nodiscard]] std::vector<int> bodyComponents(int dofs);
 
 /// Linear parametric PGD: K u_s = l_s for all s at once, by greedy enrichment with alternating directions;
-/// no full solution at a load position is ever formed.                      paper Eqs. (1)-(12), DESIGN 2.1
+/// no full solution at a load position is ever formed.                      paper Eqs. (1)-(12), docs/design.md, Reproduction
 /// Differs from the paper: a pair stops on its change and the enrichment on the energy norm of the residual;
 /// pairs may be iterated in blocks, and all Y computed again (Galerkin) for fixed X.
 /// The residual's dual norm (the energy norm of the error) is estimated without bias from solutions for a

@@ -9,7 +9,7 @@
 namespace palpate::offline {
 
 /// Share of the near field at distance r from s: 1 up to 0.7 rho, then smoothly (two derivatives) to 0 at
-/// rho. DESIGN 2.3
+/// rho. docs/design.md, Parts
 [[nodiscard]] double nearWindow(double r, double rho) noexcept;
 
 /// The surface nodes that the near field of one contact position holds.

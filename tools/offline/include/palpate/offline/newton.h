@@ -34,7 +34,7 @@ struct ImposedPatch {
   Vec3 d = Vec3::Zero();  ///< patch-averaged displacement, m
 };
 
-/// Full Newton with consistent tangent: the truth that every model is judged by.             DESIGN 2.1, 2.2
+/// Full Newton with consistent tangent: the truth that every model is judged by.   docs/design.md, Reproduction, Series
 /// Steps that do not converge are halved. Not real-time; one object per thread.
 class NewtonSolver {
  public:
@@ -44,7 +44,7 @@ class NewtonSolver {
   /// @throw std::runtime_error naming the load fraction that could not be passed
   [[nodiscard]] NewtonResult solveLoad(const Eigen::VectorXd& load, const NewtonOptions& options);
 
-  /// f_int(u) = G_s f, G_s^T u = d: the displacement-driven problem of DESIGN 2.2.
+  /// f_int(u) = G_s f, G_s^T u = d: the displacement-driven problem of docs/design.md, Series.
   /// @param patch  weights of the contact patch at s  @param d  patch-averaged displacement, m
   /// @throw std::runtime_error naming the fraction of d that could not be passed
   [[nodiscard]] NewtonResult solvePatch(const Patch& patch, const Vec3& d, const NewtonOptions& options);

@@ -13,7 +13,7 @@
 
 namespace palpate::offline {
 
-/// Equilibrium at every load position at once, the problem of the paper's track (Eq. 1, DESIGN 2.1):
+/// Equilibrium at every load position at once, the problem of the paper's track (Eq. 1, docs/design.md, Reproduction):
 ///   f_int(u_s) = t l_s,  s = 1 .. M,  t in [0, 1].
 /// M counts right-hand sides: load positions, or positions times directions. Vectors hold the unknowns (dofs)
 /// only. Const functions may be called from any number of threads.
@@ -67,7 +67,7 @@ class BodyProblem final : public ParametricProblem {
   std::vector<std::int32_t> places_;  ///< 144 per element: where each entry of its tangent goes, -1 for none
 };
 
-/// Loads f_j on each patch: column (s, j) = G_s f_j, position-major.                                DESIGN 1
+/// Loads f_j on each patch: column (s, j) = G_s f_j, position-major.                  docs/design.md, Symbols
 /// @param forces  N; one for a load of fixed direction, the three unit vectors for any direction
 /// @return dofs x (patches * forces)
 [[nodiscard]] SparseMatrix patchLoads(const FeModel& model, std::span<const Patch> patches,

@@ -36,7 +36,7 @@ struct ContactSurface {
   [[nodiscard]] double medianEdge() const;
 };
 
-/// The contact patch G_s of DESIGN 1: G_s f = nodal forces w_i f, G_s^T u = sum w_i u_i.
+/// The contact patch G_s of docs/design.md, Symbols: G_s f = nodal forces w_i f, G_s^T u = sum w_i u_i.
 struct Patch {
   std::vector<std::int32_t> nodes;  ///< volume nodes, free ones only
   std::vector<double> weights;      ///< w_i, sum 1
@@ -53,7 +53,7 @@ struct Patch {
 };
 
 /// Distances along the surface from s to the nodes nearer than a bound, as the running system measures them
-/// (core's SurfaceFront). DESIGN 2.3
+/// (core's SurfaceFront). docs/design.md, Parts
 /// @return pairs (surface node, distance in m), nearest first
 [[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const ContactSurface& surface,
                                                                             const SurfacePoint& s,

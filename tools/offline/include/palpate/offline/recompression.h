@@ -34,7 +34,7 @@ struct Recompressed {
   [[nodiscard]] double truncation(Eigen::Index n) const;
 };
 
-/// The best n pairs of what given pairs stand for: QR of both factors, SVD of the small core, cut.  DESIGN 2.1
+/// The best n pairs of what given pairs stand for: QR of both factors, SVD of the small core, cut.  docs/design.md, Reproduction
 /// @param pairs  X rows x k, Y k x columns: positions, or positions times coefficients
 /// @param product  in x  @param weights  of the columns of Y, > 0  @param n  at most; fewer where the rank is less
 /// @throw std::invalid_argument when sizes do not fit or n < 1

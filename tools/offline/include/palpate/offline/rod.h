@@ -8,7 +8,7 @@
 
 namespace palpate::offline {
 
-/// The rod of the paper's validation, its length, section, material and full load.        paper 4.1, DESIGN 2.1
+/// The rod of the paper's validation, its length, section, material and full load.        paper 4.1, docs/design.md, Reproduction
 struct RodData {
   double length{0.4};   ///< L, m, > 0
   double area{1.6e-3};  ///< A, m^2, > 0
@@ -59,7 +59,7 @@ class RodProblem final : public ParametricProblem {
 /// u(x, s) = (l - 1) min(x, s) at full load: nodes x positions, m.
 [[nodiscard]] Eigen::MatrixXd exactSolution(const RodProblem& rod);
 
-/// Displacement-driven series at one node of the rod: u = sum_m d^m U_m, f = sum_m d^m f_m.           DESIGN 2.2
+/// Displacement-driven series at one node of the rod: u = sum_m d^m U_m, f = sum_m d^m f_m.   docs/design.md, Series
 struct RodSeries {
   Eigen::MatrixXd U;  ///< nodes x order, m^(1-m)
   Eigen::VectorXd f;  ///< order, N m^-m
@@ -70,7 +70,7 @@ struct RodSeries {
   [[nodiscard]] double displacement(double force) const;
 };
 
-/// The recursion of DESIGN 2.2 in one dimension, with K0 of the discrete rod. The force of the rod is a cubic in
+/// The recursion of docs/design.md, Series in one dimension, with K0 of the discrete rod. The force of the rod is a cubic in
 /// d: order 3 is exact.
 /// @param node  0 .. elements - 1  @param order  >= 1  (std::invalid_argument otherwise)
 [[nodiscard]] RodSeries rodSeries(const RodProblem& rod, int node, int order);

@@ -16,21 +16,21 @@ namespace palpate::offline {
 
 /// What a series is driven by, and what it answers.
 enum class SeriesKind : std::uint8_t {
-  kDisplacement,  ///< d prescribed, f found: the production track                               DESIGN 2.2
-  kForce,         ///< f prescribed, d found: the paper's parameters, position and orientation   DESIGN 2.1
+  kDisplacement,  ///< d prescribed, f found: the production track                      docs/design.md, Series
+  kForce,  ///< f prescribed, d found: the paper's parameters, position and orientation   docs/design.md, Reproduction
 };
 
-/// Sampling and limits of the domain radius d_max(s), or f_max(s).                              DESIGN 2.2
+/// Sampling and limits of the domain radius d_max(s), or f_max(s).                     docs/design.md, Series
 struct DomainCriteria {
   double answer_error{0.01};  ///< of the force (or displacement): what the series leaves out, relative
   double min_det_f{0.3};      ///< over all elements
   double cap{0.05};           ///< m, largest radius ever stated; driven by force: of the linear answer
 };
 
-/// The series of up to kLanes contact positions at once.                                       DESIGN 2.2
+/// The series of up to kLanes contact positions at once.                               docs/design.md, Series
 ///   kDisplacement: u(X; s, d) = sum d^alpha U_alpha(X, s),  f(s, d) = sum d^alpha f_alpha(s)
 ///   kForce:        u(X; s, f) = sum f^alpha U_alpha(X, s),  d(s, f) = sum f^alpha d_alpha(s)
-/// 1 <= |alpha| <= p for the fields. With f prescribed the recursion is that of DESIGN 2.2 without its
+/// 1 <= |alpha| <= p for the fields. With f prescribed the recursion is that of docs/design.md, Series without its
 /// correction: U_{e_i} = W_s e_i, U_alpha = -K0^-1 r_alpha, d_alpha = G_s^T U_alpha.
 /// One factorization K0 = K_T(0) serves every position, direction and order. Coefficients are not scaled:
 /// U_alpha in m^(1-|alpha|), f_alpha in N m^-|alpha|; or U_alpha and d_alpha in m N^-|alpha|. One object per

@@ -24,7 +24,7 @@ struct ContactPositions {
                                                 const std::vector<bool>& accessible, double patch_radius,
                                                 const mesh::TetMesh& mesh);
 
-/// The organ as every method solves it: body, surface, patches.                                    DESIGN 1
+/// The organ as every method solves it: body, surface, patches.                       docs/design.md, Symbols
 struct SolverSetup {
   FeModel model;
   ContactSurface surface;

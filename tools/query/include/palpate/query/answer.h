@@ -43,7 +43,7 @@ void checkQuestion(const MetaModel& model, const Question& question);
 /// The force of the tool that a prescribed load stands for, N, not clamped. @param question  no displacement
 [[nodiscard]] Vec3 forceOf(const MetaModel& model, const Question& question);
 
-/// f, d, df/dd and u at s without release, friction and limiter                       DESIGN 2.1, 2.2, 2.3
+/// f, d, df/dd and u at s without release, friction and limiter   docs/design.md, Reproduction, Series, Parts
 /// kNoAnswer where the server does not answer either: no node of the triangle is accessible.
 /// @param question  passed by checkQuestion(); clamped to the domain like in the server
 [[nodiscard]] Answer ask(const MetaModel& model, const Anchor& anchor, const Question& question);

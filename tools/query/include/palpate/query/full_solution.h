@@ -23,7 +23,7 @@ struct Organ {
 /// @param mesh  of the same file as `model`  @throw QueryError when a tetrahedron has no volume
 [[nodiscard]] Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh);
 
-/// The truth about one touch: f_int(u) = G_s f, G_s^T u = d, the patch centred at s itself.  DESIGN 2.2
+/// The truth about one touch: f_int(u) = G_s f, G_s^T u = d, the patch centred at s itself.  docs/design.md, Series
 struct FullSolution {
   offline::Patch patch;         ///< volume nodes and their w_i
   offline::NewtonResult state;  ///< u of all volume nodes, m; f, N
@@ -53,7 +53,7 @@ struct Touch {
 [[nodiscard]] FullSolution solveTogether(const Organ& organ, std::span<const Touch> touches,
                                          double patch_radius, int steps);
 
-/// The organ under a given force: f_int(u) = G_s f, a dead load on the patch centred at s itself.   DESIGN 2.1
+/// The organ under a given force: f_int(u) = G_s f, a dead load on the patch centred at s itself.   docs/design.md, Reproduction
 /// A patch narrower than the mesh is the point load's own: the node at s, or the triangle's corners by their
 /// barycentric weights. @param f  N, not clamped  @param steps  load steps, >= 1
 /// @throw QueryError like solveFully(). Seconds.

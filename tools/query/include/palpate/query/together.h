@@ -30,7 +30,7 @@ struct JointAnswer {
 /// @throw QueryError naming what is wrong: more than kMaxTools tools, two at one place, one that is not accessible
 void checkTouches(const MetaModel& model, std::span<const Touch> touches);
 
-/// f and u of tools that press together, coupled by ownDisplacements(), and superposed without.       DESIGN 3.1
+/// f and u of tools that press together, coupled by ownDisplacements(), and superposed without.   docs/design.md, Contact
 /// @param touches  passed by checkTouches()
 [[nodiscard]] JointAnswer askTogether(const MetaModel& model, std::span<const Touch> touches);
 
