@@ -11,6 +11,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "palpate/test/paths.h"
+
 extern char** environ;
 
 namespace palpate::testing {
@@ -26,7 +28,7 @@ std::string contentOf(const std::string& path) {
 }  // namespace
 
 ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments) {
-  const std::string path = std::string(PALPATE_BIN_DIR) + "/" + program;
+  const std::string path = palpate::testing::binDir() + "/" + program;
   const std::string base =
       std::filesystem::temp_directory_path() / (program + "-" + std::to_string(getpid()));
   std::vector<std::string> words{path};

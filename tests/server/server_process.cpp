@@ -11,6 +11,8 @@
 #include <sstream>
 #include <thread>
 
+#include "palpate/test/paths.h"
+
 namespace palpate::server::testing {
 namespace {
 
@@ -20,7 +22,7 @@ namespace {
   std::vector<char*> argv{const_cast<char*>("palpate-server")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  execv(PALPATE_BIN_DIR "/palpate-server", argv.data());
+  execv((palpate::testing::binDir() + "/palpate-server").c_str(), argv.data());
   _exit(127);
 }
 

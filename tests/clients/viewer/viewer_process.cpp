@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "palpate/test/paths.h"
+
 namespace palpate::testing {
 namespace {
 
@@ -41,7 +43,7 @@ ViewerProcess::ViewerProcess(const std::string& domain, const std::vector<std::s
   pid_ = fork();
   if (pid_ == 0) {
     dup2(ends[1], STDOUT_FILENO);
-    execv(PALPATE_BIN_DIR "/palpate-viewer", argv.data());
+    execv((palpate::testing::binDir() + "/palpate-viewer").c_str(), argv.data());
     _exit(127);
   }
   close(ends[1]);

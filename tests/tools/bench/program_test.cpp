@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "palpate/test/paths.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {
@@ -22,7 +23,7 @@ struct Outcome {
 };
 
 Outcome bench(const std::string& arguments, const std::string& redirect = "2>/dev/null") {
-  const std::string command = std::string(PALPATE_BIN_DIR) + "/palpate-bench " + arguments + " " + redirect;
+  const std::string command = palpate::testing::binDir() + "/palpate-bench " + arguments + " " + redirect;
   FILE* const pipe = ::popen(command.c_str(), "r");
   Outcome run;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) run.output += static_cast<char>(c);

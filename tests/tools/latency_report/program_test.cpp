@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "palpate/test/paths.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {
@@ -44,7 +45,7 @@ TEST(LatencyReport, MeasuresAllInTurnAndWritesTableFigureAndJson) {
   writeSyntheticModel(model.path(), {.subdivisions = 3, .modes = 8});
   const std::filesystem::path json_file = out.path() / "report.json";
   const std::string command = std::string(PALPATE_TOOLS_DIR) + "/latency-report --quick --bin " +
-                              PALPATE_BIN_DIR + " --model " + model.path().string() + " --out " +
+                              palpate::testing::binDir() + " --model " + model.path().string() + " --out " +
                               out.path().string() + " --json " + json_file.string() + " >/dev/null";
   ASSERT_EQ(run(command), 0);
   const auto json = nlohmann::json::parse(contentOf(json_file));

@@ -2,6 +2,7 @@
 #include "helpers.h"
 #include "palpate/mesh/checks.h"
 #include "palpate/mesh/read_mesh.h"
+#include "palpate/test/paths.h"
 #include "samples.h"
 
 namespace palpate::mesh::test {
@@ -167,7 +168,7 @@ TEST(ReadMsh, NonFiniteCoordinateIsFoundByTheCheck) {
 }
 
 TEST(ReadMsh, ReadsTheLiverOfTheSofaFramework) {
-  const std::filesystem::path file = std::string(PALPATE_DATA_DIR) + "/sofa-liver/liver2.msh";
+  const std::filesystem::path file = palpate::testing::dataDir() + "/sofa-liver/liver2.msh";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   const TetMesh mesh = readMesh(file);
   EXPECT_EQ(mesh.nodes.size(), 507U);

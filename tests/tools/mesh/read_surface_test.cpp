@@ -3,6 +3,7 @@
 
 #include "helpers.h"
 #include "palpate/mesh/read_mesh.h"
+#include "palpate/test/paths.h"
 
 namespace palpate::mesh::test {
 namespace {
@@ -113,7 +114,7 @@ TEST(ReadSurface, KnowsItsFilesByExtension) {
 }
 
 TEST(ReadSurface, FindsTheSelfIntersectionOfTheSmoothLiver) {
-  const std::filesystem::path file = std::string(PALPATE_DATA_DIR) + "/sofa-liver/liver-smooth.obj";
+  const std::filesystem::path file = palpate::testing::dataDir() + "/sofa-liver/liver-smooth.obj";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   TriangleSurface surface = readSurface(file);
   EXPECT_EQ(surface.triangles.size(), 4384U);

@@ -2,6 +2,7 @@
 #include "helpers.h"
 #include "palpate/mesh/checks.h"
 #include "palpate/mesh/read_mesh.h"
+#include "palpate/test/paths.h"
 #include "samples.h"
 
 namespace palpate::mesh::test {
@@ -86,7 +87,7 @@ TEST(ReadVtk, RefusesCountsThatDoNotFit) {
 }
 
 TEST(ReadVtk, RefusesTheBrokenLiverOfTheSofaFramework) {
-  const std::filesystem::path file = std::string(PALPATE_DATA_DIR) + "/sofa-liver/liver_for_test_broken.vtk";
+  const std::filesystem::path file = palpate::testing::dataDir() + "/sofa-liver/liver_for_test_broken.vtk";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   EXPECT_REFUSED(readMesh(file), "liver_for_test_broken.vtk", "POLYDATA");
 }

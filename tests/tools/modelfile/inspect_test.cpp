@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "palpate/test/paths.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {
@@ -24,7 +25,7 @@ struct Outcome {
 
 /// Runs palpate-inspect; `redirect` chooses the stream that is caught.
 Outcome inspect(const std::string& arguments, const std::string& redirect = "2>/dev/null") {
-  const std::string command = std::string(PALPATE_BIN_DIR) + "/palpate-inspect " + arguments + " " + redirect;
+  const std::string command = palpate::testing::binDir() + "/palpate-inspect " + arguments + " " + redirect;
   FILE* const pipe = ::popen(command.c_str(), "r");
   Outcome run;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) run.output += static_cast<char>(c);

@@ -8,6 +8,7 @@
 
 #include "helpers.h"
 #include "palpate/mesh/read_mesh.h"
+#include "palpate/test/paths.h"
 #include "samples.h"
 
 namespace palpate::organ::test {
@@ -30,7 +31,7 @@ Result run(const Folder& folder, const std::string& arguments) {
   const std::string out = (folder / "out").string();
   const std::string err = (folder / "err").string();
   const std::string command =
-      std::string(PALPATE_BIN_DIR) + "/palpate-organ " + arguments + " >" + out + " 2>" + err;
+      palpate::testing::binDir() + "/palpate-organ " + arguments + " >" + out + " 2>" + err;
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(out), contentOf(err)};
 }
@@ -119,7 +120,7 @@ TEST(Program, RefusesUnknownArgumentsInOneLineWithItsName) {
 
 TEST(Program, ImportsTheLiverOfTheSofaFramework) {
   const Folder folder;
-  const std::string data = std::string(PALPATE_DATA_DIR) + "/sofa-liver/";
+  const std::string data = palpate::testing::dataDir() + "/sofa-liver/";
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is not there";
   const std::string to = " -o " + (folder / "x.msh").string();
   const Result result =

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "palpate/test/paths.h"
 #include "run_program.h"
 
 namespace palpate {
@@ -110,7 +111,7 @@ TEST_F(Reproduce, LiverErrorsFallAsPairsAreAdded) {
 
 /// Part 5 of the paper's track on a real mesh: n pairs are as good as the best n.
 TEST_F(Reproduce, PairsOfARealLiverAreAsGoodAsCanBe) {
-  const fs::path mesh = fs::path(PALPATE_DATA_DIR) / "sofa-liver" / "liver2.msh";
+  const fs::path mesh = fs::path(palpate::testing::dataDir()) / "sofa-liver" / "liver2.msh";
   if (!fs::exists(mesh)) GTEST_SKIP() << mesh << " is not there";
   fs::create_directories(folder_);
   const std::string organ = (folder_ / "organ.msh").string();
