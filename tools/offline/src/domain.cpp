@@ -11,8 +11,7 @@ namespace palpate::offline {
 namespace {
 
 /// What a series leaves out, from its last terms: they go on falling as slowly as they did over the last
-/// degree or the last two (docs/design.md, Series asks for the last terms alone; near the radius of convergence the tail
-/// is larger).
+/// degree or the last two. Near the radius of convergence this tail is larger than the last terms. docs/design.md, Series
 double remainder(double last, double previous, double before_previous) {
   if (last == 0.0) return 0.0;
   // Where a degree happens to vanish the ratio says nothing; a tail of four times the last term is the most

@@ -37,9 +37,8 @@ struct Contact {
 ///                   part no anchor goes: it waits there, flagged kNotAccessible
 ///   -> free:        f . n > 0, the tool would pull; or the tip's sphere, grown by 0.5 mm, has left the contact
 ///                   surface, as other tools displaced it: a tool drawn off sideways is not held from afar
-/// Differs from docs/design.md, Contact: the direction m from anchor to tip is n(s) itself, not (c - X) / |c - X| at capture. So g
-/// depends on where the anchor is and not on how it came there, and the surface that a tip of radius R slides on,
-/// X(s) + R n(s), has no edges.
+/// The direction from anchor to tip is n(s) itself, not the one at capture. So g depends on where the anchor is and not on
+/// how it came there, and the surface that a tip of radius R slides on, X(s) + R n(s), has no edges.
 class ContactSolver {
  public:
   explicit ContactSolver(double tip_radius) noexcept : tip_radius_(tip_radius) {}

@@ -30,7 +30,7 @@ struct Stencil {
 ///   I3D 2001, for a scalar.
 /// So force f = sum omega_b f_b and the force on the anchor, dW/ds = sum d omega_b/ds W_b, are derivatives of one energy
 /// W(s, d) = sum omega_b W_b: whatever way a tool goes, none comes from nowhere.
-/// Differs from docs/design.md, Parts: not linear. Where a node has no contact position the linear mix of SurfaceMesh::mix() stays.
+/// Where a node has no contact position the linear mix of SurfaceMesh::mix() stays.
 /// Borrows the model's arrays; built before the loop, then const.
 class SmoothMixing {
  public:

@@ -59,8 +59,8 @@ struct Patch {
                                                                             const SurfacePoint& s,
                                                                             double bound);
 
-/// w_i(s) proportional to A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, restricted to free nodes, sum 1.  DESIGN
-/// 1, 2.3 A patch no node of which is free comes back empty with free_share 0.
+/// w_i(s) proportional to A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, restricted to free nodes, sum 1.
+/// docs/design.md, Symbols, Parts. A patch no node of which is free comes back empty with free_share 0.
 [[nodiscard]] Patch makePatch(const FeModel& model, const ContactSurface& surface, const SurfacePoint& s,
                               double a);
 
