@@ -26,8 +26,8 @@ struct PackedModesData {
   [[nodiscard]] PackedModes view() const { return {X16, X8, scale, kinds, tiles}; }
 };
 
-/// Everything that a model file holds, as vectors. Shapes are row-major as in core/README.md "The model
-/// file"; Ns surface nodes, T triangles, M contact positions, C coefficients of the fields
+/// Everything that a model file holds, as vectors. Shapes are row-major as in docs/model_file.md;
+/// Ns surface nodes, T triangles, M contact positions, C coefficients of the fields
 /// (MonomialBasis::size(order), or the number of level functions), n modes, N volume nodes, V tetrahedra.
 /// attributes.parameters chooses the kind; what belongs to the other kinds stays empty. Stored coefficient =
 /// true coefficient * d_ref^|alpha|, or f_ref^|alpha|. Indices are 0-based.
