@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <stdexcept>
 #include <string>
 
@@ -14,12 +13,6 @@ namespace palpate::rt {
 namespace {
 
 constexpr std::uint64_t kWarmUpCycles = 10;
-
-void sleepUntil(std::int64_t deadline_ns) noexcept {
-  const timespec until = toTimespec(deadline_ns);
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
-}
 
 std::int64_t pageFaultsOfThisThread() noexcept {
   rusage usage{};

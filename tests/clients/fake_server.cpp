@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "palpate/client/pacer.h"
+#include "palpate/rt/pacer.h"
 
 namespace palpate::testing {
 
@@ -51,7 +51,7 @@ void FakeServer::onPose(dds::ReaderView<dds::ToolPose> reader) noexcept {
 }
 
 void FakeServer::run() {
-  client::Pacer pacer(1'000'000);
+  rt::Pacer pacer(1'000'000);
   std::uint64_t seq = 0;
   while (!stop_) {
     pacer.wait();

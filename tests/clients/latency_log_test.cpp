@@ -71,7 +71,7 @@ TEST(LatencyLog, WaitsThatCannotBeTrueAreBounded) {
   negative.pose_wait_ns = std::numeric_limits<std::int64_t>::min();
   negative.wakeup_ns = std::numeric_limits<std::int64_t>::max();
   log.add(negative, received(negative, 100'000));
-  EXPECT_EQ(log.wait().percentile(0.1), 0);
+  EXPECT_EQ(log.wait().quantile(0.1), 0);
 }
 
 TEST(LatencyLog, AnswersToPosesOlderThanTwoPeriodsAreLate) {

@@ -67,7 +67,7 @@ TEST(Chart, OfNothingSaysSo) {
 }
 
 TEST(TextHistogram, ShowsASingleOutlier) {
-  client::Histogram histogram;
+  rt::CycleStats histogram;
   for (int i = 0; i < 10000; ++i) histogram.add(100'000);
   histogram.add(9'000'000);
   const std::string text = textHistogram(histogram);

@@ -47,6 +47,22 @@ TEST(CycleStats, QuantilesAgreeWithSortingWithinOneBucket) {
   EXPECT_EQ(stats.quantile(1.0), all.back());
 }
 
+TEST(CycleStats, BucketsAscendAndHoldEveryDuration) {
+  CycleStats stats;
+  for (const std::int64_t ns : {1, 63, 64, 127, 128, 129, 1'000'000}) stats.add(ns);
+  std::uint64_t total = 0;
+  std::int64_t below = -1;
+  for (std::size_t i = 0; i < CycleStats::kBuckets; ++i) {
+    const CycleStats::Bucket bucket = stats.bucket(i);
+    EXPECT_GT(bucket.upper_ns, below) << i;
+    below = bucket.upper_ns;
+    total += bucket.count;
+  }
+  EXPECT_EQ(total, stats.count());
+  EXPECT_EQ(stats.bucket(64).count, 1U);   // 64 has a bucket of its own
+  EXPECT_EQ(stats.bucket(128).count, 2U);  // 128 and 129 share one
+}
+
 TEST(CycleStats, ValuesOutsideTheRangeAreCountedInTheEndBuckets) {
   CycleStats stats;
   stats.add(-5);

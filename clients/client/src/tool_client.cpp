@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "palpate/client/error.h"
-#include "palpate/client/pacer.h"
+#include "palpate/rt/clock.h"
 
 namespace palpate::client {
 namespace {
@@ -21,7 +21,7 @@ std::uint32_t checkedId(std::uint32_t tool_id) {
 ToolClient::ToolClient(const dds::Participant& participant, std::uint32_t tool_id, ForceCallback callback,
                        void* context)
     : tool_id_(checkedId(tool_id)),
-      first_seq_(static_cast<std::uint64_t>(nowNs())),
+      first_seq_(static_cast<std::uint64_t>(rt::monotonicNow())),
       last_seq_(first_seq_ - 1),
       callback_(callback),
       context_(context),
@@ -37,7 +37,7 @@ std::uint64_t ToolClient::publish(const Point& position, const std::array<double
   std::copy(position.begin(), position.end(), pose_.position);
   std::copy(orientation.begin(), orientation.end(), pose_.orientation);
   pose_.buttons = buttons;
-  pose_.stamp_ns = nowNs();
+  pose_.stamp_ns = rt::monotonicNow();
   last_seq_.store(pose_.seq, std::memory_order_relaxed);  // before the pose is out: its answer comes later
   return poses_.write(pose_) ? pose_.seq : 0;
 }
@@ -57,12 +57,12 @@ bool ToolClient::waitForServer(std::chrono::milliseconds timeout) const noexcept
 
 void ToolClient::onData(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept {
   auto& self = *static_cast<ToolClient*>(context);
-  const std::int64_t received_ns = nowNs();
+  const std::int64_t received_ns = rt::monotonicNow();
   std::array<dds::ToolForce, dds::kMaxTake> forces;
   const std::size_t count = reader.take(forces);
   for (std::size_t i = 0; i < count; ++i) {
     if (!self.answersUs(forces[i])) continue;
-    self.latest_.store(forces[i]);
+    self.latest_.write(forces[i]);
     if (self.callback_ != nullptr) self.callback_(forces[i], received_ns, self.context_);
   }
 }

@@ -5,20 +5,16 @@
 #include <iostream>
 
 #include "palpate/client/error.h"
-#include "palpate/client/pacer.h"
+#include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/client/thread_priority.h"
+#include "palpate/rt/pacer.h"
 
 namespace palpate::device {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr double kPeriod = 1e-3;  // s
 constexpr std::int64_t kPeriodNs = 1'000'000;
 constexpr std::uint64_t kPatience = 1000;  // periods
-constexpr int kPriority = 60;              // below the server's threads (docs/design.md, Threads)
-constexpr int kReceivePriority = 65;
 
 // One exchange with the server each period.
 class Exchange {
@@ -65,7 +61,7 @@ class Exchange {
   }
 
   client::ToolClient& tool_;
-  client::Pacer pacer_;
+  rt::Pacer pacer_;
   dds::ToolForce answer_{};
   Point sent_{};
   std::uint64_t last_sent_{0};
@@ -84,11 +80,7 @@ void note(const HeldDevice& device, const dds::ToolForce& answer, Recording& rec
 
 Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device) {
   client::ToolClient tool(participant, tool_id);
-  if (!tool.waitForServer(5s))
-    throw client::ClientError("the server takes no poses or sends no forces (waited 5 s)");
-  client::raiseReceiveThreads(kReceivePriority);
-  if (!client::raiseThisThread(kPriority))
-    std::cerr << "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
+  if (!client::prepareToSend(tool)) std::cerr << client::kNotRealtime;
   Recording recording;
   recording.trace.dt = kPeriod;
   Exchange exchange(tool);

@@ -6,10 +6,11 @@
 #include <sstream>
 
 #include "force_renderer.h"
-#include "palpate/client/latest_value.h"
-#include "palpate/client/pacer.h"
-#include "palpate/client/thread_priority.h"
 #include "palpate/client/tool_client.h"
+#include "palpate/idl/receive_threads.h"
+#include "palpate/rt/clock.h"
+#include "palpate/rt/scheduling.h"
+#include "palpate/rt/triple_buffer.h"
 
 namespace palpate::haptic {
 namespace {
@@ -48,7 +49,8 @@ class HapticTool::Impl {
         participant_(options.domain),
         statuses_(participant_, &Impl::onStatus, this),
         tool_(participant_, options.tool_id, &Impl::onForce, this) {
-    if (options.receive_priority > 0) client::raiseReceiveThreads(options.receive_priority);
+    if (options.receive_priority > 0)
+      (void)rt::raiseThreadsNamed(dds::kReceiveThreads, options.receive_priority);
   }
 
   [[nodiscard]] bool waitForServer(std::chrono::milliseconds timeout) const noexcept {
@@ -63,11 +65,10 @@ class HapticTool::Impl {
   }
 
   [[nodiscard]] Force read(const Point* position) noexcept {
-    Answer answer;
-    if (arrivals_.load(answer)) renderer_.answered(answer);
+    if (arrivals_.update()) renderer_.answered(arrivals_.front());
     const double server_limit = server_limit_.load(std::memory_order_relaxed);
     const double limit = server_limit > 0.0 ? std::min(limit_, server_limit) : limit_;
-    return renderer_.at(position, client::nowNs(), limit);
+    return renderer_.at(position, rt::monotonicNow(), limit);
   }
 
   [[nodiscard]] double tipRadius() const noexcept { return tip_radius_.load(std::memory_order_relaxed); }
@@ -75,7 +76,7 @@ class HapticTool::Impl {
 
  private:
   static void onForce(const dds::ToolForce& force, std::int64_t received_ns, void* context) noexcept {
-    static_cast<Impl*>(context)->arrivals_.store({arrayOf(force.force), arrayOf(force.stiffness),
+    static_cast<Impl*>(context)->arrivals_.write({arrayOf(force.force), arrayOf(force.stiffness),
                                                   arrayOf(force.anchor), arrayOf(force.proxy), force.pose_seq,
                                                   force.flags, force.state, received_ns});
   }
@@ -94,7 +95,7 @@ class HapticTool::Impl {
 
   double limit_;
   ForceRenderer renderer_;
-  client::LatestValue<Answer> arrivals_;  // from the receive thread to the caller's
+  rt::TripleBuffer<Answer> arrivals_;  // from the receive thread to the caller's
   std::atomic<double> server_limit_{0.0};
   std::atomic<double> tip_radius_{0.0};
   dds::Participant participant_;

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "palpate/client/gap_counter.h"
-#include "palpate/client/histogram.h"
 #include "palpate/idl/types.h"
+#include "palpate/rt/cycle_stats.h"
 
 namespace palpate::latency {
 
@@ -25,13 +25,13 @@ class LatencyLog {
   /// Real-time: yes.
   void add(const dds::ToolForce& force, std::int64_t received_ns) noexcept;
 
-  [[nodiscard]] const client::Histogram& poseToForce() const noexcept { return pose_to_force_; }
+  [[nodiscard]] const rt::CycleStats& poseToForce() const noexcept { return pose_to_force_; }
   /// From a pose's arrival at the server to the planned time of the tick that answered it, by the server's clock.
-  [[nodiscard]] const client::Histogram& wait() const noexcept { return wait_; }
+  [[nodiscard]] const rt::CycleStats& wait() const noexcept { return wait_; }
   /// Pose to force less that wait, pose by pose: what wire, wake-up, tick and threads cost.
-  [[nodiscard]] const client::Histogram& poseToForceLessWait() const noexcept { return less_wait_; }
-  [[nodiscard]] const client::Histogram& wakeup() const noexcept { return wakeup_; }
-  [[nodiscard]] const client::Histogram& tick() const noexcept { return tick_; }
+  [[nodiscard]] const rt::CycleStats& poseToForceLessWait() const noexcept { return less_wait_; }
+  [[nodiscard]] const rt::CycleStats& wakeup() const noexcept { return wakeup_; }
+  [[nodiscard]] const rt::CycleStats& tick() const noexcept { return tick_; }
   [[nodiscard]] std::uint64_t received() const noexcept { return answers_.received(); }
   [[nodiscard]] std::uint64_t lost() const noexcept { return answers_.lost(); }
   [[nodiscard]] std::uint64_t restarts() const noexcept { return answers_.restarts(); }
@@ -48,11 +48,11 @@ class LatencyLog {
 
   std::int64_t period_ns_;
   std::atomic<bool> recording_{false};  // a flag on its own: nothing else is read because of it
-  client::Histogram pose_to_force_;
-  client::Histogram wait_;
-  client::Histogram less_wait_;
-  client::Histogram wakeup_;
-  client::Histogram tick_;
+  rt::CycleStats pose_to_force_;
+  rt::CycleStats wait_;
+  rt::CycleStats less_wait_;
+  rt::CycleStats wakeup_;
+  rt::CycleStats tick_;
   client::GapCounter answers_;
   std::uint64_t newest_pose_{0};
   std::uint64_t late_{0};

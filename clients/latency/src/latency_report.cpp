@@ -4,12 +4,15 @@
 #include <array>
 #include <cstdio>
 
+#include "palpate/client/time_summary.h"
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
 #include "palpate/report/text_chart.h"
 
 namespace palpate::latency {
 namespace {
+
+using client::summaryOf;
 
 std::string rowOf(const char* name, const client::TimeSummary& s) {
   std::array<char, 128> text{};
@@ -33,9 +36,9 @@ const char* phaseName(const dds::ServerStatus& server) {
   }
 }
 
-report::Series barsOf(const char* name, const client::Histogram& histogram) {
+report::Series barsOf(const char* name, const rt::CycleStats& histogram) {
   report::Series series{name, {}, {}, {}};
-  for (const auto& bar : histogram.bars(10)) {
+  for (const auto& bar : client::barsOf(histogram, 10)) {
     series.x.push_back(bar.from_ns * 1e-3);
     series.x_end.push_back(bar.to_ns * 1e-3);
     series.y.push_back(static_cast<double>(bar.count));
@@ -47,12 +50,12 @@ report::Series barsOf(const char* name, const client::Histogram& histogram) {
 
 std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
   std::string text = "time / us                          p50       p99     p99.9       max     count\n";
-  text += rowOf("pose to force, round trip", log.poseToForce().summary());
-  text += rowOf("  of it the wait for a tick", log.wait().summary());
-  text += rowOf("  less that wait", log.poseToForceLessWait().summary());
-  text += rowOf("tick, compute time", log.tick().summary());
-  text += rowOf("tick, woke late by", log.wakeup().summary());
-  text += rowOf("sender, woke late by", sender.wakeup.summary());
+  text += rowOf("pose to force, round trip", summaryOf(log.poseToForce()));
+  text += rowOf("  of it the wait for a tick", summaryOf(log.wait()));
+  text += rowOf("  less that wait", summaryOf(log.poseToForceLessWait()));
+  text += rowOf("tick, compute time", summaryOf(log.tick()));
+  text += rowOf("tick, woke late by", summaryOf(log.wakeup()));
+  text += rowOf("sender, woke late by", summaryOf(sender.wakeup));
   std::array<char, 256> counters{};
   std::snprintf(
       counters.data(), counters.size(),
@@ -70,13 +73,13 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
 }
 
 nlohmann::json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
-  return {{"pose_to_force_us", report::toJson(log.poseToForce().summary())},
-          {"pose_wait_us", report::toJson(log.wait().summary())},
-          {"pose_to_force_less_wait_us", report::toJson(log.poseToForceLessWait().summary())},
-          {"wakeup_us", report::toJson(log.wakeup().summary())},
-          {"tick_us", report::toJson(log.tick().summary())},
+  return {{"pose_to_force_us", report::toJson(summaryOf(log.poseToForce()))},
+          {"pose_wait_us", report::toJson(summaryOf(log.wait()))},
+          {"pose_to_force_less_wait_us", report::toJson(summaryOf(log.poseToForceLessWait()))},
+          {"wakeup_us", report::toJson(summaryOf(log.wakeup()))},
+          {"tick_us", report::toJson(summaryOf(log.tick()))},
           {"phase_lock", phaseName(server)},
-          {"client_wakeup_us", report::toJson(sender.wakeup.summary())},
+          {"client_wakeup_us", report::toJson(summaryOf(sender.wakeup))},
           {"overruns", log.overruns()},
           {"lost", log.lost()},
           {"late", log.late()},

@@ -7,6 +7,7 @@
 
 #include "latency_report.h"
 #include "palpate/client/error.h"
+#include "palpate/client/sending.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/reader.h"
@@ -77,8 +78,7 @@ int body(int argc, char** argv) {
   // 3. Measure.
   LatencyLog log(static_cast<std::int64_t>(1e9 / options.measure.rate_hz));
   const SenderStats sender = measure(participant, spot, options.measure, log);
-  if (!sender.realtime)
-    std::cerr << "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
+  if (!sender.realtime) std::cerr << client::kNotRealtime;
   if (log.received() == 0)
     throw client::ClientError("no force came back for " + std::to_string(sender.sent) + " poses");
 

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure.h"
 
-#include <chrono>
 #include <cmath>
 
 #include "palpate/client/error.h"
-#include "palpate/client/pacer.h"
+#include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/client/thread_priority.h"
-#include "palpate/client/tool_client.h"
+#include "palpate/rt/clock.h"
+#include "palpate/rt/pacer.h"
 
 namespace palpate::latency {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr int kPriority = 60;  // below the server's threads (docs/design.md, Threads)
-constexpr int kReceivePriority = 65;
 constexpr double kApproachSeconds = 1.0;
 
 // In between 1 and 2 mm deep, one second a turn, so that the force never rests.
@@ -33,16 +28,17 @@ client::Path gentlePress(const client::Spot& spot, const MeasureOptions& options
 }
 
 // Sends from `from` to `to` on the path's time; the pacer keeps going from one call to the next.
-void send(client::ToolClient& tool, const client::Path& path, double from, double to, client::Pacer& pacer,
+void send(client::ToolClient& tool, const client::Path& path, double from, double to, rt::Pacer& pacer,
           SenderStats& stats) {
-  const std::int64_t start_ns = client::nowNs();
+  const std::int64_t start_ns = rt::monotonicNow();
   const double direction = from <= to ? 1.0 : -1.0;
-  for (double t = 0.0; t < std::abs(to - from); t = static_cast<double>(client::nowNs() - start_ns) * 1e-9) {
+  for (double t = 0.0; t < std::abs(to - from);
+       t = static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9) {
     if (tool.publish(path.at(from + direction * t)) > 0) ++stats.sent;
     stats.wakeup.add(pacer.wait());
     if (client::stopRequested()) break;
   }
-  stats.seconds = static_cast<double>(client::nowNs() - start_ns) * 1e-9;
+  stats.seconds = static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9;
 }
 
 }  // namespace
@@ -53,14 +49,11 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
     static_cast<LatencyLog*>(context)->add(force, received_ns);
   };
   client::ToolClient tool(participant, options.tool_id, on_force, &log);
-  if (!tool.waitForServer(5s))
-    throw client::ClientError("the server takes no poses or sends no forces (waited 5 s)");
   const client::Path path = gentlePress(spot, options);
   SenderStats unmeasured;
   SenderStats stats;
-  client::raiseReceiveThreads(kReceivePriority);
-  stats.realtime = client::raiseThisThread(kPriority);
-  client::Pacer pacer(std::llround(1e9 / options.rate_hz));
+  stats.realtime = client::prepareToSend(tool);
+  rt::Pacer pacer(std::llround(1e9 / options.rate_hz));
   send(tool, path, 0.0, kApproachSeconds, pacer, unmeasured);
   log.record(true);
   send(tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats);

@@ -17,8 +17,8 @@ struct MeasureOptions {
 
 /// This process's side of the measurement.
 struct SenderStats {
-  client::Histogram wakeup;  ///< how late the sending thread woke
-  double seconds{0.0};       ///< how long it was measured
+  rt::CycleStats wakeup;  ///< how late the sending thread woke
+  double seconds{0.0};    ///< how long it was measured
   std::uint64_t sent{0};
   bool realtime{false};
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "palpate/client/time_summary.h"
+
 namespace palpate::report {
 namespace {
 
@@ -50,8 +52,8 @@ std::string textChart(const std::vector<double>& x, const std::vector<double>& y
          '\n';
 }
 
-std::string textHistogram(const client::Histogram& histogram, int per_decade) {
-  const auto bars = histogram.bars(per_decade);
+std::string textHistogram(const rt::CycleStats& histogram, int per_decade) {
+  const auto bars = client::barsOf(histogram, per_decade);
   std::uint64_t most = 0;
   for (const auto& bar : bars) most = std::max(most, bar.count);
   std::string text;

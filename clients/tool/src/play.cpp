@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "palpate/client/error.h"
-#include "palpate/client/pacer.h"
+#include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/client/thread_priority.h"
-#include "palpate/client/tool_client.h"
+#include "palpate/rt/clock.h"
+#include "palpate/rt/pacer.h"
 
 namespace palpate::tool {
 namespace {
@@ -18,8 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
-constexpr int kPriority = 60;  // below the server's threads (docs/design.md, Threads)
-constexpr int kReceivePriority = 65;
 
 // Written by the receive thread; read once the ToolClient, and with it the receiving, has ended.
 struct AnswerLog {
@@ -62,11 +60,11 @@ std::vector<Sample> join(const std::vector<SentPose>& sent, const std::vector<dd
 
 void sendAlong(const client::Path& path, client::ToolClient& tool, const AnswerLog& log,
                std::vector<SentPose>& sent, Recording& recording) {
-  const std::int64_t start_ns = client::nowNs();
-  client::Pacer pacer(kPeriodNs);
+  const std::int64_t start_ns = rt::monotonicNow();
+  rt::Pacer pacer(kPeriodNs);
   for (double t = 0.0; t <= path.seconds() && !client::stopRequested(); pacer.wait()) {
     if (log.server_left.load(std::memory_order_relaxed)) break;
-    t = static_cast<double>(client::nowNs() - start_ns) * 1e-9;
+    t = static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9;
     const client::Point position = path.at(t);
     const std::uint64_t seq = tool.publish(position);
     if (seq > 0) sent.push_back({seq, t, position});
@@ -84,11 +82,7 @@ Recording play(const dds::Participant& participant, std::uint32_t tool_id, const
   sent.reserve(capacity);
   {
     client::ToolClient tool(participant, tool_id, &AnswerLog::onForce, &log);
-    if (!tool.waitForServer(5s))
-      throw client::ClientError("the server takes no poses or sends no forces (waited 5 s)");
-    client::raiseReceiveThreads(kReceivePriority);
-    if (!client::raiseThisThread(kPriority))
-      std::cerr << "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
+    if (!client::prepareToSend(tool)) std::cerr << client::kNotRealtime;
     sendAlong(path, tool, log, sent, recording);
     std::this_thread::sleep_for(20ms);  // the last answers are still on their way
   }

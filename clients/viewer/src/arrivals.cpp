@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "palpate/client/pacer.h"
+#include "palpate/rt/clock.h"
 
 namespace palpate::viewer {
 namespace {
@@ -36,7 +36,7 @@ std::uint64_t Arrivals::keyOf(std::uint32_t organ_id, std::string_view model_id)
 bool Arrivals::admits(const dds::SurfaceDisplacement& field, void* context) noexcept {
   auto& self = *static_cast<Arrivals*>(context);
   if (keyOf(field.organ_id, field.model_id) != self.organ_.load(std::memory_order_relaxed)) return false;
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   self.pace_.setRate(self.rate_hz_.load(std::memory_order_relaxed));
   if (!self.pace_.due(now_ns)) return false;
   self.pace_.went(now_ns);
@@ -65,7 +65,7 @@ void Arrivals::keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns) 
 
 void Arrivals::onField(dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept {
   auto& self = *static_cast<Arrivals*>(context);
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   const auto samples = reader.takeLoaned();
   for (std::size_t i = 0; i < samples.size(); ++i) self.keep(samples[i], now_ns);
   if (!samples.empty()) self.wake_(self.context_);
@@ -73,7 +73,7 @@ void Arrivals::onField(dds::ReaderView<dds::SurfaceDisplacement> reader, void* c
 
 void Arrivals::onForce(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept {
   auto& self = *static_cast<Arrivals*>(context);
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   std::array<dds::ToolForce, dds::kMaxTake> forces;
   const std::size_t count = reader.take(forces);
   const std::lock_guard lock(self.mutex_);

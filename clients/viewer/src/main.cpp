@@ -10,8 +10,9 @@
 
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/client/thread_priority.h"
+#include "palpate/idl/receive_threads.h"
 #include "palpate/report/program.h"
+#include "palpate/rt/scheduling.h"
 #include "web_server.h"
 
 namespace palpate::viewer {
@@ -93,7 +94,8 @@ int body(int argc, char** argv) {
   WebServer server(options.web);
   const dds::Participant participant(options.domain);
   Viewer viewer(participant, options.web.rate_hz, options.tools, &WebServer::wake, &server);
-  client::raiseReceiveThreads(kReceivePriority);  // where the kernel lets us: browsers keep a machine busy
+  // Where the kernel grants it: browsers keep a machine busy.
+  (void)rt::raiseThreadsNamed(dds::kReceiveThreads, kReceivePriority);
 
   // 3. Serve.
   announce(server, options);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "palpate/client/pacer.h"
+#include "palpate/rt/clock.h"
 
 namespace palpate::viewer {
 namespace {
@@ -114,7 +114,7 @@ std::optional<std::string> Page::nextText(std::int64_t now_ns) {
     return stateText(viewer_.state());
   }
   if (const auto t0 = std::exchange(ping_, std::nullopt))
-    return pongText(*t0, static_cast<double>(client::nowNs()) * 1e-3);
+    return pongText(*t0, static_cast<double>(rt::monotonicNow()) * 1e-3);
   if (const auto grant = std::exchange(grant_, std::nullopt)) return toolText(*grant);
   if (!answers_.empty()) {
     const ParameterDesk::Answer answer = answers_.front();
@@ -162,7 +162,7 @@ void Page::frame(std::int64_t now_ns, Bytes& out) {
   frame.field = new_field ? viewer_.feed.field() : nullptr;
   frame.tools = records;
   frame.answers = batch_;
-  frame.sent_us = static_cast<double>(client::nowNs()) * 1e-3;
+  frame.sent_us = static_cast<double>(rt::monotonicNow()) * 1e-3;
   encodeFrame(frame, out);
   field_version_ = viewer_.feed.fieldVersion();
   pace_.went(now_ns);

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palpate/client/pacer.h"
-#include "palpate/client/thread_priority.h"
+#include "palpate/rt/clock.h"
+#include "palpate/rt/pacer.h"
+#include "palpate/rt/scheduling.h"
 
 namespace palpate::viewer {
 namespace {
@@ -25,7 +26,7 @@ dds::ToolPose poseAt(std::uint32_t tool_id, std::uint64_t seq, std::int64_t now_
 
 ToolDesk::ToolDesk(const dds::Participant& participant, std::vector<std::uint32_t> ids)
     : ids_(std::move(ids)), writer_(participant) {
-  for (Tool& tool : tools_) tool.seq = static_cast<std::uint64_t>(client::nowNs());
+  for (Tool& tool : tools_) tool.seq = static_cast<std::uint64_t>(rt::monotonicNow());
   thread_ = std::thread([this] { run(); });
 }
 
@@ -51,7 +52,7 @@ void ToolDesk::sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexce
 
 ToolGrant ToolDesk::grab(std::uint64_t page_id) {
   if (server_tools_ == 0) return {false, 0, "no server answers tools yet"};
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   const std::lock_guard lock(mutex_);
   // The answer to this is newer than what became of the tool before.
   std::erase_if(endings_, [&](const Ending& ending) { return ending.page_id == page_id; });
@@ -78,7 +79,7 @@ bool ToolDesk::target(std::uint64_t page_id, const client::Point& p_WT) {
   const std::lock_guard lock(mutex_);
   Tool* tool = find(page_id);
   if (tool == nullptr) return false;
-  tool->driven->follower.target(p_WT, client::nowNs());
+  tool->driven->follower.target(p_WT, rt::monotonicNow());
   return true;
 }
 
@@ -93,7 +94,7 @@ void ToolDesk::release(std::uint64_t page_id) {
 
 void ToolDesk::drop(std::uint64_t page_id) {
   const std::lock_guard lock(mutex_);
-  if (Tool* tool = find(page_id)) rest(*tool, client::nowNs());
+  if (Tool* tool = find(page_id)) rest(*tool, rt::monotonicNow());
 }
 
 std::vector<ToolDesk::Ending> ToolDesk::endings() {
@@ -159,14 +160,14 @@ void ToolDesk::stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses) {
 void ToolDesk::run() {
   // Below the server's threads; where the kernel grants none, ordinary.
   constexpr int kPriority = 30;
-  (void)client::raiseThisThread(kPriority);
+  (void)rt::raiseThisThread(kPriority);
   std::vector<dds::ToolPose> poses;
   std::unique_lock lock(mutex_);
   while (!stop_) {
     driven_.wait(lock, [this] { return stop_ || anyDriven(); });
-    client::Pacer pacer(1'000'000);
+    rt::Pacer pacer(1'000'000);
     while (!stop_ && anyDriven()) {
-      stepAll(client::nowNs(), poses);
+      stepAll(rt::monotonicNow(), poses);
       lock.unlock();
       for (const dds::ToolPose& pose : poses) (void)writer_.write(pose);
       pacer.wait();

@@ -5,8 +5,8 @@
 
 #include "page.h"
 #include "palpate/client/error.h"
-#include "palpate/client/pacer.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/rt/clock.h"
 #include "request.h"
 
 namespace palpate::viewer {
@@ -23,7 +23,7 @@ constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, 10, 20, 0};
 // Others can cause these lines, and must not fill the disk: one a second. The service thread's.
 void warn(std::string_view text) {
   static std::int64_t next_ns = 0;
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   if (now_ns < next_ns) return;
   next_ns = now_ns + 1'000'000'000;
   spdlog::warn("{}", text);
@@ -135,7 +135,7 @@ void WebServer::tend() noexcept {
 
 void WebServer::lookForNews() {
   if (viewer_ == nullptr) return;
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   viewer_->tend(now_ns);
   for (lws* wsi : pages_) {
     const auto* connection = static_cast<const Connection*>(lws_wsi_user(wsi));
@@ -237,7 +237,7 @@ void WebServer::open(lws* wsi, Connection& connection) {
 }
 
 int WebServer::receive(lws* wsi, Connection& connection, std::string_view part) {
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   const bool last = lws_is_final_fragment(wsi) != 0 && lws_remaining_packet_payload(wsi) == 0;
   const bool too_large = lws_remaining_packet_payload(wsi) > kMaxMessage;
   const Close close = too_large ? Close::kTooLarge
@@ -254,7 +254,7 @@ int WebServer::receive(lws* wsi, Connection& connection, std::string_view part) 
 }
 
 int WebServer::write(lws* wsi, Connection& connection) {
-  const std::int64_t now_ns = client::nowNs();
+  const std::int64_t now_ns = rt::monotonicNow();
   buffer_.assign(LWS_PRE, 0);
   const auto binary = connection.page->next(now_ns, buffer_);
   if (!binary) return kGoOn;

@@ -8,11 +8,12 @@
 
 #include "field_log.h"
 #include "palpate/client/error.h"
-#include "palpate/client/pacer.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/report/program.h"
 #include "palpate/report/vtk_surface.h"
+#include "palpate/rt/clock.h"
+#include "palpate/rt/pacer.h"
 
 namespace palpate::watch {
 namespace {
@@ -63,9 +64,9 @@ void printLine(std::ostream& out, double t, double rate, const client::Surface& 
 
 // Prints a line a second until the time is over or the user stops. @return seconds watched
 double follow(const FieldLog& log, const client::Surface& surface, double seconds, std::ostream& out) {
-  const std::int64_t start_ns = client::nowNs();
-  const auto elapsed = [&] { return static_cast<double>(client::nowNs() - start_ns) * 1e-9; };
-  client::Pacer pacer(50'000'000);
+  const std::int64_t start_ns = rt::monotonicNow();
+  const auto elapsed = [&] { return static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9; };
+  rt::Pacer pacer(50'000'000);
   double last_s = 0.0;
   std::uint64_t last_count = 0;
   while (elapsed() < seconds && !client::stopRequested()) {
@@ -118,7 +119,7 @@ int body(int argc, char** argv) {
     static_cast<Watch*>(context)->log.take(reader);
   };
   const auto admits = [](const dds::SurfaceDisplacement&, void* context) noexcept {
-    return static_cast<Watch*>(context)->pace.admits(client::nowNs());
+    return static_cast<Watch*>(context)->pace.admits(rt::monotonicNow());
   };
   const dds::Reader<dds::SurfaceDisplacement> reader(participant, on_data, &watch, admits);
   const double seconds = follow(log, surface, options.seconds, options.json ? std::cerr : std::cout);

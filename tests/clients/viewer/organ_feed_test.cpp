@@ -10,8 +10,8 @@
 
 #include "../small_surface.h"
 #include "palpate/client/error.h"
-#include "palpate/client/pacer.h"
 #include "palpate/idl/writer.h"
+#include "palpate/rt/clock.h"
 #include "test_domain.h"
 
 namespace palpate::viewer {
@@ -32,13 +32,13 @@ class FeedOfManyServers : public ::testing::Test {
   // Polls until it is so; not for ever.
   bool until(const std::function<bool()>& so) {
     for (int i = 0; i < 400; ++i) {
-      (void)feed_.poll(client::nowNs(), 0);
+      (void)feed_.poll(rt::monotonicNow(), 0);
       if (so()) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return false;
   }
-  [[nodiscard]] std::string state() const { return feed_.state(client::nowNs()).name; }
+  [[nodiscard]] std::string state() const { return feed_.state(rt::monotonicNow()).name; }
 
   void sayStatus(std::uint32_t server_id, std::uint32_t organ_id, const char* model,
                  std::uint32_t state = dds::server_state::kRunning) {
@@ -87,7 +87,7 @@ TEST_F(FeedOfManyServers, AnotherModelOfTheSameOrganDoesNotHideTheOneThatIsFollo
   ASSERT_TRUE(until([&] { return state() == "waiting"; }));
   saySurface(0, "aa");
   saySurface(0, "bb");  // before the first was looked at, and on the same DDS instance
-  EXPECT_TRUE(until([&] { return state() == "serving"; })) << feed_.state(client::nowNs()).text;
+  EXPECT_TRUE(until([&] { return state() == "serving"; })) << feed_.state(rt::monotonicNow()).text;
   ASSERT_NE(feed_.surface(), nullptr);
   EXPECT_EQ(feed_.surface()->model_id, "aa");
   sayStatus(1, 0, "aa", dds::server_state::kStopping);
@@ -102,7 +102,7 @@ TEST_F(FeedOfManyServers, OtherOrgansHoweverManyDoNotHideTheOneThatIsFollowed) {
   ASSERT_TRUE(until([&] { return state() == "serving"; }));
   for (std::uint32_t organ = 0; organ < 3 * Surfaces::kMostKept; ++organ) {
     saySurface(organ, "cc");
-    (void)feed_.poll(client::nowNs(), 0);
+    (void)feed_.poll(rt::monotonicNow(), 0);
   }
   EXPECT_FALSE(until([&] { return state() != "serving"; }));
 }
@@ -162,7 +162,7 @@ TEST_F(FeedOfManyServers, AnswersAndPosesThatAreNoNumbersAreNotShown) {
   }
   const auto good = [](dds::ToolForce&) {};
   pose(0.25);
-  const auto shown = [&](std::uint32_t id) { return feed_.tool(id, client::nowNs()); };
+  const auto shown = [&](std::uint32_t id) { return feed_.tool(id, rt::monotonicNow()); };
   ASSERT_TRUE(until([&] {
     answer(3, good);
     return shown(3) != nullptr && shown(3)->tip_known;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cerrno>
 #include <cstdint>
 #include <ctime>
 
@@ -20,6 +21,14 @@ PALPATE_TRUSTED_END
 /// @param[in] ns  time on any clock, ns, not negative
 [[nodiscard]] inline timespec toTimespec(std::int64_t ns) noexcept PALPATE_NONBLOCKING {
   return {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+}
+
+/// Sleeps until a point in time on CLOCK_MONOTONIC; returns at once when it is past. Threads: any.
+/// @param[in] deadline_ns  ns, not negative
+inline void sleepUntil(std::int64_t deadline_ns) noexcept {
+  const timespec until = toTimespec(deadline_ns);
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
 }
 
 }  // namespace palpate::rt

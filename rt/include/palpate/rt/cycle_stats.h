@@ -11,7 +11,18 @@ namespace palpate::rt {
 /// two, 64 to a power, so that a value is known within 1/64 from 1 ns to 18 minutes. Longer ones count as the
 /// last bucket. Threads: one. Real-time: yes; quantile() walks all buckets, about 1 us.
 class CycleStats {
+  static constexpr int kSubBits = 6;   // 64 buckets to a power of two
+  static constexpr int kTopBits = 40;  // values below 2^40 ns
+
  public:
+  static constexpr std::size_t kBuckets = (kTopBits - kSubBits + 1) << kSubBits;
+
+  /// `count` durations of at most `upper_ns`, longer than those of the bucket before.
+  struct Bucket {
+    std::int64_t upper_ns;
+    std::uint64_t count;
+  };
+
   /// @param[in] ns  a duration; negative counts as 0
   void add(std::int64_t ns) noexcept PALPATE_NONBLOCKING;
 
@@ -22,13 +33,14 @@ class CycleStats {
   [[nodiscard]] std::int64_t max() const noexcept PALPATE_NONBLOCKING { return max_; }  ///< exact, ns
   [[nodiscard]] std::uint64_t count() const noexcept PALPATE_NONBLOCKING { return count_; }
 
+  /// @param[in] index  below kBuckets; ascending with the durations
+  [[nodiscard]] Bucket bucket(std::size_t index) const noexcept PALPATE_NONBLOCKING {
+    return {upperEdge(index), buckets_[index]};
+  }
+
   void clear() noexcept PALPATE_NONBLOCKING { *this = CycleStats{}; }
 
  private:
-  static constexpr int kSubBits = 6;   // 64 buckets to a power of two
-  static constexpr int kTopBits = 40;  // values below 2^40 ns
-  static constexpr std::size_t kBuckets = (kTopBits - kSubBits + 1) << kSubBits;
-
   static std::size_t bucketOf(std::uint64_t ns) noexcept PALPATE_NONBLOCKING;
   static std::int64_t upperEdge(std::size_t bucket) noexcept PALPATE_NONBLOCKING;
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "palpate/idl/receive_threads.h"
 #include "palpate/rt/memory.h"
 #include "palpate/rt/process_threads.h"
 #include "palpate/rt/scheduling.h"
@@ -17,7 +18,7 @@ inline constexpr int kForcePriority = 75;
 inline constexpr int kReceivePriority = 70;
 inline constexpr int kSurfacePriority = 40;
 
-inline constexpr std::string_view kReceiveThreads[] = {"recv", "recvUC", "recvMC"};  // Cyclone DDS 0.10
+using dds::kReceiveThreads;
 
 /// What the system gave us, once all threads run.
 struct Startup {

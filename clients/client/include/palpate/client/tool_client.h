@@ -5,10 +5,10 @@
 #include <atomic>
 #include <cstdint>
 
-#include "palpate/client/latest_value.h"
 #include "palpate/client/path.h"
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
+#include "palpate/rt/triple_buffer.h"
 
 namespace palpate::client {
 
@@ -17,7 +17,7 @@ namespace palpate::client {
 class ToolClient {
  public:
   /// Called for every answer to this tool, on Cyclone's receive thread: must not block or throw.
-  /// @param[in] received_ns  nowNs() on arrival
+  /// @param[in] received_ns  rt::monotonicNow() on arrival
   using ForceCallback = void (*)(const dds::ToolForce& force, std::int64_t received_ns,
                                  void* context) noexcept;
 
@@ -40,7 +40,11 @@ class ToolClient {
                         std::uint32_t buttons = 0) noexcept;
 
   /// The newest answer, if there is one that no call gave before. Real-time: yes. Threads: one, any.
-  [[nodiscard]] bool latest(dds::ToolForce& force) noexcept { return latest_.load(force); }
+  [[nodiscard]] bool latest(dds::ToolForce& force) noexcept {
+    if (!latest_.update()) return false;
+    force = latest_.front();
+    return true;
+  }
 
   /// @return whether a server listens to the poses and one sends forces, within `timeout`
   [[nodiscard]] bool waitForServer(std::chrono::milliseconds timeout) const noexcept;
@@ -56,7 +60,7 @@ class ToolClient {
       last_seq_;  // written by publish(), read by the receive thread; a number on its own
   ForceCallback callback_;
   void* context_;
-  LatestValue<dds::ToolForce> latest_;  // written by the receive thread, read by latest()'s caller
+  rt::TripleBuffer<dds::ToolForce> latest_;  // written by the receive thread, read by latest()'s caller
   dds::Writer<dds::ToolPose> poses_;
   dds::Reader<dds::ToolForce> forces_;  // last, so that no callback comes once the rest is gone
 };

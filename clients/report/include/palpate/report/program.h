@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "palpate/client/histogram.h"
 #include "palpate/client/path.h"
+#include "palpate/client/time_summary.h"
 
 namespace palpate::report {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "palpate/client/histogram.h"
+#include "palpate/rt/cycle_stats.h"
 
 namespace palpate::report {
 
@@ -17,6 +17,6 @@ namespace palpate::report {
 
 /// One line for each logarithmic bar: its range in us, its count, and a bar whose length is the logarithm of
 /// the count, so that a single outlier shows.
-[[nodiscard]] std::string textHistogram(const client::Histogram& histogram, int per_decade = 10);
+[[nodiscard]] std::string textHistogram(const rt::CycleStats& histogram, int per_decade = 10);
 
 }  // namespace palpate::report
