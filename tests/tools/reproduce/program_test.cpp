@@ -109,6 +109,37 @@ TEST_F(Reproduce, LiverErrorsFallAsPairsAreAdded) {
   expectPictures();
 }
 
+TEST_F(Reproduce, QuickRunsTheSmallerCasesAndSaysSo) {
+  const Json rod = run({"rod", "--quick"});
+  EXPECT_EQ(rod.at("elements"), 20);
+  EXPECT_EQ(rod.at("run").at("quick"), true);
+  EXPECT_NE(text("report.md").find("**A quick run**"), std::string::npos);
+  const Json full = run({"rod", "--rod-elements", "5"});
+  EXPECT_EQ(full.at("run").at("quick"), false);
+  EXPECT_EQ(text("report.md").find("**A quick run**"), std::string::npos);
+}
+
+TEST_F(Reproduce, QuickHasEveryFigureAndLeavesGivenOptionsAlone) {
+  const Json all =
+      run({"all", "--quick", "--rod-elements", "5", "--beam-nodes", "5,3,3", "--beam-steps", "5",
+           "--element-size", "0.02", "--coarse-element-size", "0", "--pairs", "10,20", "--samples", "5"});
+  EXPECT_EQ(all.at("run").at("quick"), true);
+  EXPECT_EQ(all.at("rod").at("elements"), 5);
+  EXPECT_EQ(all.at("beam").at("nodes_along"), "5 x 3 x 3");
+  EXPECT_EQ(all.at("beam").at("steps"), 5);
+  EXPECT_EQ(all.at("liver").at("modes_table").size(), 2U);
+  EXPECT_EQ(all.at("liver").at("samples"), 5);
+  EXPECT_FALSE(all.at("liver").contains("ten_term"));
+  const std::string report = text("report.md");
+  for (const char* figure :
+       {"rod/figure-1-rod-convergence.svg", "beam/figure-2-beam-model.png", "beam/figure-3-beam-deformed.png",
+        "beam/figure-4-beam-forward-euler.png", "beam/figure-beam-positions.svg", "beam/figure-beam-load.svg",
+        "liver/figure-5-liver-model.png", "liver/figure-6-liver-x.png", "liver/figure-7-liver-y.png",
+        "liver/figure-liver-errors.svg"})
+    EXPECT_NE(report.find(figure), std::string::npos) << figure;
+  expectPictures();
+}
+
 /// Part 5 of the paper's track on a real mesh: n pairs are as good as the best n.
 TEST_F(Reproduce, PairsOfARealLiverAreAsGoodAsCanBe) {
   const fs::path mesh = fs::path(palpate::testing::dataDir()) / "sofa-liver" / "liver2.msh";

@@ -4,6 +4,7 @@
 // Sample runs:  palpate-reproduce rod -o rod
 //               palpate-reproduce liver -o liver --mesh organ.msh
 //               palpate-reproduce all -o reproduction
+//               palpate-reproduce all --quick -o quick
 #include <sys/utsname.h>
 
 #include <CLI/CLI.hpp>
@@ -29,8 +30,19 @@ struct Options {
   reproduce::BeamOptions beam;
   reproduce::LiverOptions liver;
   int threads{offline::machineThreads()};
-  bool json{false}, quiet{false};
+  bool quick{false}, json{false}, quiet{false};
 };
+
+/// The same studies, figures and tables on cases that all together take less than three minutes on two cores.
+void chooseQuickCases(Options& options) {
+  options.rod.elements = 20;
+  options.beam.nodes = {17, 7, 7};
+  options.beam.steps = 25;
+  options.liver.element_size = 0.0105;
+  options.liver.coarse_element_size = 0.02;
+  options.liver.pairs = {20, 50, 100, 167};
+  options.liver.samples = 20;
+}
 
 void describe(CLI::App& app, Options& options) {
   app.set_version_flag("--version", PALPATE_VERSION);
@@ -42,6 +54,11 @@ void describe(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"rod", "beam", "liver", "all"}));
   app.add_option("-o,--output", options.output, "folder for results.json, tables, figures and report.md")
       ->capture_default_str();
+  app.add_flag(
+      "--quick", options.quick,
+      "smaller cases, with every figure and table, marked in the report: 20 elements for the rod, "
+      "17 x 7 x 7 nodes and 25 steps for the beam, elements of 10.5 and 20 mm, at most 167 pairs and "
+      "20 points for the liver; an option below still sets its own value");
   app.add_option("--threads", options.threads, "worker threads")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -120,7 +137,9 @@ void run(Options options) {
   options.rod.workers = options.beam.workers = options.liver.workers = options.threads;
   const bool all = options.what == "all";
   const reproduce::Output out(options.output, options.quiet);
-  Json results{{"run", {{"version", PALPATE_VERSION}, {"date", today()}, {"machine", machine()}}}};
+  Json results{
+      {"run",
+       {{"version", PALPATE_VERSION}, {"date", today()}, {"machine", machine()}, {"quick", options.quick}}}};
   // 1. The benchmarks.
   for (const char* name : {"rod", "beam", "liver"}) {
     if (!all && options.what != name) continue;
@@ -142,6 +161,11 @@ int main(int argc, char** argv) {
   Options options;
   describe(app, options);
   CLI11_PARSE(app, argc, argv);
+  if (options.quick) {
+    // The smaller cases replace the defaults; what the command line names replaces them in turn.
+    chooseQuickCases(options);
+    CLI11_PARSE(app, argc, argv);
+  }
   try {
     run(options);
   } catch (const std::bad_alloc&) {

@@ -12,7 +12,14 @@ approach", Int. J. Numer. Meth. Biomed. Engng 29 (2013) 586-600, doi 10.1002/cnm
 
 Written by `palpate-reproduce` {version} on {date}, on {machine}. Every figure below was computed in that
 run and stands in results.json beside this file; times are of that machine.
+)";
 
+constexpr const char* kQuick = R"(
+**A quick run** (`--quick`): the studies are those of a full run, the meshes are coarser, the load steps and held-out points fewer. The errors
+below belong to these smaller cases.
+)";
+
+constexpr const char* kSettled = R"(
 ## Where the paper is wrong or silent, and how it is settled here
 
 | place | what it says | what is done here |
@@ -35,6 +42,8 @@ run and stands in results.json beside this file; times are of that machine.
 
 std::string report(const Json& results, bool nested) {
   std::string text = fill(kHead, results.at("run"));
+  if (results.at("run").value("quick", false)) text += kQuick;
+  text += kSettled;
   const auto folder = [&](const char* name) { return nested ? std::string(name) + "/" : std::string(); };
   if (results.contains("rod")) text += rodChapter(results["rod"], folder("rod")) + "\n";
   if (results.contains("beam")) text += beamChapter(results["beam"], folder("beam")) + "\n";
