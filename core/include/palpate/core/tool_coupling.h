@@ -15,7 +15,7 @@ namespace palpate {
 /// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.   docs/design.md, Symbols, Parts
 /// @param source  the other tool's own part, clamped to the domain as in evaluateField()
 /// @return m, W; zero where the model has no answer at `at` or at source.s
-/// Cost O(C n); with the default organ see core/README.md. Real-time: yes. Threads: one per scratch.
+/// Cost O(C n); docs/decisions/several_tools.md. Real-time: yes. Threads: one per scratch.
 [[nodiscard]] Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source,
                                      const ContactPoint& at,
                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
@@ -39,7 +39,7 @@ using InfluenceTable = std::array<std::array<Mat3, kMaxTools>, kMaxTools>;
 /// @param s  contact points, at most kMaxTools, all in contact  @param d  prescribed, m, finite, one for each
 /// @param[out] own  d_own, m; d itself for one tool
 /// @param[out] influence  if given, of e_A = d_A - d_own,A, the tangents held fixed; zero for one tool
-/// Cost tools * (tools - 1) * 4 patchDisplacement(), no iteration: core/README.md. Real-time: yes.
+/// Cost tools * (tools - 1) * 4 patchDisplacement(), no iteration: docs/decisions/several_tools.md. Real-time: yes.
 void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
                       FieldScratch& scratch, std::span<Vec3> own,
                       InfluenceTable* influence = nullptr) noexcept PALPATE_NONBLOCKING;

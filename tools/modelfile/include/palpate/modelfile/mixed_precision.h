@@ -20,7 +20,7 @@ struct StorageReport {
 };
 
 /// Rounding may cost this much of the largest displacement, however large the model's own error is: so that with what
-/// is left out (kUnseenShare) and with weights that are whole numbers, 1e-3 was not reached (core/README.md).
+/// is left out (kUnseenShare) and with weights that are whole numbers, 1e-3 was not reached (docs/decisions/mode_storage.md).
 inline constexpr double kMostRounding = 7e-4;
 
 /// Chooses for each mode float32 or 16, 10 or 8 bits with a scale (PackedModes), as few as keep the rounding of a
