@@ -23,7 +23,7 @@ namespace palpate::solve {
 /// Empty for the series methods.
 [[nodiscard]] nlohmann::json loadOf(const offline::Case& c, const offline::BuildReport& report);
 
-/// What came out, as --json prints it (tools/solve/README.md). The model has been written.
+/// What came out, as --json prints it (docs/json.md). The model has been written.
 [[nodiscard]] nlohmann::json summarize(const std::filesystem::path& output, const offline::Case& c,
                                        const modelfile::ModelData& data, const offline::BuildReport& report,
                                        const modelfile::StorageReport& storage, double write_seconds,

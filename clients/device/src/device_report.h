@@ -27,7 +27,7 @@ struct Session {
 
 /// For people: what was run, a chart of the depth, and the verdict.
 [[nodiscard]] std::string textOf(const Session& session);
-/// The object of --json (clients/README.md).
+/// The object of --json (docs/json.md).
 [[nodiscard]] nlohmann::json jsonOf(const Session& session);
 /// Depth of the tip over time, with and without the organ, as SVG.
 [[nodiscard]] std::string plotOf(const Session& session);

@@ -23,7 +23,7 @@ struct Played {
 [[nodiscard]] std::string tableOf(const Played& played, const Recording& recording);
 
 /// The same for programs: `t_s`[n], `pose_m`[n][3], `force_N`[n][3] (on the tool), `flags`[n],
-/// `penetration_m`[n], `work_J`[n], `summary`, and what was played. clients/README.md documents it.
+/// `penetration_m`[n], `work_J`[n], `summary`, and what was played. docs/json.md documents it.
 [[nodiscard]] nlohmann::json jsonOf(const Played& played, const Recording& recording);
 
 /// The force's size and components over time, as SVG.

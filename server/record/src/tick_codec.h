@@ -6,7 +6,7 @@
 namespace palpate::record {
 
 /// Turns ticks into bytes and back; keeps the tick before, because what it repeats is left out. One for each direction
-/// of one file. The layout is in server/README.md.
+/// of one file. The layout is in docs/recording_file.md.
 class TickCodec {
  public:
   void encode(const RecordedTick& tick, Bytes& out);

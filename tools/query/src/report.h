@@ -19,7 +19,7 @@ struct Findings {
   const FullSolution* truth;  ///< null: not asked for
 };
 
-/// The object of --json; keys in tools/README.md.
+/// The object of --json; keys in docs/json.md.
 [[nodiscard]] nlohmann::ordered_json toJson(const Findings& found);
 
 /// The same for a person to read, several lines.

@@ -18,7 +18,7 @@ struct JointFindings {
   const FullSolution* truth;  ///< Newton with all tools, or null
 };
 
-/// The object `two_tools` of --json; keys in tools/README.md.
+/// The object `two_tools` of --json; keys in docs/json.md.
 [[nodiscard]] nlohmann::ordered_json toJson(const JointFindings& found);
 
 /// The same for a person to read, several lines.
