@@ -12,7 +12,7 @@ namespace palpate::inspect {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using program::Json;
 
 template <typename... T>
 std::size_t bytesOf(std::span<const T>... parts) {
@@ -64,13 +64,12 @@ void describeDomain(const MetaModel& model, Json& out) {
 }
 
 Json provenanceOf(const std::string& text) {
-  Json parsed = Json::parse(text, nullptr, false);
-  if (parsed.is_object()) return parsed;
+  if (auto parsed = Json::read(text); parsed && parsed->isObject()) return *std::move(parsed);
   return {{"text", text}};
 }
 
 std::string valueText(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.isString() ? value.text() : value.dump(-1, program::Keys::kAsWritten);
 }
 
 }  // namespace
@@ -106,12 +105,12 @@ Json describe(const MetaModel& model) {
 
 std::string table(const Json& description) {
   std::ostringstream out;
-  for (const auto& [key, value] : description.items()) {
-    if (!value.is_object()) {
+  for (const auto& [key, value] : description.members()) {
+    if (!value.isObject()) {
       out << std::left << std::setw(26) << key << valueText(value) << '\n';
       continue;
     }
-    for (const auto& [inner, number] : value.items())
+    for (const auto& [inner, number] : value.members())
       out << std::left << std::setw(26) << (key + "." + inner) << valueText(number) << '\n';
   }
   return out.str();

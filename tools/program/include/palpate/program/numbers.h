@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace palpate::program {
+
+/// The value of an option that does not read as what it stands for. what() is one line with option and value.
+class ValueError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// "x,y,z" as three finite numbers; nothing when the text is anything else.
+[[nodiscard]] std::optional<std::array<double, 3>> readVector(std::string_view text);
+
+/// The same. @param[in] option  for the message  @throw ValueError
+[[nodiscard]] std::array<double, 3> parseVector(const std::string& option, const std::string& text);
+
+}  // namespace palpate::program
