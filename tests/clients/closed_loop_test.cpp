@@ -86,14 +86,14 @@ TEST(ClosedLoop, AStiffSpringWithDelayIsUnstableAndGivesEnergy) {
 }
 
 TEST(ClosedLoop, EveryMotionIsStableOnASoftSpring) {
-  for (const Preset& preset : presets())
+  for (const DevicePreset& preset : devicePresets())
     for (const char* kind : {"press", "drag", "tap"})
-      EXPECT_TRUE(run(kind, 300.0, preset.mechanics).verdict.stable) << preset.name << " " << kind;
+      EXPECT_TRUE(run(kind, 300.0, mechanicsOf(preset)).verdict.stable) << preset.name << " " << kind;
 }
 
 TEST(ClosedLoop, ALooseHandBringsADeviceWithFrictionToTheOrgan) {
   const Hand loose{0.02, 0.5, 50.0};
-  const Mechanics touch = findPreset("touch")->mechanics;
+  const Mechanics touch = mechanicsOf(*findDevicePreset("touch"));
   const Motion motion = makeMotion("press", kSurface, kUp, {.lead = leadOf(touch, loose)});
   HeldDevice held(touch, loose, motion.path);
   const Trace without = withoutOrgan(held, motion);

@@ -103,13 +103,11 @@ TEST(HeldDevice, RejectsWhatNoDeviceHas) {
   EXPECT_EQ(complaint({}, {0.1, 2.0, 0.0}), "hand stiffness (N/m) is 0, expected 1 to 100000");
 }
 
-TEST(Presets, AreFoundByName) {
-  for (const char* name : {"touch", "omni", "desktop", "premium15", "premium30"}) {
-    ASSERT_TRUE(findPreset(name)) << name;
-    EXPECT_NO_THROW(check(findPreset(name)->mechanics));
-  }
-  EXPECT_EQ(findPreset("premium30")->mechanics.mass, 0.159);
-  EXPECT_FALSE(findPreset("custom"));
+TEST(Presets, AreMechanicsThatAreTaken) {
+  for (const DevicePreset& preset : devicePresets())
+    EXPECT_NO_THROW(check(mechanicsOf(preset))) << preset.name;
+  EXPECT_EQ(mechanicsOf(*findDevicePreset("premium30")).mass, 0.159);
+  EXPECT_FALSE(findDevicePreset("custom"));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 
 Mechanics mechanicsOf(const Arguments& arguments) {
   Mechanics mechanics{0.1, 0.0, 0.0};  // custom's
-  if (const auto preset = findPreset(arguments.preset)) mechanics = preset->mechanics;
+  if (const auto preset = findDevicePreset(arguments.preset)) mechanics = device::mechanicsOf(*preset);
   mechanics.mass = arguments.mass.value_or(mechanics.mass);
   mechanics.damping = arguments.damping.value_or(mechanics.damping);
   mechanics.friction = arguments.friction.value_or(mechanics.friction);

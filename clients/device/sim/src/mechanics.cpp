@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/device/mechanics.h"
 
-#include <algorithm>
-#include <array>
 #include <sstream>
 #include <stdexcept>
 
 namespace palpate::device {
 namespace {
-
-// Mass and friction: the makers' data sheets. No maker states a viscous damping; it is small, and little damping is
-// the harder case for stability (clients/device/README.md).
-constexpr std::array<Preset, 5> kPresets{{
-    {"touch", {0.045, 0.005, 0.26}},
-    {"omni", {0.045, 0.005, 0.26}},
-    {"desktop", {0.045, 0.005, 0.06}},
-    {"premium15", {0.075, 0.005, 0.04}},
-    {"premium30", {0.159, 0.005, 0.2}},
-}};
 
 void inRange(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -40,14 +28,8 @@ void check(const Hand& hand) {
   inRange("hand stiffness (N/m)", hand.stiffness, 1.0, 1e5);
 }
 
-std::span<const Preset> presets() noexcept {
-  return kPresets;
-}
-
-std::optional<Preset> findPreset(std::string_view name) noexcept {
-  const auto found =
-      std::find_if(kPresets.begin(), kPresets.end(), [name](const Preset& p) { return p.name == name; });
-  return found == kPresets.end() ? std::nullopt : std::optional(*found);
+Mechanics mechanicsOf(const DevicePreset& preset) noexcept {
+  return {preset.mass, preset.viscous_damping, preset.friction};
 }
 
 }  // namespace palpate::device

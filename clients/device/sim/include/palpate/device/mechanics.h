@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string_view>
+#include "palpate/devices/device_preset.h"
 
 namespace palpate::device {
 
@@ -25,15 +23,7 @@ struct Hand {
 void check(const Mechanics& device);
 void check(const Hand& hand);
 
-/// A device of the market. Where its figures come from: clients/device/README.md.
-struct Preset {
-  std::string_view name;
-  Mechanics mechanics;
-};
-
-/// touch, omni, desktop, premium15, premium30: the names of the server's --device.
-[[nodiscard]] std::span<const Preset> presets() noexcept;
-/// Nothing for another name ("custom" is no preset: the caller's own numbers).
-[[nodiscard]] std::optional<Preset> findPreset(std::string_view name) noexcept;
+/// What of a preset is mechanics.
+[[nodiscard]] Mechanics mechanicsOf(const DevicePreset& preset) noexcept;
 
 }  // namespace palpate::device
