@@ -6,10 +6,8 @@
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "options.h"
 #include "palpate/mesh/checks.h"
@@ -18,6 +16,7 @@
 #include "palpate/modelfile/mixed_precision.h"
 #include "palpate/modelfile/model_file.h"
 #include "palpate/offline/build_model.h"
+#include "palpate/program/run.h"
 #include "provenance.h"
 #include "summary.h"
 
@@ -80,33 +79,29 @@ void run(solve::Options options) {
   modelfile::writeXdmf(options.output);
   const double write_seconds = secondsSince(write_start);
   // 5. What came out.
-  const nlohmann::json s =
+  const program::Json s =
       solve::summarize(options.output, c, data, report, storage, write_seconds, secondsSince(start));
   solve::print(s);
-  if (options.json) std::cout << s.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  if (options.json) std::cout << s.dump(2) << '\n';
+}
+
+int body(int argc, char** argv) {
+  program::CommandLine line(
+      "palpate-solve",
+      "Computes the meta-model of an organ: its answer to a tool at any position and in any direction.");
+  solve::Options options;
+  solve::describe(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
+  try {
+    run(options);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error("out of memory; fewer modes, a smaller near_radius or a lower order need less");
+  }
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Computes the meta-model of an organ: its answer to a tool at any position and in any direction."};
-  app.set_version_flag("--version", PALPATE_VERSION);
-  solve::Options options;
-  solve::describe(app, options);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return "palpate-solve: " + std::string(error.what()) + " (see palpate-solve --help)\n";
-  });
-  CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const std::bad_alloc&) {
-    std::cerr
-        << "palpate-solve: out of memory; fewer modes, a smaller near_radius or a lower order need less\n";
-    return 1;
-  } catch (const std::exception& error) {
-    std::cerr << "palpate-solve: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return program::runProgram("palpate-solve", &body, argc, argv);
 }

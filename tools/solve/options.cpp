@@ -40,30 +40,24 @@ void override(const Options& options, offline::Case& c) {
 
 }  // namespace
 
-void describe(CLI::App& app, Options& options) {
-  app.add_option("input", options.input,
-                 "case file (.toml), or a mesh in metres to be solved with the defaults")
-      ->required();
-  app.add_option("-o,--output", options.output, "model file to write")->capture_default_str();
-  app.add_option("--method", options.method,
-                 "series-displacement (the default), series-force, pgd-linear, pgd-explicit or pgd-euler");
-  app.add_option("--modes", options.modes, "modes of the model")->check(CLI::Range(1, 2000));
-  app.add_option("--order", options.order, "degree of the series")->check(CLI::Range(1, 7));
-  app.add_option("--load-direction", options.direction, "PGD methods: x,y,z; pgd-linear also: any");
-  app.add_option("--load", options.load, "PGD methods: magnitude of the load, N")
-      ->check(CLI::Range(1e-300, 1e6));
-  app.add_option("--steps", options.steps, "pgd-explicit, pgd-euler: load steps")
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--storage", options.storage,
-                 "modes: mixed (8 to 16 bits or float32, each as its rounding allows) or float32")
-      ->check(CLI::IsMember({"mixed", "float32"}))
-      ->capture_default_str();
-  app.add_option("--scratch", options.scratch, "folder of the scratch file (default: beside the output)");
-  app.add_option("--threads", options.threads, "worker threads")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "print one JSON object on standard output");
-  app.add_flag("-q,--quiet", options.quiet, "no progress");
+void describe(program::Options line, Options& options) {
+  line.add("input", &options.input, "case file (.toml), or a mesh in metres to be solved with the defaults")
+      .required();
+  line.add("-o,--output", &options.output, "model file to write");
+  line.add("--method", &options.method,
+           "series-displacement (the default), series-force, pgd-linear, pgd-explicit or pgd-euler");
+  line.add("--modes", &options.modes, "modes of the model").range(1, 2000);
+  line.add("--order", &options.order, "degree of the series").range(1, 7);
+  line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
+  line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
+  line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);
+  line.add("--storage", &options.storage,
+           "modes: mixed (8 to 16 bits or float32, each as its rounding allows) or float32")
+      .oneOf({"mixed", "float32"});
+  line.add("--scratch", &options.scratch, "folder of the scratch file (default: beside the output)");
+  line.add("--threads", &options.threads, "worker threads").range(1, 1024);
+  line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.flag("-q,--quiet", &options.quiet, "no progress");
 }
 
 offline::Case readCase(const Options& options) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "palpate/offline/case_file.h"
 #include "palpate/offline/parallel.h"
+#include "palpate/program/command_line.h"
 
 namespace palpate::solve {
 
@@ -27,8 +27,8 @@ struct Options {
   std::optional<double> load;            ///< N
 };
 
-/// Adds every option to the parser.
-void describe(CLI::App& app, Options& options);
+/// Adds every option to the command line.
+void describe(program::Options line, Options& options);
 
 /// The case of a case file, or the defaults for a bare mesh, with the command line's say.
 /// @throw CaseError also where keys do not fit the method

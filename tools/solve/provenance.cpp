@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <ctime>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "summary.h"
 
@@ -71,17 +70,17 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
   hash.add(data.modes_packed.kinds);
   hash.add(data.near_field);
   data.attributes.model_id = hash.text();
-  nlohmann::json provenance{{"program", "palpate-solve"},
-                            {"version", PALPATE_VERSION},
-                            {"created", utcNow()},
-                            {"mesh", c.mesh.filename().string()},
-                            {"mesh_hash", fileHash(c.mesh)},
-                            {"case", c.text},
-                            {"fixed", c.fixed},
-                            {"accessible", c.accessible.value_or("")},
-                            {"method", toString(c.method)},
-                            {"storage", toJson(storage)},
-                            {"seconds", stages(c.method, report)}};
+  program::Json provenance{{"program", "palpate-solve"},
+                           {"version", PALPATE_VERSION},
+                           {"created", utcNow()},
+                           {"mesh", c.mesh.filename().string()},
+                           {"mesh_hash", fileHash(c.mesh)},
+                           {"case", c.text},
+                           {"fixed", c.fixed},
+                           {"accessible", c.accessible.value_or("")},
+                           {"method", toString(c.method)},
+                           {"storage", toJson(storage)},
+                           {"seconds", stages(c.method, report)}};
   if (report.fit_errors.empty()) {
     provenance["load"] = loadOf(c, report);
     provenance["pairs"] = report.greedy_pairs;
@@ -91,7 +90,7 @@ void addProvenance(modelfile::ModelData& data, const offline::Case& c, const off
     provenance["sweeps"] = c.sweepsOrDefault();
     provenance["fit_errors"] = report.fit_errors;
   }
-  data.attributes.provenance = provenance.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  data.attributes.provenance = provenance.dump();
 }
 
 }  // namespace palpate::solve

@@ -14,8 +14,8 @@ namespace palpate::solve {
 
 namespace {
 
-using nlohmann::json;
 using offline::Method;
+using program::Json;
 
 bool isSeries(Method method) {
   return method == Method::kSeriesDisplacement || method == Method::kSeriesForce;
@@ -40,7 +40,7 @@ const char* radiusKey(Parameters parameters) {
 }
 
 /// Of what a tool may touch, helpers left out.
-json radii(const modelfile::ModelData& data) {
+Json radii(const modelfile::ModelData& data) {
   std::vector<double> list;
   for (std::size_t i = 0; i < data.contact_domain_radius.size(); ++i)
     if (data.contact_accessible[i] != 0) list.push_back(data.contact_domain_radius[i]);
@@ -50,7 +50,7 @@ json radii(const modelfile::ModelData& data) {
           {"median", modelfile::quantile(list, 0.5)}};
 }
 
-void printTimes(const json& seconds) {
+void printTimes(const Json& seconds) {
   std::string line = "time:";
   const std::pair<const char*, const char*> names[] = {{"factor", "factor"},
                                                        {"series", "series"},
@@ -69,7 +69,7 @@ void printTimes(const json& seconds) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-void printStorage(const json& storage) {
+void printStorage(const Json& storage) {
   std::fprintf(stderr,
                "modes kept as: %zu float32, %zu of 16 bits, %zu of 10, %zu of 8, %.2f MB; rounding costs "
                "%.3f %% of the largest displacement\n",
@@ -78,8 +78,13 @@ void printStorage(const json& storage) {
                1e-6 * storage["bytes"].get<double>(), 100.0 * storage["error_max"].get<double>());
 }
 
-void printRadius(const json& s) {
-  const auto line = [](const json& radius, const char* name, double scale, const char* unit) {
+int wholeOr0(const Json& object, const char* key) {
+  const Json* const member = object.find(key);
+  return member == nullptr ? 0 : member->get<int>();
+}
+
+void printRadius(const Json& s) {
+  const auto line = [](const Json& radius, const char* name, double scale, const char* unit) {
     std::fprintf(stderr, "%s: 5 %% quantile %.4g %s, median %.4g %s; ", name,
                  scale * radius["p05"].get<double>(), unit, scale * radius["median"].get<double>(), unit);
   };
@@ -91,11 +96,12 @@ void printRadius(const json& s) {
   else
     std::fprintf(stderr, "%d pairs before recompression, their residual %.2e", s["pairs"].get<int>(),
                  s["residual"].get<double>());
-  if (s.contains("load") && s["load"].value("truncation", 0) > 0)
-    std::fprintf(stderr, ", load of %d terms wrong by %.2e", s["load"]["truncation"].get<int>(),
-                 s["load"]["truncation_error"].get<double>());
-  if (s.value("weak_positions", 0) > 0)
-    std::fprintf(stderr, "; %d positions need more modes", s["weak_positions"].get<int>());
+  const Json* const load = s.find("load");
+  if (load != nullptr && wholeOr0(*load, "truncation") > 0)
+    std::fprintf(stderr, ", load of %d terms wrong by %.2e", wholeOr0(*load, "truncation"),
+                 load->at("truncation_error").get<double>());
+  if (const int weak = wholeOr0(s, "weak_positions"); weak > 0)
+    std::fprintf(stderr, "; %d positions need more modes", weak);
   std::fputc('\n', stderr);
 }
 
@@ -106,43 +112,44 @@ double ownError(const offline::BuildReport& report) {
   return std::max(report.residual, report.truncation);
 }
 
-json toJson(const modelfile::StorageReport& storage) {
+Json toJson(const modelfile::StorageReport& storage) {
   return {{"float32", storage.counts.f32},      {"int16", storage.counts.i16},
           {"int8", storage.counts.inBytes()},   {"bits10", storage.counts.bits10},
           {"bits8", storage.counts.bits8},      {"error_max", storage.error_max},
           {"error_limit", storage.error_limit}, {"bytes", storage.bytes}};
 }
 
-json stages(Method method, const offline::BuildReport& report) {
+Json stages(Method method, const offline::BuildReport& report) {
   if (isSeries(method))
     return {
         {"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}};
-  json seconds{{"factor", report.factor_seconds}, {"pgd", report.pgd_seconds}};
+  Json seconds{{"factor", report.factor_seconds}, {"pgd", report.pgd_seconds}};
   if (method == Method::kPgdLinear) seconds["recompression"] = report.recompression_seconds;
   return seconds;
 }
 
-json loadOf(const offline::Case& c, const offline::BuildReport& report) {
-  if (isSeries(c.method)) return json::object();
+Json loadOf(const offline::Case& c, const offline::BuildReport& report) {
+  if (isSeries(c.method)) return Json::object();
   const offline::Vec3 e = c.load.unitDirection();
-  json load{{"magnitude", report.load}, {"kind", c.nodalLoad() ? "node" : "patch"}};
-  load["direction"] = c.load.any_direction ? json("any") : json{e[0], e[1], e[2]};
-  if (c.method == Method::kPgdLinear)
-    load.update(
-        {{"truncation", c.load.truncation.value_or(0)}, {"truncation_error", report.load_truncation}});
-  else
+  Json load{{"magnitude", report.load}, {"kind", c.nodalLoad() ? "node" : "patch"}};
+  load["direction"] = c.load.any_direction ? Json("any") : Json(e);
+  if (c.method == Method::kPgdLinear) {
+    load["truncation"] = c.load.truncation.value_or(0);
+    load["truncation_error"] = report.load_truncation;
+  } else {
     load["steps"] = c.load.stepsOrDefault();
+  }
   return load;
 }
 
-json summarize(const std::filesystem::path& output, const offline::Case& c, const modelfile::ModelData& data,
+Json summarize(const std::filesystem::path& output, const offline::Case& c, const modelfile::ModelData& data,
                const offline::BuildReport& report, const modelfile::StorageReport& storage,
                double write_seconds, double total_seconds) {
-  json seconds = stages(c.method, report);
+  Json seconds = stages(c.method, report);
   seconds["write"] = write_seconds;
   seconds["total"] = total_seconds;
   const Parameters parameters = data.attributes.parameters;
-  json s{{"model", output.string()},
+  Json s{{"model", output.string()},
          {"method", toString(c.method)},
          {"parameters", std::string(toString(parameters))},
          {"nodes", data.mesh_node_tag.size()},
@@ -172,7 +179,7 @@ json summarize(const std::filesystem::path& output, const offline::Case& c, cons
   return s;
 }
 
-void print(const json& s) {
+void print(const Json& s) {
   std::fprintf(
       stderr,
       "%s: %zu nodes, %zu tetrahedra, %zu surface nodes; %zu contact positions, patch radius %.2f mm, ",

@@ -2,34 +2,34 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "palpate/modelfile/mixed_precision.h"
 #include "palpate/modelfile/model_data.h"
 #include "palpate/offline/build_model.h"
 #include "palpate/offline/case_file.h"
+#include "palpate/program/json.h"
 
 namespace palpate::solve {
 
 /// What the model's fields are off by, over the displacement: the fit's RMS error, or what the pairs leave.
 [[nodiscard]] double ownError(const offline::BuildReport& report);
 
-[[nodiscard]] nlohmann::json toJson(const modelfile::StorageReport& storage);
+[[nodiscard]] program::Json toJson(const modelfile::StorageReport& storage);
 
 /// Seconds by what was done, in the method's own stages.
-[[nodiscard]] nlohmann::json stages(offline::Method method, const offline::BuildReport& report);
+[[nodiscard]] program::Json stages(offline::Method method, const offline::BuildReport& report);
 
 /// The load of a load-driven model: N, direction (three numbers or "any"), and what the PGD made of it.
 /// Empty for the series methods.
-[[nodiscard]] nlohmann::json loadOf(const offline::Case& c, const offline::BuildReport& report);
+[[nodiscard]] program::Json loadOf(const offline::Case& c, const offline::BuildReport& report);
 
 /// What came out, as --json prints it (docs/json.md). The model has been written.
-[[nodiscard]] nlohmann::json summarize(const std::filesystem::path& output, const offline::Case& c,
-                                       const modelfile::ModelData& data, const offline::BuildReport& report,
-                                       const modelfile::StorageReport& storage, double write_seconds,
-                                       double total_seconds);
+[[nodiscard]] program::Json summarize(const std::filesystem::path& output, const offline::Case& c,
+                                      const modelfile::ModelData& data, const offline::BuildReport& report,
+                                      const modelfile::StorageReport& storage, double write_seconds,
+                                      double total_seconds);
 
 /// The same in five lines on standard error.
-void print(const nlohmann::json& summary);
+void print(const program::Json& summary);
 
 }  // namespace palpate::solve

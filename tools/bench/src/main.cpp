@@ -2,9 +2,7 @@
 // palpate-bench: how long the parts of a tick take.
 #include <benchmark/benchmark.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -14,6 +12,8 @@
 #include "eigen_product.h"
 #include "field.h"
 #include "load_bench.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/run.h"
 #include "quiet_core.h"
 #include "scale.h"
 #include "step_bench.h"
@@ -75,33 +75,31 @@ int run(const Options& options, double seconds) {
   return 0;
 }
 
+int body(int argc, char** argv) {
+  program::CommandLine line(
+      "palpate-bench",
+      "Measures the parts of a tick. Options that begin with --benchmark_ are Google Benchmark's own, e.g. "
+      "--benchmark_format=json, --benchmark_filter=field/2009x167.");
+  Options options;
+  program::Options add = line.options();
+  add.add(
+      "model", &options.model,
+      "model file (.h5) of step/default, load/default and contact_force; default: build/demo/liver.h5, if "
+      "there is one");
+  add.add("--cpu", &options.cpu, "processor to run on; -1: the last one that may be used");
+  add.flag("--realtime", &options.realtime,
+           "run with the priority of the tick, SCHED_FIFO 80: other work on that processor waits");
+  add.flag("--scale", &options.scale, "instead print the largest synthetic model whose step() fits 1 kHz");
+  add.add("--modes", &options.modes, "modes of these models").range(20, 1000);
+  const double seconds = leastSeconds(argc, argv);
+  benchmark::Initialize(&argc, argv);  // takes its own options out
+  if (!line.read(argc, argv)) return 0;
+  return run(options, seconds);
+}
+
 }  // namespace
 }  // namespace palpate::bench
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Measures the parts of a tick. Options that begin with --benchmark_ are Google Benchmark's own, e.g. "
-      "--benchmark_format=json, --benchmark_filter=field/2009x167.");
-  palpate::bench::Options options;
-  app.add_option("model", options.model,
-                 "model file (.h5) of step/default, load/default and contact_force; default: "
-                 "build/demo/liver.h5, if there is one");
-  app.add_option("--cpu", options.cpu, "processor to run on; -1: the last one that may be used")
-      ->capture_default_str();
-  app.add_flag("--realtime", options.realtime,
-               "run with the priority of the tick, SCHED_FIFO 80: other work on that processor waits");
-  app.add_flag("--scale", options.scale, "instead print the largest synthetic model whose step() fits 1 kHz");
-  app.add_option("--modes", options.modes, "modes of these models")
-      ->check(CLI::Range(20, 1000))
-      ->capture_default_str();
-  app.set_version_flag("--version", PALPATE_VERSION);
-  const double seconds = palpate::bench::leastSeconds(argc, argv);
-  benchmark::Initialize(&argc, argv);  // takes its own options out
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return palpate::bench::run(options, seconds);
-  } catch (const std::exception& error) {
-    std::cerr << "palpate-bench: " << error.what() << '\n';
-    return 1;
-  }
+  return palpate::program::runProgram("palpate-bench", &palpate::bench::body, argc, argv);
 }

@@ -1,50 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-feel: what a hand feels of a model, tried without hardware, threads and clocks.
-#include <CLI/CLI.hpp>
-#include <exception>
-#include <iostream>
-
+#include "palpate/program/command_line.h"
+#include "palpate/program/run.h"
 #include "studies.h"
 
+namespace palpate::feel {
 namespace {
 
-using palpate::feel::Study;
+void addModel(program::Options& command, Study& study) {
+  command.add("model", &study.model, "model file (.h5)").required();
+  command.add("--seed", &study.seed, "of the random places and ways");
+  command.flag("--json", &study.json, "print one JSON object on standard output");
+}
 
-void addModel(CLI::App& command, Study& study) {
-  command.add_option("model", study.model, "model file (.h5)")->required();
-  command.add_option("--seed", study.seed, "of the random places and ways")->capture_default_str();
-  command.add_flag("--json", study.json, "print one JSON object on standard output");
+int body(int argc, char** argv) {
+  program::CommandLine line("palpate-feel",
+                            "Tries what a hand feels of a model: closed loops, slides and a device in closed "
+                            "loop, through step().");
+  Study study;
+  program::Options loops = line.options().subcommand(
+      "loops", "closed ways: does the organ ever give back more energy than it got?");
+  program::Options slides =
+      line.options().subcommand("slides", "random smooth slides: does the force click?");
+  program::Options coupling =
+      line.options().subcommand("coupling", "a held device presses: up to which coupling is it stable?");
+  for (program::Options* command : {&loops, &slides, &coupling}) addModel(*command, study);
+  loops.add("--loops", &study.count, "how many of each kind").range(1, 100000);
+  slides.add("--paths", &study.paths, "how many").range(1, 100000);
+  for (program::Options* command : {&loops, &slides})
+    command->add("--depth", &study.depth, "of the tip below the surface, m");
+  slides.add("--speed", &study.speed, "m/s");
+  coupling.flag("--no-device-friction", &study.frictionless,
+                "without the device's Coulomb friction, which hides small instabilities");
+  if (!line.read(argc, argv)) return 0;
+  if (loops.chosen()) return runLoops(study);
+  if (slides.chosen()) return runSlides(study);
+  return runCoupling(study);
 }
 
 }  // namespace
+}  // namespace palpate::feel
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Tries what a hand feels of a model: closed loops, slides and a device in closed loop, through "
-      "step().");
-  app.set_version_flag("--version", PALPATE_VERSION);
-  app.require_subcommand(1);
-  Study study;
-  auto* loops =
-      app.add_subcommand("loops", "closed ways: does the organ ever give back more energy than it got?");
-  auto* slides = app.add_subcommand("slides", "random smooth slides: does the force click?");
-  auto* coupling =
-      app.add_subcommand("coupling", "a held device presses: up to which coupling is it stable?");
-  for (CLI::App* command : {loops, slides, coupling}) addModel(*command, study);
-  loops->add_option("--loops", study.count, "how many of each kind")->check(CLI::Range(1, 100000));
-  slides->add_option("--paths", study.paths, "how many")->capture_default_str()->check(CLI::Range(1, 100000));
-  for (CLI::App* command : {loops, slides})
-    command->add_option("--depth", study.depth, "of the tip below the surface, m")->capture_default_str();
-  slides->add_option("--speed", study.speed, "m/s")->capture_default_str();
-  coupling->add_flag("--no-device-friction", study.frictionless,
-                     "without the device's Coulomb friction, which hides small instabilities");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    if (*loops) return palpate::feel::runLoops(study);
-    if (*slides) return palpate::feel::runSlides(study);
-    return palpate::feel::runCoupling(study);
-  } catch (const std::exception& error) {
-    std::cerr << "palpate-feel: " << error.what() << '\n';
-    return 1;
-  }
+  return palpate::program::runProgram("palpate-feel", &palpate::feel::body, argc, argv);
 }

@@ -6,36 +6,36 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "palpate/feel/loops.h"
 #include "palpate/feel/slides.h"
 #include "palpate/feel/stability.h"
+#include "palpate/program/json.h"
 
 namespace palpate::feel {
 
 namespace {
 
-using nlohmann::ordered_json;
+using program::Json;
 
 constexpr std::array kFrictions{0.0, 0.05, 0.3};
 
-void print(const ordered_json& rows, bool json) {
+void print(const Json& rows, bool json) {
   if (json) {
-    std::cout << rows.dump(2) << '\n';
+    std::cout << rows.dump(2, program::Keys::kAsWritten) << '\n';
     return;
   }
   if (rows.empty()) return;
-  for (const auto& item : rows.front().items()) std::cout << item.key() << '\t';
+  for (const auto& item : rows.front().members()) std::cout << item.key << '\t';
   std::cout << '\n';
-  for (const ordered_json& row : rows) {
-    for (const auto& item : row.items()) std::cout << item.value() << '\t';
+  for (const Json& row : rows) {
+    for (const auto& item : row.members()) std::cout << item.value << '\t';
     std::cout << '\n';
   }
 }
 
 /// Loops of a held anchor in which the tool was let go on the way are left out, and counted.
-ordered_json rowOf(const char* kind, double friction, std::vector<LoopResult> loops) {
+Json rowOf(const char* kind, double friction, std::vector<LoopResult> loops) {
   int releases = 0;
   for (const LoopResult& loop : loops) releases += loop.releases > 0 ? 1 : 0;
   const std::size_t count = loops.size();
@@ -57,7 +57,7 @@ ordered_json rowOf(const char* kind, double friction, std::vector<LoopResult> lo
           {"with_release", releases}};
 }
 
-ordered_json rowOf(double friction, const std::vector<SlideResult>& slides) {
+Json rowOf(double friction, const std::vector<SlideResult>& slides) {
   const auto worst = std::max_element(slides.begin(), slides.end(), [](const auto& a, const auto& b) {
     return a.largest_ratio < b.largest_ratio;
   });
@@ -101,7 +101,7 @@ ContactPoint ordinaryPlace(const MetaModel& model, unsigned seed) {
 int runLoops(const Study& study) {
   const MetaModel model = MetaModel::load(study.model);
   const LoopOptions options{study.count, 1e-3, study.seed};
-  ordered_json rows = ordered_json::array();
+  Json rows = Json::array();
   rows.push_back(rowOf("held", INFINITY, heldLoops(model, options)));
   for (const double friction : kFrictions)
     rows.push_back(rowOf("sliding", friction, slidingLoops(model, options, study.depth, friction)));
@@ -111,7 +111,7 @@ int runLoops(const Study& study) {
 
 int runSlides(const Study& study) {
   const MetaModel model = MetaModel::load(study.model);
-  ordered_json rows = ordered_json::array();
+  Json rows = Json::array();
   for (const double friction : kFrictions) {
     SlideOptions options;
     options.paths = study.paths;
@@ -131,7 +131,7 @@ int runCoupling(const Study& study) {
                               device::Hand{0.2, 5.0, 500.0}};
   const MetaModel model = MetaModel::load(study.model);
   const ContactPoint s = ordinaryPlace(model, study.seed);
-  ordered_json rows = ordered_json::array();
+  Json rows = Json::array();
   for (const DevicePreset& preset : devicePresets())
     for (const double E : kModuli)
       for (const device::Hand& hand : kHands) {

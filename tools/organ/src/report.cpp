@@ -2,7 +2,6 @@
 #include "report.h"
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace palpate::organ {
@@ -17,10 +16,6 @@ std::string inWords(const Eigen::Vector3d& x) {
   char text[80];
   std::snprintf(text, sizeof text, "%.4f %.4f %.4f", x.x(), x.y(), x.z());
   return text;
-}
-
-nlohmann::json toJson(const Eigen::Vector3d& x) {
-  return {x.x(), x.y(), x.z()};
 }
 
 }  // namespace
@@ -39,7 +34,7 @@ Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh
   return report;
 }
 
-nlohmann::json toJson(const Report& report) {
+program::Json toJson(const Report& report) {
   const auto& s = report.statistics;
   return {{"file", report.file},
           {"nodes", s.nodes},
@@ -48,7 +43,7 @@ nlohmann::json toJson(const Report& report) {
           {"surface_triangles", s.surface_triangles},
           {"fixed_nodes", report.fixed_nodes},
           {"accessible_nodes", report.accessible_nodes},
-          {"bounding_box", {{"min", toJson(s.box_min)}, {"max", toJson(s.box_max)}}},
+          {"bounding_box", {{"min", s.box_min}, {"max", s.box_max}}},
           {"volume", s.volume},
           {"worst_quality", s.worst_quality},
           {"worst_tetrahedron", s.worst_tetrahedron},

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "palpate/mesh/statistics.h"
 #include "palpate/mesh/tet_mesh.h"
+#include "palpate/program/json.h"
 
 namespace palpate::organ {
 
@@ -24,7 +24,7 @@ struct Report {
 [[nodiscard]] Report makeReport(const std::string& file, const mesh::TetMesh& mesh,
                                 const mesh::BoundarySurface& boundary, std::vector<std::string> notes);
 
-[[nodiscard]] nlohmann::json toJson(const Report& report);
+[[nodiscard]] program::Json toJson(const Report& report);
 void print(std::ostream& out, const Report& report);
 
 }  // namespace palpate::organ

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-replay: runs a recorded session through the engine again, and says whether it gives the same bits.
-#include <CLI/CLI.hpp>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
+#include "palpate/program/command_line.h"
+#include "palpate/program/json.h"
+#include "palpate/program/run.h"
 #include "palpate/replay/replay.h"
 
 namespace palpate::replay {
@@ -16,18 +17,15 @@ struct Options {
   bool json{false};
 };
 
-void addOptions(CLI::App& app, Options& options) {
-  app.add_option("FILE", options.file, "recording of palpate-server --record")->required();
-  app.add_option("--model", options.model, "the model file that the session ran on")
-      ->required()
-      ->type_name("FILE");
-  app.add_flag("--partial", options.partial, "replay what is there, although ticks or the end are missing");
-  app.add_flag("--json", options.json, "print one JSON object on standard output");
-  app.set_version_flag("--version", std::string("palpate-replay ") + PALPATE_VERSION);
+void addOptions(program::Options line, Options& options) {
+  line.add("FILE", &options.file, "recording of palpate-server --record").required();
+  line.add("--model", &options.model, "the model file that the session ran on").required().valueName("FILE");
+  line.flag("--partial", &options.partial, "replay what is there, although ticks or the end are missing");
+  line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 
-nlohmann::json jsonOf(const Findings& findings, const record::SessionFacts& facts) {
-  nlohmann::json first;
+program::Json jsonOf(const Findings& findings, const record::SessionFacts& facts) {
+  program::Json first;
   if (findings.first) {
     first = {{"tick", findings.first->tick},
              {"tool", findings.first->tool},
@@ -65,11 +63,13 @@ void print(const Findings& findings) {
 
 int body(int argc, char** argv) {
   // 1. What to replay.
-  CLI::App app("Runs a recorded session through the engine again and compares the answers bit for bit.",
-               "palpate-replay");
+  program::CommandLine line(
+      "palpate-replay",
+      "Runs a recorded session through the engine again and compares the answers bit for bit.",
+      std::string("palpate-replay ") + PALPATE_VERSION);
   Options options;
-  addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  addOptions(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
   // 2. The recording and its model.
   record::RecordReader recording(options.file);
   const MetaModel model = MetaModel::load(options.model);
@@ -88,10 +88,5 @@ int body(int argc, char** argv) {
 }  // namespace palpate::replay
 
 int main(int argc, char** argv) {
-  try {
-    return palpate::replay::body(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "palpate-replay: " << error.what() << '\n';
-    return 1;
-  }
+  return palpate::program::runProgram("palpate-replay", &palpate::replay::body, argc, argv);
 }
