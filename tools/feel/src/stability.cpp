@@ -14,7 +14,7 @@ device::Point pointOf(const Vec3& v) {
 }
 
 device::Mechanics mechanicsOf(const StabilityCase& which) {
-  device::Mechanics mechanics = device::findPreset(which.preset.name)->mechanics;
+  device::Mechanics mechanics = device::mechanicsOf(which.preset);
   if (!which.friction) mechanics.friction = 0.0;
   return mechanics;
 }
