@@ -8,11 +8,13 @@ namespace {
 
 TEST(ParseVector, ReadsThreeNumbers) {
   EXPECT_EQ(parseVector("--at", "0.1,-2e-3,3"), (std::array{0.1, -2e-3, 3.0}));
+  EXPECT_EQ(parseVector("--at", "-.001,0,.5"), (std::array{-0.001, 0.0, 0.5}));
 }
 
 TEST(ParseVector, RefusesAllElseByOptionAndText) {
-  for (const char* text : {"", "1", "1,2", "1,2,", "1,2,3,", "1,2,3,4", "1,2,x", "1,2,nan", "1,inf,3",
-                           "1;2;3", "1,2,3 ", " 1,2,3"}) {
+  for (const char* text :
+       {"", "1", "1,2", "1,2,", "1,2,3,", "1,2,3,4", "1,2,x", "1,2,3x", "1,2,nan", "nan,0,0", "1,inf,3",
+        "0,0,1e999", "0x1,0,0", "+1,0,0", "1,,3", "1;2;3", "1,2,3 ", " 1,2,3", "1 ,2,3"}) {
     try {
       (void)parseVector("--at", text);
       ADD_FAILURE() << "'" << text << "' was not refused";

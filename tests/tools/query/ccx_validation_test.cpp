@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "box_model.h"
+#include "palpate/program/write_file.h"
 #include "palpate/query/ccx_deck.h"
-#include "palpate/query/field_file.h"
 
 namespace palpate::query::test {
 namespace {
@@ -32,7 +32,7 @@ TEST(CalculixValidation, EveryNodeMovesAsInNewton) {
   const BoxModel box;
   const Vec3 d(0.003, -0.004, -0.012);
   const FullSolution truth = box.solve(anchorNear(box.model, {0.083, 0.031, 0.06}), d);
-  writeText(box.folder / "deck.inp", ccxDeck(box.organ, truth, "validation", 1));
+  program::writeFile(box.folder / "deck.inp", ccxDeck(box.organ, truth, "validation", 1));
   const std::string folder = (box.folder / "").string();
   ASSERT_EQ(std::system(("cd '" + folder + "' && ccx -i deck >ccx.log 2>&1").c_str()), 0);
 

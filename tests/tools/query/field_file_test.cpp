@@ -56,25 +56,5 @@ TEST(FieldFile, HoldsTheModelAloneWithoutTruth) {
   EXPECT_TRUE(arrayOf(vtu, "error").empty());
 }
 
-TEST(WriteText, ReplacesTheFileAndLeavesNothingBeside) {
-  const Folder folder;
-  writeText(folder / "a.txt", "old");
-  writeText(folder / "a.txt", "new");
-  std::ostringstream content;
-  content << std::ifstream(folder / "a.txt").rdbuf();
-  EXPECT_EQ(content.str(), "new");
-  const std::filesystem::directory_iterator files(folder / "");
-  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
-}
-
-TEST(WriteText, NamesTheFileThatCannotBeWritten) {
-  const Folder folder;
-  EXPECT_EQ(errorOf([&] { writeText(folder / "none/a.txt", ""); }),
-            "cannot write " + (folder / "none/a.txt").string() + ": No such file or directory");
-  std::filesystem::create_directories(folder / "taken");
-  EXPECT_EQ(errorOf([&] { writeText(folder / "taken", ""); }),
-            "cannot write " + (folder / "taken").string() + ": Is a directory");
-}
-
 }  // namespace
 }  // namespace palpate::query::test

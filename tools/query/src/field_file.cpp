@@ -76,10 +76,6 @@ void addData(Vtu& vtu, const ModelView& view, const Answer& answer, const Organ*
   vtu.open("/PointData");
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path) {
-  throw QueryError("cannot write " + path.string() + ": " + std::strerror(errno));
-}
-
 }  // namespace
 
 std::string fieldVtu(const MetaModel& model, const Answer& answer, const Organ* organ,
@@ -97,20 +93,6 @@ std::string fieldVtu(const MetaModel& model, const Answer& answer, const Organ* 
   vtu.open("/UnstructuredGrid");
   vtu.open("/VTKFile");
   return vtu.text();
-}
-
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path beside = path.string() + ".tmp-" + std::to_string(getpid());
-  std::ofstream file(beside, std::ios::binary);
-  if (!file) refuse(path);
-  file << text;
-  file.close();
-  if (file && std::rename(beside.c_str(), path.c_str()) == 0) return;
-  const int reason = errno;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  errno = reason;
-  refuse(path);
 }
 
 }  // namespace palpate::query

@@ -7,14 +7,15 @@
 //               palpate-query force.h5 --node 1204 --force 0,0,-0.5 --newton
 //               palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002 --tool2 87:0,0,-0.002 --newton
 //               palpate-query level.h5 --node 1204 --load-level 0.75 --newton
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <optional>
 #include <span>
 
+#include "palpate/program/command_line.h"
+#include "palpate/program/numbers.h"
+#include "palpate/program/run.h"
+#include "palpate/program/write_file.h"
 #include "palpate/query/arguments.h"
 #include "palpate/query/ccx_deck.h"
 #include "palpate/query/field_file.h"
@@ -38,55 +39,43 @@ struct Options {
   bool json{false};
 };
 
-void describe(CLI::App& app, Options& options) {
-  app.set_version_flag("--version", PALPATE_VERSION);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("palpate-query: ") + error.what() + " (--help tells more)\n";
-  });
-  app.add_option("model", options.model, "model file (.h5)")->required();
-  CLI::Option_group* const where = app.add_option_group("where");
-  where->add_option("--node", options.node, "touch this surface node, by its number in the mesh file");
-  where->add_option("--at", options.at, "touch the surface point nearest to x,y,z, m");
-  where->require_option(1);
-  CLI::Option_group* const what = app.add_option_group("what");
-  what->add_option("--displacement", options.displacement, "displacement dx,dy,dz of the contact patch, m");
-  what->add_option("--force", options.force, "force fx,fy,fz of the tool, N (models driven by force)");
-  what->add_option("--load-level", options.level, "part of the model's load, 0 to 1 (models driven by level)")
-      ->check(CLI::Range(0.0, 1.0));
-  what->require_option(1);
-  app.add_option("--tool2", options.more_tools,
-                 "another tool at the same time: NODE:dx,dy,dz, m; goes with --displacement, may be repeated")
-      ->allow_extra_args(false);
-  app.add_flag("--newton", options.newton, "solve the full problem too, and tell how far the model is off");
-  app.add_option("--steps", options.steps, "load steps of the full solution to begin with")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--ccx", options.deck, "write the full problem as a CalculiX deck (implies --newton)");
-  app.add_option("--field", options.field, "write the surface displacement as VTK (.vtu)");
-  app.add_flag("--json", options.json, "print one JSON object on standard output");
+void describe(program::Options line, Options& options) {
+  line.add("model", &options.model, "model file (.h5)").required();
+  program::Options where = line.exactlyOneOf("where");
+  where.add("--node", &options.node, "touch this surface node, by its number in the mesh file");
+  where.add("--at", &options.at, "touch the surface point nearest to x,y,z, m");
+  program::Options what = line.exactlyOneOf("what");
+  what.add("--displacement", &options.displacement, "displacement dx,dy,dz of the contact patch, m");
+  what.add("--force", &options.force, "force fx,fy,fz of the tool, N (models driven by force)");
+  what.add("--load-level", &options.level, "part of the model's load, 0 to 1 (models driven by level)")
+      .range(0.0, 1.0);
+  line.add("--tool2", &options.more_tools,
+           "another tool at the same time: NODE:dx,dy,dz, m; goes with --displacement, may be repeated")
+      .oneWordEach();
+  line.flag("--newton", &options.newton, "solve the full problem too, and tell how far the model is off");
+  line.add("--steps", &options.steps, "load steps of the full solution to begin with").range(1, 1000);
+  line.add("--ccx", &options.deck, "write the full problem as a CalculiX deck (implies --newton)");
+  line.add("--field", &options.field, "write the surface displacement as VTK (.vtu)");
+  line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 
-/// The command line without the program's name, last word first as CLI11 takes it.
-std::vector<std::string> reversedWords(int argc, char** argv) {
-  static constexpr std::array<const char*, 4> kVectors{"--at", "--displacement", "--force", "--tool2"};
-  const std::vector<const char*> words(argv + std::min(argc, 1), argv + argc);
-  std::vector<std::string> joined = query::joinVectors(words, kVectors);
-  std::reverse(joined.begin(), joined.end());
-  return joined;
+Vec3 vectorOf(const std::string& option, const std::string& text) {
+  const std::array<double, 3> x = program::parseVector(option, text);
+  return {x[0], x[1], x[2]};
 }
 
 query::Anchor anchorOf(const MetaModel& model, const Options& options) {
   return options.node ? query::anchorAtNode(model, *options.node)
-                      : query::anchorNear(model, query::parseVector("--at", options.at));
+                      : query::anchorNear(model, vectorOf("--at", options.at));
 }
 
 query::Question questionOf(const Options& options) {
   if (options.level && std::isnan(*options.level))
     throw query::QueryError("--load-level is nan, expected 0 to 1");
   if (options.level) return {Parameters::kLevel, {*options.level, 0.0, 0.0}};
-  if (options.force) return {Parameters::kForce, query::parseVector("--force", *options.force)};
+  if (options.force) return {Parameters::kForce, vectorOf("--force", *options.force)};
   if (!options.displacement) throw query::QueryError("--displacement or --force is empty, expected x,y,z");
-  return {Parameters::kDisplacement, query::parseVector("--displacement", *options.displacement)};
+  return {Parameters::kDisplacement, vectorOf("--displacement", *options.displacement)};
 }
 
 query::FullSolution solve(const MetaModel& model, const query::Organ& organ, const query::Anchor& anchor,
@@ -133,9 +122,10 @@ void warn(const query::Findings& found) {
 
 void writeFiles(const Options& options, const query::Findings& found) {
   if (!options.field.empty())
-    query::writeText(options.field, query::fieldVtu(found.model, found.answer, found.organ, found.truth));
+    program::writeFile(options.field, query::fieldVtu(found.model, found.answer, found.organ, found.truth));
   if (!options.deck.empty())
-    query::writeText(options.deck, query::ccxDeck(*found.organ, *found.truth, about(options), options.steps));
+    program::writeFile(options.deck,
+                       query::ccxDeck(*found.organ, *found.truth, about(options), options.steps));
 }
 
 /// The report about one tool, then that about all; the field is that of all.
@@ -155,9 +145,9 @@ void reportTogether(const Options& options, const query::Findings& first,
     std::cout << query::toText(first) << query::toText(found);
     return;
   }
-  nlohmann::ordered_json json = query::toJson(first);
+  program::Json json = query::toJson(first);
   json["two_tools"] = query::toJson(found);
-  std::cout << json.dump(2) << '\n';
+  std::cout << json.dump(2, program::Keys::kAsWritten) << '\n';
 }
 
 void run(const Options& options) {
@@ -182,24 +172,22 @@ void run(const Options& options) {
   warn(found);
   if (!touches.empty()) return reportTogether(options, found, touches);
   writeFiles(options, found);
-  std::cout << (options.json ? query::toJson(found).dump(2) + "\n" : query::toText(found));
+  std::cout << (options.json ? query::toJson(found).dump(2, program::Keys::kAsWritten) + "\n"
+                             : query::toText(found));
+}
+
+int body(int argc, char** argv) {
+  program::CommandLine line(
+      "palpate-query", "Asks a model for the answer to one touch: force, stiffness, surface displacement.");
+  Options options;
+  describe(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
+  run(options);
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Asks a model for the answer to one touch: force, stiffness, surface displacement.",
-               "palpate-query");
-  Options options;
-  describe(app, options);
-  try {
-    app.parse(reversedWords(argc, argv));
-    run(options);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::cerr << "palpate-query: " << error.what() << '\n';
-    return 1;
-  }
-  return std::cout.flush() ? 0 : 1;
+  return program::runProgram("palpate-query", &body, argc, argv);
 }

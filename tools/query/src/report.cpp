@@ -7,11 +7,11 @@ namespace palpate::query {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using program::Json;
 
 Json rows(const Mat3& m) {
   Json matrix = Json::array();
-  for (int row = 0; row < 3; ++row) matrix.push_back(list(m.row(row)));
+  for (int row = 0; row < 3; ++row) matrix.push_back(Vec3(m.row(row)));
   return matrix;
 }
 
@@ -26,17 +26,17 @@ bool displacementPrescribed(const Findings& found) {
 Json newtonJson(const Findings& found) {
   const Errors errors = errorsOf(found.answer, *found.truth, *found.organ);
   Json out;
-  out["force"] = list(found.truth->state.force);
+  out["force"] = found.truth->state.force;
   if (displacementPrescribed(found)) {
     out["force_error"] = errors.force;
   } else {
-    out["displacement"] = list(found.truth->d);
+    out["displacement"] = found.truth->d;
     out["displacement_error"] = errors.displacement;
   }
   out["field_error_max"] = errors.field_max;
   out["field_error_l2"] = errors.field_l2;
   out["min_det_f"] = found.truth->min_det_f;
-  out["anchor_displacement"] = list(found.truth->displacement(*found.organ, found.anchor.node));
+  out["anchor_displacement"] = found.truth->displacement(*found.organ, found.anchor.node);
   return out;
 }
 
@@ -74,14 +74,14 @@ Json toJson(const Findings& found) {
   const ContactPoint& s = found.anchor.s;
   Json out;
   out["parameters"] = toString(found.model.attributes().parameters);
-  out["force"] = list(response.force);
+  out["force"] = response.force;
   out["stiffness"] = rows(response.stiffness);
-  out["displacement"] = list(response.displacement);
+  out["displacement"] = response.displacement;
   if (found.model.attributes().parameters == Parameters::kLevel) out["load_level"] = response.parameter.x();
   out["anchor"] = {{"node", meshNumber(found)},
                    {"triangle", s.triangle},
                    {"barycentric", s.barycentric},
-                   {"position", list(found.anchor.position)}};
+                   {"position", found.anchor.position}};
   out["domain_radius"] = response.domain_radius;
   out["status"] = toString(found.answer.status);
   if (found.truth == nullptr) return out;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "palpate/program/json.h"
 #include "palpate/query/answer.h"
 #include "palpate/query/full_solution.h"
 
@@ -20,7 +20,7 @@ struct Findings {
 };
 
 /// The object of --json; keys in docs/json.md.
-[[nodiscard]] nlohmann::ordered_json toJson(const Findings& found);
+[[nodiscard]] program::Json toJson(const Findings& found);
 
 /// The same for a person to read, several lines.
 [[nodiscard]] std::string toText(const Findings& found);

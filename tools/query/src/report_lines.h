@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "palpate/core/types.h"
@@ -11,10 +10,6 @@
 namespace palpate::query {
 
 // What the reports are written with.
-
-[[nodiscard]] inline nlohmann::ordered_json list(const Vec3& v) {
-  return {v[0], v[1], v[2]};
-}
 
 template <class... Values>
 [[nodiscard]] std::string line(const char* format, Values... values) {

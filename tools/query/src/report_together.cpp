@@ -9,7 +9,7 @@ namespace palpate::query {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using program::Json;
 
 Vec3 couplingForce(const ToolAnswer& tool) {
   return tool.together.response.force - tool.alone.response.force;
@@ -30,14 +30,10 @@ double distance(const JointFindings& found, std::size_t tool) {
 
 Json toolJson(const JointFindings& found, std::size_t a) {
   const ToolAnswer& tool = found.answer.tools[a];
-  return {{"node", meshNumber(found, a)},
-          {"position", list(found.touches[a].anchor.position)},
-          {"distance_m", distance(found, a)},
-          {"displacement", list(found.touches[a].d)},
-          {"own_displacement", list(tool.own)},
-          {"status", toString(tool.together.status)},
-          {"force", list(tool.together.response.force)},
-          {"force_alone", list(tool.alone.response.force)}};
+  return {{"node", meshNumber(found, a)},          {"position", found.touches[a].anchor.position},
+          {"distance_m", distance(found, a)},      {"displacement", found.touches[a].d},
+          {"own_displacement", tool.own},          {"status", toString(tool.together.status)},
+          {"force", tool.together.response.force}, {"force_alone", tool.alone.response.force}};
 }
 
 void addErrors(const JointErrors& errors, Json& out) {
@@ -49,7 +45,7 @@ void addErrors(const JointErrors& errors, Json& out) {
 Json newtonJson(const JointFindings& found) {
   const Vec3 change = found.truth->state.force - found.alone->state.force;
   Json out{{"forces", Json::array()}};
-  for (const Vec3& force : found.truth->state.forces) out["forces"].push_back(list(force));
+  for (const Vec3& force : found.truth->state.forces) out["forces"].push_back(force);
   out["coupling_force1_N"] = change.norm();
   out["min_det_f"] = found.truth->min_det_f;
   return out;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "palpate/program/json.h"
 #include "palpate/query/together.h"
 
 namespace palpate::query {
@@ -19,7 +19,7 @@ struct JointFindings {
 };
 
 /// The object `two_tools` of --json; keys in docs/json.md.
-[[nodiscard]] nlohmann::ordered_json toJson(const JointFindings& found);
+[[nodiscard]] program::Json toJson(const JointFindings& found);
 
 /// The same for a person to read, several lines.
 [[nodiscard]] std::string toText(const JointFindings& found);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "palpate/query/answer.h"
@@ -14,9 +13,5 @@ namespace palpate::query {
 /// @param organ, truth  both or neither
 [[nodiscard]] std::string fieldVtu(const MetaModel& model, const Answer& answer, const Organ* organ,
                                    const FullSolution* truth);
-
-/// Writes beside the target and renames, so that nobody reads half a file.
-/// @throw QueryError naming the file and the reason
-void writeText(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace palpate::query
