@@ -191,9 +191,9 @@ ContactPoint ContactSurface::rest(const ContactPoint& fine) const noexcept PALPA
   return s;
 }
 
-SurfaceFrame ContactSurface::frame(const SurfaceMesh& rest,
+TangentFrame ContactSurface::frame(const SurfaceMesh& rest,
                                    const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
-  SurfaceFrame frame = mesh_->frame(fine);
+  TangentFrame frame = mesh_->frame(fine);
   Mat3 normal = Mat3::Zero(), to_rest = Mat3::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     const Slope& slope = slopes_[index(triangles_[3 * index(fine.triangle) + k])];

@@ -91,7 +91,7 @@ bool Equilibrium::slideBy(const Vec2& step) noexcept PALPATE_NONBLOCKING {
   constexpr double kShortestStep = 1e-9;  // m
   if (!step.allFinite()) return false;
   const Contact before = contact_;
-  const SurfaceFrame frame = frame_;
+  const TangentFrame frame = frame_;
   const Vec2 energy_slope = energy_slope_;
   const SurfaceMesh& surface = model_.contactSurface().mesh();
   const bool went = surface.move(contact_.fine, frame_.tangent * step, Reach::kAccessible);

@@ -45,7 +45,7 @@ class Equilibrium {
   /// Where a step begins.
   struct Start {
     Contact contact;
-    SurfaceFrame frame;
+    TangentFrame frame;
     Vec2 energy_slope;
   };
   [[nodiscard]] static Vec2 stepOf(const Slip& slip) noexcept PALPATE_NONBLOCKING;
@@ -60,7 +60,7 @@ class Equilibrium {
   double tip_radius_;
   Vec3 c_;
   Contact& contact_;
-  SurfaceFrame frame_;
+  TangentFrame frame_;
   Vec2 energy_slope_ = Vec2::Zero();  // dW/dxi at the anchor, N
   Mat3 give_ = Mat3::Zero();          // dX/dc of the anchor as it began to slide, 1
 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "force_search.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "load_driven.h"
+#include "clamp_to_domain.h"
 #include "palpate/core/length.h"
 
 namespace palpate {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "level_search.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "load_driven.h"
+#include "force_search.h"
 
 namespace palpate {
 

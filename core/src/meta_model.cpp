@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model_checks.h"
 #include "model_reader.h"
 
 namespace palpate {

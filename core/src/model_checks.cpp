@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "model_checks.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "load_driven.h"
-#include "model_reader.h"
+#include "level_search.h"
 #include "palpate/core/load_error.h"
 #include "palpate/core/mode_selection.h"
 #include "palpate/core/multi_index.h"

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "hdf5_reader.h"
+#include "model_checks.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
 

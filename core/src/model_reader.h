@@ -20,10 +20,4 @@ struct ModelContents {
 /// @throw LoadError file, dataset, found, expected
 [[nodiscard]] ModelContents readModel(const SealedImage& image, const std::string& name);
 
-/// Ranges of the root attributes. @throw LoadError
-void checkAttributes(const ModelAttributes& attributes, const std::string& name);
-
-/// Every index in range, every table consistent, every number finite. @throw LoadError
-void checkContents(const ModelAttributes& attributes, const ModelView& view, const std::string& name);
-
 }  // namespace palpate

@@ -4,23 +4,15 @@
 #include <algorithm>
 #include <array>
 
+#include "clamp_to_domain.h"
 #include "field_parts.h"
+#include "force_search.h"
 #include "index.h"
-#include "load_driven.h"
+#include "level_search.h"
 #include "palpate/core/length.h"
 #include "symmetric_eigen.h"
 
 namespace palpate {
-
-Vec3 clampToDomain(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
-  const double length = lengthOf(d);  // |d|^2 of a huge displacement overflows
-  return length > radius ? Vec3((radius / length) * d) : d;
-}
-
-Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
-  const Vec3 direction = d / lengthOf(d);
-  return (radius / lengthOf(d)) * (Mat3::Identity() - direction * direction.transpose());
-}
 
 namespace {
 

@@ -12,9 +12,9 @@
 namespace palpate {
 
 /// One tick over one workspace.
-class Tick {
+class Stepper {
  public:
-  Tick(const MetaModel& model, Workspace& work, const StepInput& input) noexcept PALPATE_NONBLOCKING
+  Stepper(const MetaModel& model, Workspace& work, const StepInput& input) noexcept PALPATE_NONBLOCKING
       : model_(model),
         work_(work),
         input_(input),
@@ -66,7 +66,7 @@ void store(const Vector& from, std::array<double, N>& to) noexcept PALPATE_NONBL
 }  // namespace
 
 /// Flags of the pose itself; 0 when it can be followed.
-std::uint32_t Tick::judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING {
+std::uint32_t Stepper::judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING {
   constexpr double kFarthest =
       1000.0;  // m; an organ and its tools are not that far apart, and squares stay finite
   for (const double x : tool.position)
@@ -81,7 +81,7 @@ std::uint32_t Tick::judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCK
 
 /// Whether a good pose is farther from the last one than a tool may get in the time between: by the poses' own arrival,
 /// and a little more, because they arrive unevenly.
-bool Tick::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
+bool Stepper::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   constexpr double kUneven = 2e-3;  // s
   if (!memory.known) return false;
   const double between = std::max(0.0, memory.age + dt_ - 1e-9 * double(tool.age_ns));
@@ -89,13 +89,13 @@ bool Tick::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept
   return (here - memory.position).norm() > work_.config_.speed_limit * (between + kUneven);
 }
 
-ContactLaw Tick::law() const noexcept PALPATE_NONBLOCKING {
+ContactLaw Stepper::law() const noexcept PALPATE_NONBLOCKING {
   const LiveParameters& live = work_.live_.now();
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
 }
 
 /// Live parameters go on; a change at once disturbs the contacts.
-void Tick::changeLive() noexcept PALPATE_NONBLOCKING {
+void Stepper::changeLive() noexcept PALPATE_NONBLOCKING {
   double largest = 0.0;
   for (const ToolMemory& memory : work_.tools_) largest = std::max(largest, memory.rendering.rendered.norm());
   LiveBlend& live = work_.live_;
@@ -104,7 +104,8 @@ void Tick::changeLive() noexcept PALPATE_NONBLOCKING {
 }
 
 /// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
-bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept PALPATE_NONBLOCKING {
+bool Stepper::follow(const ToolInput& tool, ToolMemory& memory,
+                     ToolResult& out) noexcept PALPATE_NONBLOCKING {
   const Contact before = memory.contact;
   const Vec3 c(tool.position[0], tool.position[1], tool.position[2]);
   if (leapt(tool, memory)) {
@@ -122,13 +123,14 @@ bool Tick::follow(const ToolInput& tool, ToolMemory& memory, ToolResult& out) no
 }
 
 /// Age of a tool's last good pose in a tick without one.
-void Tick::grow(const ToolInput& tool, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
+void Stepper::grow(const ToolInput& tool, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   memory.age += dt_;
   if (tool.present != 0) memory.age = std::max(memory.age, 1e-9 * double(tool.age_ns));
   if (!memory.known) memory.age = std::max(memory.age, work_.config_.zero_after);
 }
 
-void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept PALPATE_NONBLOCKING {
+void Stepper::advance(const ToolInput& tool, ToolMemory& memory,
+                      ToolResult& out) noexcept PALPATE_NONBLOCKING {
   if (tool.present == 0 && !memory.known) return;
   if (disturbed_ && memory.contact.state != ContactState::kFree) memory.leapt = true;
   if (tool.present != 0) out.flags |= judge(tool);
@@ -151,7 +153,8 @@ void Tick::advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) n
 }
 
 /// Limits and fades the force. A contact whose force has faded to nothing is given up.
-void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept PALPATE_NONBLOCKING {
+void Stepper::render(ToolMemory& memory, bool held, bool jumped,
+                     ToolResult& out) noexcept PALPATE_NONBLOCKING {
   LimiterInput in;
   const LiveParameters& live = work_.live_.now();
   if (held)
@@ -182,7 +185,7 @@ void Tick::render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) n
 /// The surface as shown. Where a contact jumps, the field moves over like the force does: the weight of the
 /// field before falls from 1 to 0 within ramp_time. One weight for the whole field, so that a second jump
 /// starts from what is shown.
-void Tick::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
+void Stepper::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
   double& blend = work_.displacement_blend_;
   if (jumped_) {
     std::copy(work_.displacement_.begin(), work_.displacement_.end(), work_.displacement_from_.begin());
@@ -200,7 +203,7 @@ void Tick::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
 }
 
 /// The surface where it is reported.
-bool Tick::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
+bool Stepper::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
   const bool finite = surface.atAnchors(shown_);
   const double weight = work_.displacement_blend_;
   for (std::size_t i = 0; weight > 0.0 && i < kMaxTools; ++i) {
@@ -212,7 +215,7 @@ bool Tick::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING 
   return finite;
 }
 
-void Tick::showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
+void Stepper::showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
   std::vector<float>& u = work.displacement_;
   const auto weight = static_cast<float>(work.displacement_blend_);
   if (weight == 0.0F && work.shown_known_ && work.shown_ == work.sources_) return;
@@ -222,7 +225,7 @@ void Tick::showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE
   if (weight > 0.0F) mixInto(work.displacement_from_, weight, u);  // no difference, which may overflow
 }
 
-void Tick::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING {
+void Stepper::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING {
   const Contact& contact = work_.tools_[tool].contact;
   if (contact.s.triangle < 0) return;
   out.state = static_cast<std::uint32_t>(contact.state);
@@ -233,7 +236,7 @@ void Tick::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONB
   out.penetration = std::max(0.0, -contact.imposed.dot(contact.normal));
 }
 
-StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
+StepStatus Stepper::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   result = StepResult{};
   changeLive();
   ToolGroup group(model_, work_.tools_, work_.scratch_);
@@ -256,11 +259,11 @@ StepStatus Tick::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
 
 StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& input,
                       StepResult& result) noexcept PALPATE_NONBLOCKING {
-  return Tick(model, work, input).run(result);
+  return Stepper(model, work, input).run(result);
 }
 
 void stepSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
-  Tick::showSurface(model, work);
+  Stepper::showSurface(model, work);
 }
 
 StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "clamp_to_domain.h"
 #include "index.h"
-#include "load_driven.h"
 #include "small_square.h"
 
 namespace palpate {

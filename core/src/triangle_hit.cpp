@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include "palpate/core/triangle_hit.h"
 
-#include "palpate/core/bounding_volumes.h"
+#include <algorithm>
 
 namespace palpate {
 

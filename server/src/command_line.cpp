@@ -6,6 +6,8 @@
 #include <iostream>
 #include <string>
 
+#include "palpate/server/config_file.h"
+
 namespace palpate::server {
 namespace {
 

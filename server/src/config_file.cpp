@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/config_file.h"
+
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -6,8 +8,6 @@
 #include <set>
 #include <sstream>
 #include <string_view>
-
-#include "palpate/server/config.h"
 
 namespace palpate::server {
 namespace {

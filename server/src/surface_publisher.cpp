@@ -57,7 +57,7 @@ void SurfacePublisher::run() noexcept {
   }
 }
 
-void SurfacePublisher::publish(const SurfaceFrame& frame) noexcept {
+void SurfacePublisher::publish(const SurfaceSample& frame) noexcept {
   dds::SurfaceDisplacement sample{};
   sample.organ_id = facts_.organ_id;
   dds::assignText(sample.model_id, facts_.model_id);

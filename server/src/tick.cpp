@@ -34,7 +34,7 @@ std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   // 6. When the next tick is to be.
   followPoses(cycle);
   // 7. How it went, for whoever watches.
-  writeRecord(cycle);
+  reportTick(cycle);
   // 8. At the end of the server: tell when nothing pushes any more.
   reportZeroForce();
   return shift_ns_;
@@ -145,7 +145,7 @@ bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (input_.skip_surface != 0) return;
   stepSurface(model_, work_);
-  SurfaceFrame& frame = channels_.surface.back();
+  SurfaceSample& frame = channels_.surface.back();
   frame.seq = ++surface_seq_;
   frame.stamp_ns = cycle.woke_ns;
   const std::span<const float> field = work_.displacement();
@@ -177,7 +177,7 @@ void Tick::followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   shift_ns_ = shifts[followed_];
 }
 
-void Tick::writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+void Tick::reportTick(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   TickRecord record;
   record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
   record.previous_tick_ns = cycle.previous_ns;

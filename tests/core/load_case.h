@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/model_data.h"
 #include "palpate/testing/synthetic_model.h"
 #include "spoiled_file.h"
 

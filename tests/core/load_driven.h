@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "driver.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 
 namespace palpate::testing {
 

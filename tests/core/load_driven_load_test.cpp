@@ -6,7 +6,7 @@
 
 #include "load_case.h"
 #include "palpate/core/response.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/synthetic_model.h"
 #include "spoiled_file.h"
 

@@ -14,6 +14,7 @@
 #include "instruction_sets.h"
 #include "palpate/core/fields.h"
 #include "palpate/core/packed_modes.h"
+#include "palpate/modelfile/pack_modes.h"
 
 namespace palpate::testing {
 

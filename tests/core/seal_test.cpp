@@ -11,7 +11,7 @@
 
 #include "palpate/core/load_error.h"
 #include "palpate/core/sealed_image.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace {

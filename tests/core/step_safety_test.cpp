@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "round_organ.h"
 
 namespace palpate::testing {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "palpate/core/multi_index.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "round_organ.h"
 
 namespace palpate::testing {

@@ -9,7 +9,7 @@
 
 #include "driver.h"
 #include "palpate/core/surface_distance.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 
 namespace palpate::testing {
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "palpate/server/config_file.h"
+
 namespace palpate::server {
 namespace {
 

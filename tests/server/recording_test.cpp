@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../clients/run_program.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "server_fixture.h"
 
 namespace palpate::server::testing {

@@ -53,7 +53,7 @@ TEST_F(TickTest, PushesBackAndMovesTheSurface) {
   EXPECT_GT(Eigen::Map<const Vec3>(result.force.data()).dot(normal_), 0.0);
   EXPECT_EQ(result.flags, kInContact);
   ASSERT_TRUE(channels_->surface.update());
-  const SurfaceFrame& frame = channels_->surface.front();
+  const SurfaceSample& frame = channels_->surface.front();
   EXPECT_EQ(frame.seq, 100U);
   EXPECT_EQ(frame.stamp_ns, now_ns_ + 7);
   const std::span<const float> field = work_.displacement();
@@ -196,7 +196,7 @@ TEST_F(TickTest, WritesTheSurfaceAsOftenAsAskedInTheMeanAndTheForceEveryTick) {
     ++cycle_.index;
     EXPECT_EQ(takeForces().size(), 1U);
     if (!channels_->surface.update()) continue;
-    const SurfaceFrame& frame = channels_->surface.front();
+    const SurfaceSample& frame = channels_->surface.front();
     if (last_ns != 0) {
       EXPECT_NEAR(static_cast<double>(frame.stamp_ns - last_ns), 16.5e6, 0.5e6);
     }

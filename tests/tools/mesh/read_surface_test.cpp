@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/mesh/read_surface.h"
+
 #include <sstream>
 
 #include "helpers.h"
-#include "palpate/mesh/read_mesh.h"
 #include "palpate/test/paths.h"
 
 namespace palpate::mesh::test {

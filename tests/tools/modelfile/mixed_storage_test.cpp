@@ -14,7 +14,8 @@
 #include "palpate/core/mode_selection.h"
 #include "palpate/core/response.h"
 #include "palpate/modelfile/mixed_precision.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/pack_modes.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {

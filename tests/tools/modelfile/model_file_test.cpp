@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/modelfile/model_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,6 +7,9 @@
 #include <functional>
 
 #include "palpate/core/meta_model.h"
+#include "palpate/modelfile/read_volume_mesh.h"
+#include "palpate/modelfile/write_model.h"
+#include "palpate/modelfile/write_xdmf.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {

@@ -62,7 +62,7 @@ struct Box {
     return FeModel(nodes(), tetrahedra(), face(0, false), material);
   }
 
-  [[nodiscard]] ContactSurface surface(const FeModel& model) const {
+  [[nodiscard]] PatchSurface surface(const FeModel& model) const {
     std::map<std::array<std::int32_t, 3>, std::array<std::int32_t, 3>> faces;
     constexpr std::size_t kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     for (const auto& t : model.tetrahedra())
@@ -82,7 +82,7 @@ struct Box {
     }
     std::vector<std::array<std::int32_t, 3>> triangles;
     for (const auto& [key, f] : faces) triangles.push_back({index[f[0]], index[f[1]], index[f[2]]});
-    return ContactSurface(model, surface_nodes, triangles);
+    return PatchSurface(model, surface_nodes, triangles);
   }
 };
 

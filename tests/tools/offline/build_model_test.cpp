@@ -9,7 +9,7 @@
 #include "palpate/core/meta_model.h"
 #include "palpate/core/response.h"
 #include "palpate/mesh/box_mesh.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/offline/newton.h"
 
 namespace palpate::offline {
@@ -35,7 +35,7 @@ class SolvedBlock : public ::testing::Test {
       modelfile::writeModel(path, data);
       fe = std::make_unique<FeModel>(organ.nodes, organ.tetrahedra, organ.groups.at("fixed"),
                                      StVenantKirchhoff{c.E, c.nu});
-      surface = std::make_unique<ContactSurface>(SolverSetup(c, organ).surface);
+      surface = std::make_unique<PatchSurface>(SolverSetup(c, organ).surface);
     }
     ~World() { std::filesystem::remove(path); }
     World(const World&) = delete;
@@ -45,7 +45,7 @@ class SolvedBlock : public ::testing::Test {
     Case c;
     std::filesystem::path path;
     std::unique_ptr<FeModel> fe;
-    std::unique_ptr<ContactSurface> surface;
+    std::unique_ptr<PatchSurface> surface;
   };
 
   static void SetUpTestSuite() { world_ = std::make_unique<World>(); }
@@ -56,7 +56,7 @@ class SolvedBlock : public ::testing::Test {
   };
 
   /// Model against Newton with the patch at s.
-  static Errors compare(const MetaModel& model, const SurfacePoint& s, const Vec3& d) {
+  static Errors compare(const MetaModel& model, const ContactPoint& s, const Vec3& d) {
     ContactPoint contact;
     contact.triangle = s.triangle;
     contact.barycentric = s.barycentric;
@@ -101,7 +101,7 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 8; ++i) {
-    SurfacePoint s{0, {0.3, 0.3, 0.4}};
+    ContactPoint s{0, {0.3, 0.3, 0.4}};
     do s.triangle = static_cast<int>(random() % world_->surface->triangles.size());
     while (world_->surface->position(s).x() < 0.02);
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();

@@ -45,7 +45,7 @@ inline LinearProblem springRod(int n) {
 struct PalpatedBox {
   Box box{4, 2, 2, Vec3(0.08, 0.04, 0.04)};
   FeModel model{box.clamped({160e3, 0.4})};
-  ContactSurface surface{box.surface(model)};
+  PatchSurface surface{box.surface(model)};
   std::vector<Patch> patches;
   std::vector<double> areas;
 

@@ -8,7 +8,7 @@
 #include "palpate/core/meta_model.h"
 #include "palpate/core/response.h"
 #include "palpate/mesh/box_mesh.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/offline/build_model.h"
 #include "palpate/offline/newton.h"
 
@@ -47,7 +47,7 @@ class Block : public ::testing::Test {
 
   /// An accessible position, as the model and as the solver know it.
   [[nodiscard]] ContactPoint touch(std::size_t position) const {
-    const SurfacePoint s = setup_->surface.atNode(setup_->positions.nodes[position]);
+    const ContactPoint s = setup_->surface.atNode(setup_->positions.nodes[position]);
     ContactPoint contact;
     contact.triangle = s.triangle;
     contact.barycentric = s.barycentric;
@@ -221,7 +221,7 @@ double contactError(const MetaModel& model, const SolverSetup& setup,
   double worst = 0.0;
   for (const std::size_t position : positions) {
     const double t = std::min(level, model.view().contact_domain_radius[position]);
-    const SurfacePoint s = setup.surface.atNode(setup.positions.nodes[position]);
+    const ContactPoint s = setup.surface.atNode(setup.positions.nodes[position]);
     ContactPoint contact;
     contact.triangle = s.triangle;
     contact.barycentric = s.barycentric;

@@ -15,7 +15,7 @@ class TwoPatches : public ::testing::Test {
  protected:
   const Box box_{8, 4, 3, Vec3(0.16, 0.08, 0.06)};
   const FeModel model_{box_.clamped({160e3, 0.4})};
-  const ContactSurface surface_{box_.surface(model_)};
+  const PatchSurface surface_{box_.surface(model_)};
   NewtonSolver newton_{model_};
 
   Patch patchAt(int i, int j) const {

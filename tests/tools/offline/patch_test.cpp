@@ -17,7 +17,7 @@ class Plate : public ::testing::Test {
   const Box box_{20, 20, 1,
                  Vec3(0.1, 0.1, 0.002)};  // thin: both sides are near through space, not along the surface
   const FeModel model_{box_.clamped(kLiver)};
-  const ContactSurface surface_{box_.surface(model_)};
+  const PatchSurface surface_{box_.surface(model_)};
 
   int surfaceNode(int volume_node) const {
     return static_cast<int>(std::find(surface_.nodes.begin(), surface_.nodes.end(), volume_node) -
@@ -36,14 +36,14 @@ TEST_F(Plate, DistancesOnAFlatFaceAreStraight) {
 
 TEST_F(Plate, DistancesChangeContinuouslyOverAnEdge) {
   const auto& triangle = surface_.triangles[100];
-  SurfacePoint before{100, {0.4, 0.6, 0.0}};
+  ContactPoint before{100, {0.4, 0.6, 0.0}};
   int other = -1;
   for (const int t : surface_.graph.trianglesOf(triangle[0]))
     if (t != 100 && std::count(surface_.triangles[static_cast<std::size_t>(t)].begin(),
                                surface_.triangles[static_cast<std::size_t>(t)].end(), triangle[1]) > 0)
       other = t;
   ASSERT_GE(other, 0);
-  SurfacePoint after{other, {}};
+  ContactPoint after{other, {}};
   for (std::size_t k = 0; k < 3; ++k) {
     const int node = surface_.triangles[static_cast<std::size_t>(other)][k];
     after.barycentric[k] = node == triangle[0] ? 0.4 : node == triangle[1] ? 0.6 : 0.0;

@@ -24,7 +24,7 @@ class BlockSeries : public ::testing::Test {
       }
     }
     FeModel model;
-    ContactSurface surface;
+    PatchSurface surface;
     Cholesky factor;
     std::vector<Patch> patches;
   };

@@ -9,7 +9,8 @@
 #include <string>
 
 #include "palpate/mesh/box_mesh.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/read_volume_mesh.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/offline/build_model.h"
 #include "palpate/query/full_solution.h"
 #include "palpate/query/query_error.h"

@@ -24,7 +24,7 @@ FullSolution solveTogether(const BoxModel& box, std::span<const Touch> touches) 
 
 TEST(Together, ThePatchesOfTheModelAreThoseOfTheSolver) {
   const BoxModel box;
-  const offline::ContactSurface& surface = box.organ.surface;
+  const offline::PatchSurface& surface = box.organ.surface;
   for (std::int32_t m = 0; m < static_cast<std::int32_t>(box.model.view().positions()); ++m) {
     const std::int32_t node = box.model.view().contact_node[static_cast<std::size_t>(m)];
     const offline::Patch patch = offline::makePatch(box.organ.body, surface, surface.atNode(node),

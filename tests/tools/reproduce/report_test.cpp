@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/reproduce/fill.h"
+
 namespace palpate::reproduce {
 namespace {
 

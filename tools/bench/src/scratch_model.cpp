@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 
 namespace palpate::bench {
 

@@ -30,9 +30,4 @@ struct RawMesh {
 /// @throw MeshError on repeated node numbers and references to nodes that are not there
 TetMesh assemble(const std::filesystem::path& path, const RawMesh& raw);
 
-/// The readers behind readMesh(), one a format. Each throws MeshError.
-RawMesh readMshFile(const std::filesystem::path& path);
-RawMesh readVtkFile(const std::filesystem::path& path);
-RawMesh readMeditFile(const std::filesystem::path& path);
-
 }  // namespace palpate::mesh

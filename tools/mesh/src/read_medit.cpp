@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "read_medit.h"
+
 #include <map>
 #include <string>
 
 #include "byte_reader.h"
-#include "raw_mesh.h"
 
 namespace palpate::mesh {
 namespace {

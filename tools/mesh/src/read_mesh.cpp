@@ -6,6 +6,9 @@
 
 #include "palpate/mesh/mesh_error.h"
 #include "raw_mesh.h"
+#include "read_medit.h"
+#include "read_msh.h"
+#include "read_vtk.h"
 
 namespace palpate::mesh {
 

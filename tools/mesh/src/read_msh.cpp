@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "read_msh.h"
+
 #include <algorithm>
 #include <array>
 #include <map>
 #include <string>
 
-#include "msh_sections.h"
+#include "read_msh4.h"
 
 namespace palpate::mesh {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "read_msh4.h"
+
 #include <cstdlib>
 #include <string>
-
-#include "msh_sections.h"
 
 namespace palpate::mesh {
 namespace {

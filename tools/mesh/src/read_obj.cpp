@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "read_obj.h"
+
 #include <algorithm>
 #include <charconv>
 #include <string>
 
 #include "byte_reader.h"
-#include "raw_surface.h"
 
 namespace palpate::mesh {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "read_stl.h"
+
 #include <array>
 #include <map>
 #include <string>
 
 #include "byte_reader.h"
-#include "raw_surface.h"
 
 namespace palpate::mesh {
 namespace {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/mesh/read_surface.h"
+
 #include <algorithm>
 #include <cctype>
 
 #include "palpate/mesh/mesh_error.h"
-#include "palpate/mesh/read_mesh.h"
-#include "raw_surface.h"
+#include "read_obj.h"
+#include "read_stl.h"
 
 namespace palpate::mesh {
 namespace {

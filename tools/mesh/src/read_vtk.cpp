@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "read_vtk.h"
+
 #include <map>
 #include <string>
 #include <vector>
 
 #include "byte_reader.h"
-#include "raw_mesh.h"
 
 namespace palpate::mesh {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
-#include "palpate/modelfile/model_file.h"
 
 namespace palpate::modelfile {
 

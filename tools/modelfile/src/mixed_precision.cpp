@@ -11,6 +11,7 @@
 
 #include "palpate/core/multi_index.h"
 #include "palpate/core/parameter_functions.h"
+#include "palpate/modelfile/pack_modes.h"
 
 namespace palpate::modelfile {
 

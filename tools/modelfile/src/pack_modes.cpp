@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/modelfile/pack_modes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "palpate/modelfile/mixed_precision.h"
 
 namespace palpate::modelfile {
 

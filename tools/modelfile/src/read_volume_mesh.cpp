@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/modelfile/read_volume_mesh.h"
+
 #include "palpate/core/meta_model.h"
-#include "palpate/modelfile/model_file.h"
 
 namespace palpate::modelfile {
 

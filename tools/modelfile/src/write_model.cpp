@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/modelfile/write_model.h"
+
 #include <fcntl.h>
 #include <hdf5.h>
 #include <unistd.h>
@@ -13,7 +15,6 @@
 #include "palpate/core/hdf5_handle.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
-#include "palpate/modelfile/model_file.h"
 
 namespace palpate::modelfile {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/modelfile/write_xdmf.h"
+
 #include <unistd.h>
 
 #include <fstream>
@@ -6,7 +8,7 @@
 #include <string>
 
 #include "palpate/core/meta_model.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/model_data.h"
 
 namespace palpate::modelfile {
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "build_model_parts.h"
+#include "build_model_pgd.h"
 #include "palpate/offline/far_field.h"
 #include "palpate/offline/force_series.h"
 #include "palpate/offline/parallel.h"

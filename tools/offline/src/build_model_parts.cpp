@@ -18,7 +18,7 @@ std::size_t at(std::int64_t i) {
 }
 
 /// U_alpha at the surface nodes, [k][node][3].
-std::vector<float> surfaceFields(const SeriesSolver& series, int lane, const ContactSurface& surface) {
+std::vector<float> surfaceFields(const SeriesSolver& series, int lane, const PatchSurface& surface) {
   std::vector<float> fields;
   fields.reserve(at(series.basis().size()) * surface.nodes.size() * 3);
   for (int k = 0; k < series.basis().size(); ++k)

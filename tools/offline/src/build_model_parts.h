@@ -43,8 +43,4 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
 /// Attributes that every kind of model has.
 void storeAttributes(const Case& c, const SolverSetup& setup, ModelAttributes& attributes);
 
-/// Methods pgd-linear, pgd-explicit, pgd-euler.                                     paper Sections 2 and 3
-[[nodiscard]] modelfile::ModelData buildPgd(const Case& c, const mesh::TetMesh& mesh,
-                                            const BuildOptions& options, BuildReport& report);
-
 }  // namespace palpate::offline

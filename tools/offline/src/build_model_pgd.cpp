@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Methods pgd-linear, pgd-explicit and pgd-euler: the paper's track, from a case to a model.
+#include "build_model_pgd.h"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -203,7 +205,7 @@ void PgdBuilder::limitLevels(const BodyProblem& body, const LevelSolution& solut
 
 /// The rows of the surface nodes, each mode of unit mean square over it (as far as it reaches it).
 void PgdBuilder::store(const Pairs& pairs) {
-  const ContactSurface& surface = setup_.surface;
+  const PatchSurface& surface = setup_.surface;
   MatrixXd X = MatrixXd::Zero(static_cast<Index>(3 * surface.nodes.size()), pairs.X.cols());
   Eigen::VectorXd area(X.rows());
   for (std::size_t i = 0; i < surface.nodes.size(); ++i) {

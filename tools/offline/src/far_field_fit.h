@@ -10,7 +10,7 @@
 
 namespace palpate::offline {
 
-/// The work of fitFarField(): a sketch, then sweeps of a Y-step and an X-step each (far_field_steps.cpp).
+/// The work of fitFarField(): a sketch, then sweeps of a Y-step and an X-step each (far_field_fit.cpp).
 class FarFieldFit {
  public:
   FarFieldFit(const FitProblem& problem, const FitOptions& options);

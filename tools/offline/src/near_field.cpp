@@ -13,7 +13,7 @@ double nearWindow(double r, double rho) noexcept {
   return std::max(0.0, 1.0 - t * t * t * (10.0 + t * (-15.0 + 6.0 * t)));
 }
 
-NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho) {
+NearNodes nearNodes(const PatchSurface& surface, const Vec3& x, double rho) {
   NearNodes near;
   for (std::size_t i = 0; i < surface.positions.size(); ++i) {
     const double r = (surface.positions[i] - x).norm();
@@ -24,7 +24,7 @@ NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho) {
   return near;
 }
 
-FitWeights fitWeights(const ContactSurface& surface, const Vec3& x, double rho) {
+FitWeights fitWeights(const PatchSurface& surface, const Vec3& x, double rho) {
   FitWeights weights;
   for (std::size_t i = 0; i < surface.positions.size(); ++i) {
     const double r = (surface.positions[i] - x).norm();

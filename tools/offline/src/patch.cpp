@@ -30,28 +30,28 @@ std::span<const std::int32_t> numbers(const std::vector<std::array<std::int32_t,
 
 }  // namespace
 
-ContactSurface::ContactSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
-                               std::vector<std::array<std::int32_t, 3>> surface_triangles)
+PatchSurface::PatchSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
+                           std::vector<std::array<std::int32_t, 3>> surface_triangles)
     : nodes(std::move(surface_nodes)),
       triangles(std::move(surface_triangles)),
       positions(positionsOf(model, nodes)),
       graph(numbers(positions), numbers(triangles)),
       areas(graph.lumpedAreas()) {}
 
-Vec3 ContactSurface::position(const SurfacePoint& s) const {
+Vec3 PatchSurface::position(const ContactPoint& s) const {
   Vec3 x = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * positions[at(triangles[at(s.triangle)][k])];
   return x;
 }
 
-SurfacePoint ContactSurface::atNode(int node) const {
-  SurfacePoint s;
+ContactPoint PatchSurface::atNode(int node) const {
+  ContactPoint s;
   s.triangle = graph.trianglesOf(node).front();
   for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = triangles[at(s.triangle)][k] == node ? 1.0 : 0.0;
   return s;
 }
 
-double ContactSurface::medianEdge() const {
+double PatchSurface::medianEdge() const {
   std::vector<double> lengths;
   for (const auto& t : triangles)
     for (std::size_t k = 0; k < 3; ++k)
@@ -61,12 +61,12 @@ double ContactSurface::medianEdge() const {
   return *middle;
 }
 
-std::vector<std::pair<std::int32_t, double>> surfaceDistances(const ContactSurface& surface,
-                                                              const SurfacePoint& s, double bound) {
-  return SurfaceFront(surface.graph).from({s.triangle, s.barycentric}, bound);
+std::vector<std::pair<std::int32_t, double>> surfaceDistances(const PatchSurface& surface,
+                                                              const ContactPoint& s, double bound) {
+  return SurfaceFront(surface.graph).from(s, bound);
 }
 
-Patch makePatch(const FeModel& model, const ContactSurface& surface, const SurfacePoint& s, double a) {
+Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s, double a) {
   Patch patch;
   double total = 0.0;
   double free_total = 0.0;

@@ -26,7 +26,7 @@ const std::vector<std::int32_t>& groupOf(const Case& c, const mesh::TetMesh& mes
 }
 
 std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, const FeModel& model,
-                                  const ContactSurface& surface) {
+                                  const PatchSurface& surface) {
   std::vector<bool> by_volume_node(mesh.nodes.size(), !c.accessible.has_value());
   if (c.accessible)
     for (const std::int32_t node : groupOf(c, mesh, *c.accessible)) by_volume_node[at(node)] = true;
@@ -53,10 +53,10 @@ void clampedLast(const FeModel& model, mesh::BoundarySurface& boundary) {
     for (std::int32_t& node : triangle) node = place[at(node)];
 }
 
-ContactSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
+PatchSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
   mesh::BoundarySurface boundary = mesh::boundaryOf(mesh);
   clampedLast(model, boundary);
-  return ContactSurface(model, std::move(boundary.nodes), std::move(boundary.triangles));
+  return PatchSurface(model, std::move(boundary.nodes), std::move(boundary.triangles));
 }
 
 std::string text(double x) {
@@ -66,13 +66,13 @@ std::string text(double x) {
 }
 
 /// The patch of a nodal load: so narrow that it holds the node alone.
-double nodalRadius(const ContactSurface& surface) {
+double nodalRadius(const PatchSurface& surface) {
   return 1e-6 * surface.medianEdge();
 }
 
 /// a as given or by default; a patch that reaches no neighbour is a point load, one as wide as the organ no
 /// contact.
-double patchRadius(const Case& c, const ContactSurface& surface) {
+double patchRadius(const Case& c, const PatchSurface& surface) {
   if (c.nodalLoad()) return nodalRadius(surface);
   const double edge = surface.medianEdge();
   const double a = c.patch_radius.value_or(1.3 * edge);
@@ -115,7 +115,7 @@ void storeMesh(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::M
 
 }  // namespace
 
-ContactPositions contactPositions(const FeModel& model, const ContactSurface& surface,
+ContactPositions contactPositions(const FeModel& model, const PatchSurface& surface,
                                   const std::vector<bool>& accessible, double patch_radius,
                                   const mesh::TetMesh& mesh) {
   // A helper needs enough of its patch on free nodes to say something of its own.

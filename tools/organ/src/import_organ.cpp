@@ -8,6 +8,7 @@
 #include "palpate/mesh/fill_surface.h"
 #include "palpate/mesh/mesh_error.h"
 #include "palpate/mesh/read_mesh.h"
+#include "palpate/mesh/read_surface.h"
 #include "palpate/mesh/topology.h"
 
 namespace palpate::organ {

@@ -59,9 +59,8 @@ offline::Patch pointPatch(const Organ& organ, const ContactPoint& s) {
 /// @throw QueryError when the patch is all clamped
 offline::Patch patchAt(const Organ& organ, const Anchor& anchor, double patch_radius) {
   constexpr double kLeastRadius = 1e-9;  // m; below, its square vanishes, and no mesh is that fine
-  const offline::SurfacePoint s{anchor.s.triangle, anchor.s.barycentric};
   offline::Patch patch =
-      offline::makePatch(organ.body, organ.surface, s, std::max(patch_radius, kLeastRadius));
+      offline::makePatch(organ.body, organ.surface, anchor.s, std::max(patch_radius, kLeastRadius));
   if (patch.nodes.empty()) patch = pointPatch(organ, anchor.s);
   if (patch.nodes.empty())
     throw QueryError("the contact patch at " + text(anchor.position) +
@@ -83,7 +82,7 @@ double ratio(double error, double reference) {
 
 Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh) {
   offline::FeModel body = bodyOf(model.attributes(), mesh);
-  offline::ContactSurface surface(body, mesh.surface_node, tuples<3>(model.view().surface_triangles));
+  offline::PatchSurface surface(body, mesh.surface_node, tuples<3>(model.view().surface_triangles));
   return {std::move(body), std::move(surface), std::move(mesh)};
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "beam_figures.h"
+
 #include <string>
 #include <utility>
 
-#include "beam_solutions.h"
 #include "palpate/reproduce/figures.h"
 
 namespace palpate::reproduce {

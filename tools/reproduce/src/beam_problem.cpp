@@ -21,7 +21,7 @@ std::vector<std::int32_t> clampedNodes(const mesh::TetMesh& mesh) {
   return nodes;
 }
 
-offline::ContactSurface surfaceOf(const offline::FeModel& model, const mesh::TetMesh& mesh) {
+offline::PatchSurface surfaceOf(const offline::FeModel& model, const mesh::TetMesh& mesh) {
   mesh::BoundarySurface boundary = mesh::boundaryOf(mesh);
   return {model, std::move(boundary.nodes), std::move(boundary.triangles)};
 }
@@ -35,7 +35,7 @@ std::vector<std::int32_t> upperNodes(const offline::FeModel& model) {
 }
 
 /// A third of every triangle of the upper surface that a node belongs to.
-Eigen::VectorXd upperAreas(const offline::ContactSurface& surface, const std::vector<std::int32_t>& nodes) {
+Eigen::VectorXd upperAreas(const offline::PatchSurface& surface, const std::vector<std::int32_t>& nodes) {
   std::vector<double> by_surface_node(surface.nodes.size(), 0.0);
   for (const auto& t : surface.triangles) {
     const auto corner = [&](std::size_t i) { return surface.positions[static_cast<std::size_t>(t[i])]; };

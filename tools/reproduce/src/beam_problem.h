@@ -5,7 +5,7 @@
 
 #include "palpate/mesh/tet_mesh.h"
 #include "palpate/offline/parametric_problem.h"
-#include "palpate/reproduce/studies.h"
+#include "palpate/reproduce/beam_study.h"
 
 namespace palpate::reproduce {
 
@@ -14,7 +14,7 @@ namespace palpate::reproduce {
 struct Beam {
   mesh::TetMesh mesh;
   offline::FeModel model;
-  offline::ContactSurface surface;
+  offline::PatchSurface surface;
   std::vector<std::int32_t> nodes;  ///< volume node of each position
   offline::BodyProblem problem;     ///< weights: the nodes' share of the upper surface, m^2
   int tip;                          ///< position nearest to the middle of the upper edge at the free end

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The beam of Section 4.2: all positions of the load on the upper surface, ten terms and forward Euler against Newton.
+#include "palpate/reproduce/beam_study.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "beam_solutions.h"
+#include "beam_figures.h"
 #include "palpate/offline/explicit_pgd.h"
 #include "palpate/offline/field_measures.h"
 #include "palpate/offline/newton.h"
 #include "palpate/offline/parallel.h"
 #include "palpate/offline/progress.h"
-#include "palpate/reproduce/studies.h"
 
 namespace palpate::reproduce {
 

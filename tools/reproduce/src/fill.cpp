@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/reproduce/fill.h"
+
 #include <fmt/args.h>
 #include <fmt/format.h>
 
 #include <sstream>
-
-#include "palpate/reproduce/report.h"
 
 namespace palpate::reproduce {
 

@@ -6,7 +6,7 @@
 #include "palpate/offline/parametric_problem.h"
 #include "palpate/offline/separated_solution.h"
 #include "palpate/offline/solver_setup.h"
-#include "palpate/reproduce/studies.h"
+#include "palpate/reproduce/liver_study.h"
 #include "touches.h"
 
 namespace palpate::reproduce {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "palpate/core/response.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/offline/force_series.h"
 #include "palpate/offline/store_modes.h"
 

@@ -5,7 +5,7 @@
 
 #include "palpate/mesh/tet_mesh.h"
 #include "palpate/offline/solver_setup.h"
-#include "palpate/reproduce/studies.h"
+#include "palpate/reproduce/liver_study.h"
 #include "touches.h"
 
 namespace palpate::reproduce {
@@ -22,8 +22,5 @@ struct LiverStudy {
 /// whole surface is evaluated. Fills results["modes_table"], ["three_part"], ["evaluation..."].
 /// @param touches  points with loads; the loads are limited to the series' domain, then solved by Newton
 void studyNonlinear(const LiverStudy& study, std::vector<Touch>& touches, Output& out, Json& results);
-
-/// The ten terms of Eq. (19) on a coarser liver. Fills results["ten_term"].
-void studyTenTerms(const LiverOptions& options, Output& out, Json& results);
 
 }  // namespace palpate::reproduce

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The liver of Section 4.3: separated solutions over the whole boundary against full Newton, pair by pair.
+#include "palpate/reproduce/liver_study.h"
+
 #include <algorithm>
 
 #include "liver_linear.h"
 #include "liver_nonlinear.h"
 #include "liver_organ.h"
+#include "liver_ten_terms.h"
 #include "palpate/mesh/checks.h"
 #include "palpate/mesh/mesh_error.h"
 #include "palpate/mesh/read_mesh.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "liver_ten_terms.h"
+
 #include <algorithm>
 #include <cstdio>
 
-#include "liver_nonlinear.h"
 #include "liver_organ.h"
 #include "palpate/offline/explicit_pgd.h"
 #include "palpate/organ/liver.h"

@@ -15,8 +15,10 @@
 #include <thread>
 
 #include "palpate/offline/parallel.h"
+#include "palpate/reproduce/beam_study.h"
+#include "palpate/reproduce/liver_study.h"
 #include "palpate/reproduce/report.h"
-#include "palpate/reproduce/studies.h"
+#include "palpate/reproduce/rod_study.h"
 
 namespace {
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/reproduce/report.h"
 
+#include "palpate/reproduce/fill.h"
+#include "report_beam.h"
+#include "report_liver.h"
+#include "report_rod.h"
+
 namespace palpate::reproduce {
 
 namespace {

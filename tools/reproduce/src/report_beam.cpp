@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/reproduce/report.h"
+#include "report_beam.h"
+
+#include "palpate/reproduce/fill.h"
 
 namespace palpate::reproduce {
 

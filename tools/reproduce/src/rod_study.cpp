@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rod of Section 4.1: convergence of three schemes with the load step (Figure 1), and the series beside them.
+#include "palpate/reproduce/rod_study.h"
+
 #include <cmath>
 
 #include "palpate/offline/explicit_pgd.h"
 #include "palpate/offline/rod.h"
 #include "palpate/reproduce/figures.h"
-#include "palpate/reproduce/studies.h"
 
 namespace palpate::reproduce {
 

@@ -7,24 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "palpate/core/triangle_hit.h"
 #include "palpate/core/types.h"
 
 namespace palpate {
-
-/// Which part of a triangle a nearest point lies on; edge k lies opposite to node k.
-enum class TriangleFeature : std::uint8_t { kFace, kEdge0, kEdge1, kEdge2, kNode0, kNode1, kNode2 };
-
-/// Nearest point on one triangle.
-struct TriangleHit {
-  std::array<double, 3> barycentric{};
-  TriangleFeature feature{TriangleFeature::kFace};
-  Vec3 point = Vec3::Zero();     ///< m
-  double squared_distance{0.0};  ///< m^2
-};
-
-/// Nearest point of the triangle a, b, c to p. Real-time: yes.
-[[nodiscard]] TriangleHit closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b,
-                                            const Vec3& c) noexcept PALPATE_NONBLOCKING;
 
 /// A tree of boxes over triangles, four children to a node, in one flat array. Children hold a quarter of the
 /// triangles, so that the depth is at most 16 and the traversal's stack has a fixed size.

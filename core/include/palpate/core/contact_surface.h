@@ -36,7 +36,7 @@ class ContactSurface {
   /// SurfaceMesh::frame() of a fine point, but continuous over edges: `turning` and `rates` are the triangles' averaged at
   /// their nodes and mixed barycentrically, `rates` those of the rest point's weights.
   /// @param rest  the surface that this one was made from. Real-time: yes.
-  [[nodiscard]] SurfaceFrame frame(const SurfaceMesh& rest,
+  [[nodiscard]] TangentFrame frame(const SurfaceMesh& rest,
                                    const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
   /// The fine point that stands for one of the rest surface. Real-time: yes.
   [[nodiscard]] ContactPoint fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING;

@@ -21,7 +21,7 @@ struct NearestPoint {
 };
 
 /// The surface at s as a contact feels it. xi are lengths along the tangents, m.
-struct SurfaceFrame {
+struct TangentFrame {
   Vec3 position = Vec3::Zero();  ///< X(s), m
   Vec3 normal = Vec3::Zero();    ///< n(s), interpolated
   Mat32 tangent;                 ///< orthonormal, normal to n(s)
@@ -75,7 +75,7 @@ class SurfaceMesh {
   [[nodiscard]] PositionMix mix(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
 
   /// Position, normal and how they change at s. Real-time: yes.
-  [[nodiscard]] SurfaceFrame frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] TangentFrame frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   /// Goes from s over the surface, straight within triangles and turned over at their edges.
   /// @param v  m, normal to n(s): what the way looks like from there. At most kMaxCrossings edges are crossed.
   /// @return false when the way ended earlier, at the border of what may be reached; s is there. Real-time: yes.

@@ -65,7 +65,7 @@ class Workspace {
   [[nodiscard]] const LiveParameters& live() const noexcept { return live_.now(); }
 
  private:
-  friend class Tick;  // step()'s own
+  friend class Stepper;  // step()'s own
 
   StepConfig config_;
   LiveBlend live_;

@@ -20,7 +20,7 @@ namespace palpate::server {
 struct Channels {
   /// Allocates; before the loop.
   explicit Channels(std::size_t surface_floats)
-      : surface(SurfaceFrame{0, 0, std::vector<float>(surface_floats, 0.0F)}) {}
+      : surface(SurfaceSample{0, 0, std::vector<float>(surface_floats, 0.0F)}) {}
 
   // Subscriber -> tick. Cyclone runs one callback of a reader at a time, so "the subscriber" is one writer
   // even when poses come in on several receive threads.
@@ -35,7 +35,7 @@ struct Channels {
   rt::Semaphore force_ready;
 
   // Tick -> surface-out: latest wins.
-  rt::TripleBuffer<SurfaceFrame> surface;
+  rt::TripleBuffer<SurfaceSample> surface;
   rt::Semaphore surface_ready;
 
   // Tick -> events. Polled: the tick does not pay for waking it.

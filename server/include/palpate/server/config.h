@@ -85,10 +85,4 @@ void checkDevice(const std::string& word);
 /// @throw ConfigError naming the words that are known
 [[nodiscard]] rt::RealtimePolicy parsePolicy(const std::string& word);
 
-/// Overwrites in `config` what the file (TOML) names; a relative model path is taken from the file's folder.
-/// What names a device preset is applied; whether the device stands the coupling is left to deviceComplaint().
-/// @throw ConfigError "file:line: ..." for a syntax error, an unknown key, a wrong type or a value out of
-/// range
-void readConfigFile(const std::filesystem::path& path, ServerConfig& config);
-
 }  // namespace palpate::server

@@ -56,7 +56,7 @@ struct ForceRecord {
 };
 
 /// Tick to surface-out: a large slot, filled in place.
-struct SurfaceFrame {
+struct SurfaceSample {
   std::uint64_t seq{0};
   std::int64_t stamp_ns{0};         ///< when the tick woke
   std::vector<float> displacement;  ///< [Ns][3] m, sized before the loop

@@ -21,7 +21,7 @@ class SurfacePublisher {
 
  private:
   void publishRestSurface(const MetaModel& model);
-  void publish(const SurfaceFrame& frame) noexcept;
+  void publish(const SurfaceSample& frame) noexcept;
 
   Channels& channels_;
   const Facts& facts_;

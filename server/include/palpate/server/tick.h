@@ -63,7 +63,7 @@ class Tick {
   [[nodiscard]] bool surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
-  void writeRecord(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
+  void reportTick(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportZeroForce() noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool seen(std::size_t tool) const noexcept PALPATE_NONBLOCKING {
     return ledgers_[tool].pose.received > 0;

@@ -8,7 +8,7 @@
 #include "icosphere.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/modelfile/mixed_precision.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/write_model.h"
 
 namespace palpate::testing {
 

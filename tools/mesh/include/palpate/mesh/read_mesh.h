@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "palpate/mesh/tet_mesh.h"
-#include "palpate/mesh/triangle_surface.h"
 
 namespace palpate::mesh {
 
@@ -18,13 +17,5 @@ namespace palpate::mesh {
 ///   size, indices against ranges. Geometry is checkMesh()'s business.
 /// @throw MeshError, one line with the file and the entity
 [[nodiscard]] TetMesh readMesh(const std::filesystem::path& path);
-
-/// Whether readSurface() is in charge of this file: .stl or .obj.
-[[nodiscard]] bool isSurfaceFile(const std::filesystem::path& path);
-
-/// Reads the triangles of an .stl (text or binary; corners at the same place become one vertex) or .obj file
-/// (polygons are fanned; normals, textures, groups and materials are skipped; unused vertices dropped).
-/// @throw MeshError, one line with the file and the entity
-[[nodiscard]] TriangleSurface readSurface(const std::filesystem::path& path);
 
 }  // namespace palpate::mesh

@@ -31,8 +31,4 @@ inline constexpr double kMostRounding = 7e-4;
 /// displacement; 0 keeps float32. O(samples n Ns).
 StorageReport storeMixed(ModelData& data, double own_error);
 
-/// @param X  modes in the order of the file, of which those from counts.f32 on are packed  @param numbers  3 Ns
-[[nodiscard]] PackedModesData packModes(std::span<const float> X, std::size_t numbers,
-                                        const ModeCounts& counts);
-
 }  // namespace palpate::modelfile

@@ -3,12 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "palpate/core/model_view.h"
 #include "palpate/core/packed_modes.h"
 
 namespace palpate::modelfile {
+
+/// Data that do not fit together, or a file that cannot be written or read. what() is one sentence.
+class ModelFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Degree of the contact's answer in the file: as given, or that of the fields.
 [[nodiscard]] inline int forceOrder(const ModelAttributes& a) {

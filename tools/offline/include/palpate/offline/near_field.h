@@ -18,7 +18,7 @@ struct NearNodes {
   std::vector<float> window;        ///< nearWindow of each
 };
 
-[[nodiscard]] NearNodes nearNodes(const ContactSurface& surface, const Vec3& x, double rho);
+[[nodiscard]] NearNodes nearNodes(const PatchSurface& surface, const Vec3& x, double rho);
 
 /// How much more or less than its area a node counts in the fit for one contact position.
 struct FitWeights {
@@ -28,6 +28,6 @@ struct FitWeights {
 
 /// g(r) = max(1, 3 rho / r)^2.5: least squares over the area alone would let a narrow ring of large errors
 /// stand round the near field, since the ring is small; what a user sees is the largest error.
-[[nodiscard]] FitWeights fitWeights(const ContactSurface& surface, const Vec3& x, double rho);
+[[nodiscard]] FitWeights fitWeights(const PatchSurface& surface, const Vec3& x, double rho);
 
 }  // namespace palpate::offline

@@ -7,31 +7,26 @@
 #include <utility>
 #include <vector>
 
+#include "palpate/core/contact_point.h"
 #include "palpate/core/surface_distance.h"
 #include "palpate/offline/fe_model.h"
 
 namespace palpate::offline {
 
-/// A point of the rest surface: a triangle and barycentric weights (sum 1).
-struct SurfacePoint {
-  int triangle{-1};
-  std::array<double, 3> barycentric{};
-};
-
 /// The surface that a tool may touch, in surface-node numbering, with what patches are measured by.
-struct ContactSurface {
+struct PatchSurface {
   std::vector<std::int32_t> nodes;                     ///< Ns volume nodes, in any order
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, outward
   std::vector<Vec3> positions;                         ///< Ns, m
   SurfaceGraph graph;                                  ///< the same, as distances are measured on it
   std::vector<double> areas;                           ///< Ns lumped rest areas A_i, m^2
 
-  ContactSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
-                 std::vector<std::array<std::int32_t, 3>> surface_triangles);
+  PatchSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
+               std::vector<std::array<std::int32_t, 3>> surface_triangles);
 
-  [[nodiscard]] Vec3 position(const SurfacePoint& s) const;
+  [[nodiscard]] Vec3 position(const ContactPoint& s) const;
   /// The point that is surface node i.
-  [[nodiscard]] SurfacePoint atNode(int node) const;
+  [[nodiscard]] ContactPoint atNode(int node) const;
   /// Median edge length, m.
   [[nodiscard]] double medianEdge() const;
 };
@@ -55,13 +50,13 @@ struct Patch {
 /// Distances along the surface from s to the nodes nearer than a bound, as the running system measures them
 /// (core's SurfaceFront). docs/design.md, Parts
 /// @return pairs (surface node, distance in m), nearest first
-[[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const ContactSurface& surface,
-                                                                            const SurfacePoint& s,
+[[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const PatchSurface& surface,
+                                                                            const ContactPoint& s,
                                                                             double bound);
 
 /// w_i(s) proportional to A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, restricted to free nodes, sum 1.
 /// docs/design.md, Symbols, Parts. A patch no node of which is free comes back empty with free_share 0.
-[[nodiscard]] Patch makePatch(const FeModel& model, const ContactSurface& surface, const SurfacePoint& s,
+[[nodiscard]] Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s,
                               double a);
 
 }  // namespace palpate::offline

@@ -20,14 +20,14 @@ struct ContactPositions {
 };
 
 /// @param accessible  by surface node  @throw CaseError naming an accessible node whose patch is all clamped
-[[nodiscard]] ContactPositions contactPositions(const FeModel& model, const ContactSurface& surface,
+[[nodiscard]] ContactPositions contactPositions(const FeModel& model, const PatchSurface& surface,
                                                 const std::vector<bool>& accessible, double patch_radius,
                                                 const mesh::TetMesh& mesh);
 
 /// The organ as every method solves it: body, surface, patches.                       docs/design.md, Symbols
 struct SolverSetup {
   FeModel model;
-  ContactSurface surface;
+  PatchSurface surface;
   double patch_radius;  ///< a, m
   ContactPositions positions;
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "palpate/core/meta_model.h"
-#include "palpate/modelfile/model_file.h"
+#include "palpate/modelfile/read_volume_mesh.h"
 #include "palpate/offline/fe_model.h"
 #include "palpate/offline/newton.h"
 #include "palpate/offline/patch.h"
@@ -16,7 +16,7 @@ namespace palpate::query {
 /// The organ of a model file as the full problem that the model was made from.
 struct Organ {
   offline::FeModel body;
-  offline::ContactSurface surface;  ///< numbered like the model's own surface
+  offline::PatchSurface surface;  ///< numbered like the model's own surface
   modelfile::VolumeMesh mesh;
 };
 

@@ -2,34 +2,13 @@
 #pragma once
 
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "palpate/reproduce/output.h"
 
 namespace palpate::reproduce {
 
-/// Puts results into a text: `{a_b_c:.3f}` stands for results["a"]["b"]["c"], array entries count from 0, and
-/// `{pct_a_b_c:.1f}` is a hundred times that. Numbers format as double, strings as they are.
-/// @throw ReproduceError naming what the results do not hold
-[[nodiscard]] std::string fill(std::string_view text, const Json& results);
-
-/// A column of a Markdown table: its head, the key in each row, a format such as "{:.3g}", a factor.
-struct Column {
-  std::string head, key, format;
-  double factor{1.0};
-};
-
-/// @param rows  array of objects; a missing or null number becomes "-"
-[[nodiscard]] std::string table(const Json& rows, const std::vector<Column>& columns);
-
 /// The whole document. @param results  {"rod": ..., "beam": ..., "liver": ...}, each as in its results.json,
 /// those that were run; @param nested  whether figures lie in folders of those names
 [[nodiscard]] std::string report(const Json& results, bool nested);
-
-/// Chapters: paper and ours side by side. @param figures  path from the report to the figures, "" or "rod/"
-[[nodiscard]] std::string rodChapter(const Json& results, const std::string& figures);
-[[nodiscard]] std::string beamChapter(const Json& results, const std::string& figures);
-[[nodiscard]] std::string liverChapter(const Json& results, const std::string& figures);
 
 }  // namespace palpate::reproduce

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two steps of a sweep: least squares in Y for given X, and in X for given Y.       docs/design.md, Parts
+#include "far_field_fit.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "far_field_fit.h"
 #include "palpate/offline/parallel.h"
 
 namespace palpate::offline {

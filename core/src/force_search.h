@@ -2,7 +2,6 @@
 #pragma once
 
 #include "palpate/core/contact_response.h"
-#include "palpate/core/model_view.h"
 #include "palpate/core/response.h"
 
 namespace palpate {
@@ -11,12 +10,6 @@ namespace palpate {
 // the load is found. All of them write `out` and return kOk or kClamped. Numbers that overflow, or a model whose
 // compliance at rest has no inverse, give a force of NaN and zeros beside it, kClamped: the tick holds and fades
 // what was before (kNonFiniteForce). Real-time: yes.
-
-/// d, or d scaled to the length `radius`.
-[[nodiscard]] Vec3 clampToDomain(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING;
-
-/// Derivative of d -> radius d / |d|, for |d| > 0.
-[[nodiscard]] Mat3 projectionGradient(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING;
 
 /// `status`, or what a model answers whose numbers overflow.
 [[nodiscard]] ResponseStatus checked(ResponseStatus status, Response& out) noexcept PALPATE_NONBLOCKING;
@@ -34,18 +27,5 @@ namespace palpate {
 /// Cost: 3 to 5 Newton steps where it works; at most 12, of up to 6 evaluations each, and 30 more of one each.
 [[nodiscard]] ResponseStatus findForce(const ContactSeries& series, const Vec3& d,
                                        Response& out) noexcept PALPATE_NONBLOCKING;
-
-/// The step that a level range [0, limit] of `steps` steps per unit ends in; at least 1.
-[[nodiscard]] int lastStep(double limit, int steps) noexcept PALPATE_NONBLOCKING;
-
-/// d(s, t) and f = t load e, t clamped to [0, t_max], 0 if it is no number; stiffness load e e^T / (e . dd/dt).
-[[nodiscard]] ResponseStatus answerToLevel(const ContactSeries& series, const ModelAttributes& attributes,
-                                           double t, Response& out) noexcept PALPATE_NONBLOCKING;
-
-/// The level with e . d(s, t) = e . d, e the load's direction: only one number is free. Bisection over the
-/// steps, then exact within one; the loader saw to it that e . d(s, t) rises at each position up to its t_max.
-/// e . d <= 0, or no number, gives t = 0. Cost at most 18 evaluations.
-[[nodiscard]] ResponseStatus findLevel(const ContactSeries& series, const ModelAttributes& attributes,
-                                       const Vec3& d, Response& out) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

@@ -7,8 +7,7 @@
 
 namespace palpate::mesh {
 
-/// The readers behind readSurface(), one a format. Each throws MeshError.
-TriangleSurface readStlFile(const std::filesystem::path& path);
+/// Reads an .obj file, for readSurface(). @throw MeshError
 TriangleSurface readObjFile(const std::filesystem::path& path);
 
 }  // namespace palpate::mesh

@@ -2,9 +2,9 @@
 // Compiled once for each instruction set (CMakeLists.txt). Eigen's namespace gets another name each time: its
 // inline functions are the same by name and not by code, and the linker would keep one of them for all.
 #define Eigen PALPATE_EIGEN_NAMESPACE
-#include <Eigen/Core>
-
 #include "eigen_variants.h"
+
+#include <Eigen/Core>
 
 namespace palpate::bench {
 

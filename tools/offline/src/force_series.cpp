@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/offline/force_series.h"
 // Method series-force: the series driven by force, compressed to modes.
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "build_model_parts.h"
 #include "domain.h"
 #include "palpate/offline/far_field.h"
-#include "palpate/offline/force_series.h"
 
 namespace palpate::offline {
 

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <utility>
+#include <filesystem>
 #include <vector>
 
 #include "byte_reader.h"
 #include "raw_mesh.h"
 
 namespace palpate::mesh {
+
+/// Reads a Gmsh .msh file, for readMesh(). @throw MeshError
+RawMesh readMshFile(const std::filesystem::path& path);
 
 /// What the first section of a .msh file says.
 struct MshFormat {
@@ -32,14 +34,5 @@ MshElementType mshElementType(const ByteReader& in, std::int64_t type, std::int6
 /// groups.
 void readMshElement(ByteReader& in, RawMesh& mesh, bool wide, std::int64_t tag, const MshElementType& type,
                     const std::vector<std::int64_t>& groups);
-
-/// Physical groups of the model's entities: (dimension, tag) -> numbers.
-using MshEntities = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>>;
-
-/// The sections of version 4. The reader stands behind the line with the section's name, and is in binary
-/// mode if the file is.
-void readMsh4Entities(ByteReader& in, const MshFormat& format, MshEntities& entities);
-void readMsh4Nodes(ByteReader& in, const MshFormat& format, RawMesh& mesh);
-void readMsh4Elements(ByteReader& in, const MshFormat& format, const MshEntities& entities, RawMesh& mesh);
 
 }  // namespace palpate::mesh

@@ -65,8 +65,8 @@ Mat3 SurfaceMesh::slopes(std::int32_t triangle) const noexcept PALPATE_NONBLOCKI
   return slopes;
 }
 
-SurfaceFrame SurfaceMesh::frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
-  SurfaceFrame frame;
+TangentFrame SurfaceMesh::frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+  TangentFrame frame;
   frame.position = position(s);
   const Vec3 mixed = mixedNormal(s);
   const double length = std::max(mixed.norm(), kLeastNormal);
@@ -139,7 +139,7 @@ bool SurfaceMesh::project(const Vec3& c, ContactPoint& s, double& h) const noexc
   constexpr double kLeastStretch = 0.05;  // of an offset surface against its rest surface; below, it folds
   ContactPoint at = s;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const SurfaceFrame here = frame(at);
+    const TangentFrame here = frame(at);
     const Vec3 gap = c - here.position;
     const Vec2 aside = here.tangent.transpose() * gap;
     const double height = here.normal.dot(gap);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "palpate/mesh/triangle_surface.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include "palpate/mesh/manifold.h"
 #include "palpate/mesh/mesh_error.h"
 #include "palpate/mesh/triangle_crossing.h"
-#include "palpate/mesh/triangle_surface.h"
 
 namespace palpate::mesh {
 namespace {
