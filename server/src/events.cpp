@@ -18,28 +18,6 @@ constexpr std::int64_t kStatusPeriod = 1000 * kMs;
 constexpr std::int64_t kChangePeriod = 100 * kMs;  // a change is told at once, but not more often than this
 constexpr std::int64_t kWarnPeriod = 1000 * kMs;
 
-struct FlagText {
-  std::uint32_t flag;
-  const char* text;
-};
-
-// What is worth a line when it begins. Contact and ramps are not: they are what the server is for. Missed ticks have
-// one line for all tools.
-constexpr FlagText kFlagTexts[] = {
-    {kNonFinitePose, "pose is not finite: treated as stale"},
-    {kNonUnitQuaternion, "orientation is not a unit quaternion: pose treated as stale"},
-    {kStalePose, "no good pose for the stale timeout: force ramps to zero"},
-    {kBeyondDomain, "pressed beyond the model's domain: answer clamped"},
-    {kForceLimited, "force cut to the limit"},
-    {kNotAccessible, "touches a part of the surface that has no answer"},
-    {kNonFiniteForce, "the model overflowed: force as after a stale pose, or no field"},
-    {kPoseOutOfOrder, "pose number went back or repeated, or its stamp went back"},
-    {kForceRateLimited, "force would change too fast, it follows at the rate allowed"},
-    {kPoseJump, "pose jumped faster than the speed limit, contact given up"},
-    {kTwoPublishers, "a second publisher sends poses of this tool, they are not used"},
-    {kToolNotConfigured, "tool is not among those configured, no force"},
-};
-
 // Kinds of warning, beyond one for each tool and flag (tool << 32 | flag).
 constexpr std::uint64_t kOverrunKind = 1ULL << 63;
 constexpr std::uint64_t kDropKind = kOverrunKind + 1;
@@ -157,10 +135,10 @@ void Events::notePhase(std::uint32_t phase, std::int64_t now_ns) {
 }
 
 void Events::noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns) {
-  for (const auto& [flag, text] : kFlagTexts) {
-    if ((rising & flag) == 0) continue;
-    warn((static_cast<std::uint64_t>(tool) << 32) | flag, "tool " + std::to_string(tool) + ": " + text,
-         now_ns);
+  for (const StatusFlag& flag : kStatusFlags) {
+    if (flag.log == nullptr || (rising & flag.bit) == 0) continue;
+    warn((static_cast<std::uint64_t>(tool) << 32) | flag.bit,
+         "tool " + std::to_string(tool) + ": " + flag.log, now_ns);
   }
 }
 

@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "palpate_haptic_flags.h" /* PALPATE_HAPTIC_FLAG_*, made from palpate.idl */
+
 #if defined(__GNUC__)
 #define PALPATE_HAPTIC_C_API __attribute__((visibility("default")))
 #else
@@ -29,27 +31,6 @@ enum {
       -1, /* a null pointer, or a number that is negative or not finite where it must not */
   PALPATE_HAPTIC_SEND_FAILED = -2, /* DDS refused the pose */
   PALPATE_HAPTIC_NO_SERVER = -3    /* none within the time */
-};
-
-/* Bits of palpate_haptic_force.flags; palpate.idl says more. */
-enum {
-  PALPATE_HAPTIC_FLAG_IN_CONTACT = 1,
-  PALPATE_HAPTIC_FLAG_NON_FINITE_POSE = 2,
-  PALPATE_HAPTIC_FLAG_NON_UNIT_QUATERNION = 4,
-  PALPATE_HAPTIC_FLAG_STALE_POSE = 8,
-  PALPATE_HAPTIC_FLAG_BEYOND_DOMAIN = 16,
-  PALPATE_HAPTIC_FLAG_FORCE_LIMITED = 32,
-  PALPATE_HAPTIC_FLAG_NOT_ACCESSIBLE = 64,
-  PALPATE_HAPTIC_FLAG_RAMPING = 128,
-  PALPATE_HAPTIC_FLAG_SHUTTING_DOWN = 256,
-  PALPATE_HAPTIC_FLAG_NON_FINITE_FORCE = 512,
-  PALPATE_HAPTIC_FLAG_POSE_OUT_OF_ORDER = 1024,
-  PALPATE_HAPTIC_FLAG_FORCE_RATE_LIMITED = 2048,
-  PALPATE_HAPTIC_FLAG_POSE_JUMP = 4096,
-  PALPATE_HAPTIC_FLAG_TWO_PUBLISHERS = 8192,
-  PALPATE_HAPTIC_FLAG_UNKNOWN_TOOL = 16384,
-  PALPATE_HAPTIC_FLAG_TOOL_NOT_CONFIGURED = 32768,
-  PALPATE_HAPTIC_FLAG_TICK_OVERRUN = 65536
 };
 
 /* Values of palpate_haptic_force.state. */

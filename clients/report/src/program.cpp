@@ -41,27 +41,8 @@ client::Point parsePoint(const std::string& option, const std::string& text) {
 }
 
 std::string flagNames(std::uint32_t flags) {
-  static constexpr std::array<std::pair<std::uint32_t, const char*>, 17> kNames{{
-      {dds::flag::kInContact, "contact"},
-      {dds::flag::kNonFinitePose, "non-finite-pose"},
-      {dds::flag::kNonUnitQuaternion, "non-unit-quaternion"},
-      {dds::flag::kStalePose, "stale-pose"},
-      {dds::flag::kBeyondDomain, "beyond-domain"},
-      {dds::flag::kForceLimited, "force-limited"},
-      {dds::flag::kNotAccessible, "not-accessible"},
-      {dds::flag::kRamping, "ramping"},
-      {dds::flag::kShuttingDown, "shutting-down"},
-      {dds::flag::kNonFiniteForce, "non-finite-force"},
-      {dds::flag::kPoseOutOfOrder, "pose-out-of-order"},
-      {dds::flag::kForceRateLimited, "force-rate-limited"},
-      {dds::flag::kPoseJump, "pose-jump"},
-      {dds::flag::kTwoPublishers, "two-publishers"},
-      {dds::flag::kUnknownTool, "unknown-tool"},
-      {dds::flag::kToolNotConfigured, "tool-not-configured"},
-      {dds::flag::kTickOverrun, "tick-overrun"},
-  }};
   std::string names;
-  for (const auto& [bit, name] : kNames)
+  for (const auto& [bit, name] : dds::flag::kWords)
     if ((flags & bit) != 0) {
       if (!names.empty()) names += ' ';
       names += name;

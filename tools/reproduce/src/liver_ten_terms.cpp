@@ -7,6 +7,7 @@
 #include "liver_organ.h"
 #include "palpate/offline/explicit_pgd.h"
 #include "palpate/organ/liver.h"
+#include "touches.h"
 
 namespace palpate::reproduce {
 

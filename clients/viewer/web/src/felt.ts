@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { FLAG_FORCE_LIMITED, FLAG_FORCE_RATE_LIMITED, FLAG_RAMPING } from './flags';
+import { FLAG_FORCE_LIMITED, FLAG_FORCE_RATE_LIMITED, FLAG_RAMPING } from './flag_list';
 import { STATE_FREE, type Frame, type Tool } from './protocol';
 import type { Surface } from './surface';
 

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "palpate/idl/status_flag_list.h"  // generated likewise: dds::flag::kStalePose and the rest
+
 namespace palpate::dds {
 
 using ToolPose = palpate_ToolPose;
@@ -19,27 +21,6 @@ using Percentiles = palpate_Percentiles;
 using ServerStatus = palpate_ServerStatus;
 using ParameterRequest = palpate_ParameterRequest;
 using ServerParameters = palpate_ServerParameters;
-
-/// Bits of ToolForce::flags, as palpate.idl documents them.
-namespace flag {
-inline constexpr std::uint32_t kInContact = palpate_FLAG_IN_CONTACT;
-inline constexpr std::uint32_t kNonFinitePose = palpate_FLAG_NON_FINITE_POSE;
-inline constexpr std::uint32_t kNonUnitQuaternion = palpate_FLAG_NON_UNIT_QUATERNION;
-inline constexpr std::uint32_t kStalePose = palpate_FLAG_STALE_POSE;
-inline constexpr std::uint32_t kBeyondDomain = palpate_FLAG_BEYOND_DOMAIN;
-inline constexpr std::uint32_t kForceLimited = palpate_FLAG_FORCE_LIMITED;
-inline constexpr std::uint32_t kNotAccessible = palpate_FLAG_NOT_ACCESSIBLE;
-inline constexpr std::uint32_t kRamping = palpate_FLAG_RAMPING;
-inline constexpr std::uint32_t kShuttingDown = palpate_FLAG_SHUTTING_DOWN;
-inline constexpr std::uint32_t kNonFiniteForce = palpate_FLAG_NON_FINITE_FORCE;
-inline constexpr std::uint32_t kPoseOutOfOrder = palpate_FLAG_POSE_OUT_OF_ORDER;
-inline constexpr std::uint32_t kForceRateLimited = palpate_FLAG_FORCE_RATE_LIMITED;
-inline constexpr std::uint32_t kPoseJump = palpate_FLAG_POSE_JUMP;
-inline constexpr std::uint32_t kTwoPublishers = palpate_FLAG_TWO_PUBLISHERS;
-inline constexpr std::uint32_t kUnknownTool = palpate_FLAG_UNKNOWN_TOOL;
-inline constexpr std::uint32_t kToolNotConfigured = palpate_FLAG_TOOL_NOT_CONFIGURED;
-inline constexpr std::uint32_t kTickOverrun = palpate_FLAG_TICK_OVERRUN;
-}  // namespace flag
 
 /// Bits of ParameterRequest::fields.
 namespace parameter {
