@@ -2,23 +2,15 @@
 // tools/demo --serve as somebody starts it, with the tests' organ, because solving the liver takes minutes.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Seen } from './support/browser.mjs';
 import { measured, median } from './support/measured.mjs';
-import { Bench, Program } from './support/processes.mjs';
+import { Program } from './support/processes.mjs';
+import { bench, browser, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
 const demo = fileURLToPath(new URL('../../tools/demo', import.meta.url));
-let bench, browser;
-before(async () => {
-  bench = await Bench.open();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await bench?.close();
-});
+stage({ serve: false });
 
 /** Programs that run this model or look at this domain. */
 const left = (mark) =>

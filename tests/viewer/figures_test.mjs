@@ -1,25 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { test } from 'node:test';
 import { measured, median } from './support/measured.mjs';
-import { Bench } from './support/processes.mjs';
+import { bench, seen, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
-let bench, browser, seen;
-before(async () => {
-  bench = await Bench.open();
-  await bench.server(process.env.PALPATE_TEST_MODEL ?? bench.model());
-  const viewer = await bench.viewer();
-  browser = await openBrowser();
-  seen = await Seen.open(browser, viewer.address);
-  await seen.organ();
-});
-after(async () => {
-  await seen?.close();
-  await browser?.close();
-  await bench?.close();
-});
+stage({ model: () => process.env.PALPATE_TEST_MODEL ?? bench.model(), page: 'once' });
 
 test('the panel prints pictures a second, bytes a frame and the way from DDS to the page', async () => {
   const middle = await seen.middle();

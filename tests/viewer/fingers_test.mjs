@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A phone, a keyboard, and several people at once.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
-import { Bench } from './support/processes.mjs';
+import { test } from 'node:test';
+import { Seen } from './support/browser.mjs';
+import { browser, viewer, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
-let bench, viewer, browser;
-before(async () => {
-  bench = await Bench.open();
-  await bench.server(bench.model());
-  viewer = await bench.viewer();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await bench?.close();
-});
+stage();
 
 /** Fingers on the screen, as the browser's own input. */
 const touches = async (seen) => {

@@ -2,26 +2,16 @@
 // Four pages that watch do not make a device's force later.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { promisify } from 'node:util';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { Seen } from './support/browser.mjs';
 import { measured, median, rounds } from './support/measured.mjs';
-import { Bench, bin } from './support/processes.mjs';
+import { bin } from './support/processes.mjs';
+import { bench, browser, viewer, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
 const run = promisify(execFile);
 const ROUNDS = rounds(2, 5);
-let bench, viewer, browser;
-before(async () => {
-  bench = await Bench.open();
-  await bench.server(process.env.PALPATE_TEST_MODEL ?? bench.model());
-  viewer = await bench.viewer();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await bench?.close();
-});
+stage({ model: () => process.env.PALPATE_TEST_MODEL ?? bench.model() });
 
 async function measure() {
   const { stdout } = await run(bin('palpate-latency'), ['--seconds', '4', '--domain', String(bench.domain), '--json']);

@@ -2,26 +2,12 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { request } from 'node:http';
-import { after, before, test } from 'node:test';
-import { openBrowser, packageOf, Seen, skipWithoutBrowser } from './support/browser.mjs';
-import { Bench } from './support/processes.mjs';
+import { test } from 'node:test';
+import { packageOf } from './support/browser.mjs';
+import { seen, viewer, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
+stage({ page: 'once' });
 const WebSocket = packageOf('ws');
-let bench, viewer, browser, seen;
-before(async () => {
-  bench = await Bench.open();
-  await bench.server(bench.model());
-  viewer = await bench.viewer();
-  browser = await openBrowser();
-  seen = await Seen.open(browser, viewer.address);
-  await seen.organ();
-});
-after(async () => {
-  await seen?.close();
-  await browser?.close();
-  await bench?.close();
-});
 
 const origin = () => viewer.address.replace(/\/$/, '');
 /** A client that is no page. @return how its connection ended: {http} or {code} */

@@ -4,23 +4,12 @@ import assert from 'node:assert/strict';
 import { existsSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { after, before, test } from 'node:test';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
-import { Bench } from './support/processes.mjs';
+import { test } from 'node:test';
+import { Seen } from './support/browser.mjs';
+import { bench, browser, viewer, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
 const liver = process.env.PALPATE_TEST_MODEL ?? fileURLToPath(new URL('../../build/demo/liver.h5', import.meta.url));
-let bench, viewer, browser;
-before(async () => {
-  bench = await Bench.open();
-  await bench.server(existsSync(liver) ? liver : bench.model(), ['--force-limit', '22']);
-  viewer = await bench.viewer();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await bench?.close();
-});
+stage({ model: () => (existsSync(liver) ? liver : bench.model()), server: ['--force-limit', '22'] });
 
 for (const dark of [false, true])
   test(`the page while somebody presses, ${dark ? 'dark' : 'light'}`, async () => {

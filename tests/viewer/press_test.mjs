@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, beforeEach, afterEach, test } from 'node:test';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { test } from 'node:test';
 import { shareChanged } from './support/png.mjs';
 import { measured, measuredAtLeast, rounds } from './support/measured.mjs';
-import { Bench } from './support/processes.mjs';
+import { seen, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
-let bench, viewer, browser, seen;
-before(async () => {
-  bench = await Bench.open();
-  await bench.server(bench.model(), ['--force-limit', '22']);
-  viewer = await bench.viewer();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await bench?.close();
-});
-beforeEach(async () => {
-  seen = await Seen.open(browser, viewer.address);
-  await seen.organ();
-});
-afterEach(async () => seen.close());
+stage({ server: ['--force-limit', '22'], page: 'each' });
 
 const mouse = () => seen.page.mouse;
 const pressAt = async (place) => {

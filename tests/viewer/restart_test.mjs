@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
-import { Bench } from './support/processes.mjs';
+import { test } from 'node:test';
+import { Seen } from './support/browser.mjs';
+import { bench, browser, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
-let bench, browser;
-before(async () => {
-  bench = await Bench.open();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await bench?.close();
-});
+stage({ serve: false });
 
 /** Presses where the mouse is until there is a force. */
 async function press(seen) {

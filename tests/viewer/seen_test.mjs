@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { openBrowser, Seen, skipWithoutBrowser } from './support/browser.mjs';
+import { test } from 'node:test';
+import { Seen } from './support/browser.mjs';
 import { meanOf, shareChanged } from './support/png.mjs';
 import { measured, median } from './support/measured.mjs';
-import { Bench } from './support/processes.mjs';
+import { browser, viewer, stage } from './support/stage.mjs';
 
-skipWithoutBrowser();
-let bench, viewer, browser;
-before(async () => {
-  bench = await Bench.open();
-  await bench.server(bench.model());
-  viewer = await bench.viewer();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await bench?.close();
-});
+stage();
 
 test('the organ is seen after loading', async () => {
   const times = [];

@@ -50,10 +50,7 @@ class AnswersOnTheWire {
 };
 
 TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
-  startServer();
-  startViewer();
-  const auto page = openPage();
-  ASSERT_TRUE(page->connect());
+  const auto page = openServedPage();
   EXPECT_EQ(page->texts["hello"]["protocol"], 1);
   EXPECT_EQ(page->texts["mesh"]["nodes"], 642);
   EXPECT_EQ(page->texts["status"]["tools"], 4);
@@ -79,11 +76,7 @@ TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
 }
 
 TEST_F(ViewerEndToEnd, EveryAnswerOfTheServerReachesTheStripChart) {
-  startServer();
-  startViewer();
-  const auto page = openPage();
-  ASSERT_TRUE(page->connect());
-  ASSERT_TRUE(grab(*page)["granted"]);
+  const auto page = openHoldingPage();
   page->press(kDepth, milliseconds(500));
   page->answers.clear();
   AnswersOnTheWire wire(domain_);
@@ -148,11 +141,7 @@ TEST_F(ViewerEndToEnd, APageThatLeavesGivesItsToolBackAndTheForceEnds) {
 }
 
 TEST_F(ViewerEndToEnd, APageThatFreezesLosesItsTool) {
-  startServer();
-  startViewer();
-  const auto page = openPage();
-  ASSERT_TRUE(page->connect());
-  ASSERT_TRUE(grab(*page)["granted"]);
+  const auto page = openHoldingPage();
   ASSERT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));
   page->texts.erase("tool");
   EXPECT_TRUE(page->listen(seconds(5), [&] { return page->has("tool"); })) << "no targets any more";
@@ -161,11 +150,7 @@ TEST_F(ViewerEndToEnd, APageThatFreezesLosesItsTool) {
 }
 
 TEST_F(ViewerEndToEnd, AStifferOrganPushesBackHarderAndAWrongValueIsNamed) {
-  startServer();
-  startViewer();
-  const auto page = openPage();
-  ASSERT_TRUE(page->connect());
-  ASSERT_TRUE(grab(*page)["granted"]);
+  const auto page = openHoldingPage();
   page->press(0.001, milliseconds(800));
   const double before = forceOn(*page);
   ASSERT_GT(before, 0.1);
@@ -203,11 +188,7 @@ TEST_F(ViewerEndToEnd, OutlivesItsServerAndShowsTheNextOnesOrgan) {
 }
 
 TEST_F(ViewerEndToEnd, TheForceOfAServerThatWasKilledGoesBeforeTheServerIsGivenUp) {
-  startServer();
-  startViewer();
-  const auto page = openPage();
-  ASSERT_TRUE(page->connect());
-  ASSERT_TRUE(grab(*page)["granted"]);
+  const auto page = openHoldingPage();
   ASSERT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));
   server_->signal(SIGKILL);
   const auto gone = [&] { return page->texts["state"]["server"] == "gone"; };
@@ -244,10 +225,7 @@ TEST_F(ViewerEndToEnd, ASlowPageGetsFewerFramesAndNoOldOnes) {
 }
 
 TEST_F(ViewerEndToEnd, APageMayAskForFewerFramesOrNone) {
-  startServer();
-  startViewer();
-  const auto page = openPage();
-  ASSERT_TRUE(page->connect());
+  const auto page = openServedPage();
   page->client.say({{"type", "rate"}, {"hz", 0}});
   page->listen(milliseconds(300));
   const std::size_t before = page->frame_seqs.size();

@@ -43,6 +43,21 @@ class ViewerEndToEnd : public ::testing::Test {
   }
   [[nodiscard]] std::unique_ptr<TestPage> openPage() const { return std::make_unique<TestPage>(request()); }
 
+  // Server, viewer, and a page that shows the organ; the test fails where it does not.
+  [[nodiscard]] std::unique_ptr<TestPage> openServedPage() {
+    startServer();
+    startViewer();
+    auto page = openPage();
+    EXPECT_TRUE(page->connect());
+    return page;
+  }
+  // And one that holds a tool.
+  [[nodiscard]] std::unique_ptr<TestPage> openHoldingPage() {
+    auto page = openServedPage();
+    EXPECT_TRUE(grab(*page)["granted"]);
+    return page;
+  }
+
   // Asks for a tool and waits for the answer.
   static nlohmann::json grab(TestPage& page) {
     page.texts.erase("tool");

@@ -75,10 +75,7 @@ std::vector<Attack> attacks() {
 }
 
 TEST_F(ViewerEndToEnd, AHostilePageIsShutOutWhileAnotherGoesOn) {
-  startServer();
-  startViewer();
-  const auto good = openPage();
-  ASSERT_TRUE(good->connect());
+  const auto good = openServedPage();
   for (const Attack& attack : attacks()) {
     TestPage hostile(request());
     ASSERT_EQ(hostile.client.status(), 101) << attack.name;
@@ -164,10 +161,7 @@ TEST_F(ViewerEndToEnd, FilesComeWithTheirPolicyAndNothingElseComes) {
 }
 
 TEST_F(ViewerEndToEnd, EndsWithCodeZeroWhenAsked) {
-  startServer();
-  startViewer();
-  const auto page = openPage();
-  ASSERT_TRUE(page->connect());
+  const auto page = openServedPage();
   EXPECT_EQ(viewer_->end(SIGTERM), 0);
   page->listen(seconds(5));
   EXPECT_TRUE(page->closed);

@@ -65,12 +65,17 @@ test('a frame of another length is refused', () => {
   for (const length of [3, 55, 60, 167]) assert.throws(() => decodeFrame(frameMessage().slice(0, length)), new RegExp(`${length} bytes`));
 });
 
-test('a page that is busy gets one frame later, with the newest surface and every answer', () => {
-  const mesh = ballMesh(0, 1);
-  const answer = (tUs: number) => ({ toolId: 0, flags: 0, tUs, force: 1, penetration: 0, wakeupUs: 0, stiffness: 0 });
+const got = { bytes: 10, delayMs: 1 };
+
+/** A hand-over, and what it has given. */
+function handing() {
   const given: Parcel[] = [];
-  const over = new HandOver((parcel) => given.push(parcel));
-  const got = { bytes: 10, delayMs: 1 };
+  return { mesh: ballMesh(0, 1), given, over: new HandOver((parcel) => given.push(parcel)) };
+}
+
+test('a page that is busy gets one frame later, with the newest surface and every answer', () => {
+  const { mesh, given, over } = handing();
+  const answer = (tUs: number) => ({ toolId: 0, flags: 0, tUs, force: 1, penetration: 0, wakeupUs: 0, stiffness: 0 });
   for (const seq of [1, 2, 3]) over.add({ ...frameOf(mesh, () => [seq * 1e-3, 0, 0], seq), answers: [answer(seq)] }, got);
   over.add({ ...frameOf(mesh, () => [0, 0, 0], 4), nodes: 0, displacement: new Int16Array(0), answers: [answer(4)] }, got);
   assert.equal(given.length, 1);
@@ -82,10 +87,7 @@ test('a page that is busy gets one frame later, with the newest surface and ever
 });
 
 test('what waited when the server or the line went is never handed over, what comes after it is', () => {
-  const mesh = ballMesh(0, 1);
-  const given: Parcel[] = [];
-  const over = new HandOver((parcel) => given.push(parcel));
-  const got = { bytes: 10, delayMs: 1 };
+  const { mesh, given, over } = handing();
   for (const seq of [1, 2]) over.add(frameOf(mesh, () => [seq * 1e-3, 0, 0], seq), got);
   over.clear();
   over.taken();
@@ -95,10 +97,7 @@ test('what waited when the server or the line went is never handed over, what co
 });
 
 test('a page that is busy through all of it gets no frame of the connection before', () => {
-  const mesh = ballMesh(0, 1);
-  const given: Parcel[] = [];
-  const over = new HandOver((parcel) => given.push(parcel));
-  const got = { bytes: 10, delayMs: 1 };
+  const { mesh, given, over } = handing();
   for (const seq of [1, 2]) over.add(frameOf(mesh, () => [seq * 1e-3, 0, 0], seq), got);
   over.clear();
   over.add({ ...frameOf(mesh, () => [0, 0, 0], 3), nodes: 0, displacement: new Int16Array(0) }, got);

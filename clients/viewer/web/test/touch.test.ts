@@ -103,12 +103,14 @@ test('where the organ is held nothing is pressed', () => {
   assert.equal(Press.begin(surface, down(), TIP, 0), undefined);
 });
 
+/** A tool that touches the top, and its answer. */
+const top: Vec3 = [0, 0, R];
+const tool = { id: 0, state: 1, flags: 1, mine: true, tip: top, proxy: top, anchor: top, force: [0, 0, 1] as Vec3, penetration: 0.001, domainRadius: 0.008 };
+const answer = { toolId: 0, flags: 1, tUs: 1, force: 1, penetration: 0.001, wakeupUs: 0, stiffness: 400 };
+
 test('what is felt is painted round the anchor, but not the limits of a device', () => {
   const surface = ball();
   const felt = new FeltMap(surface, 0.01);
-  const tool = { id: 0, state: 1, flags: 1, mine: true, tip: [0, 0, R] as Vec3, proxy: [0, 0, R] as Vec3, anchor: [0, 0, R] as Vec3,
-    force: [0, 0, 1] as Vec3, penetration: 0.001, domainRadius: 0.008 };
-  const answer = { toolId: 0, flags: 1, tUs: 1, force: 1, penetration: 0.001, wakeupUs: 0, stiffness: 400 };
   const frame = frameOf(surface.mesh, () => [0, 0, 0]);
   assert.equal(felt.learn({ ...frame, tools: [{ ...tool, flags: 33 }], answers: [answer] }), false);
   assert.equal(felt.learn({ ...frame, tools: [tool], answers: [answer] }), true);
@@ -120,9 +122,6 @@ test('what is felt is painted round the anchor, but not the limits of a device',
 test('another tip paints another width, and what the first one felt goes', () => {
   const surface = ball();
   const felt = new FeltMap(surface, 0.01);
-  const tool = { id: 0, state: 1, flags: 1, mine: true, tip: [0, 0, R] as Vec3, proxy: [0, 0, R] as Vec3, anchor: [0, 0, R] as Vec3,
-    force: [0, 0, 1] as Vec3, penetration: 0.001, domainRadius: 0.008 };
-  const answer = { toolId: 0, flags: 1, tUs: 1, force: 1, penetration: 0.001, wakeupUs: 0, stiffness: 400 };
   const frame = { ...frameOf(surface.mesh, () => [0, 0, 0]), tools: [tool], answers: [answer] };
   const painted = (): number => felt.weight.filter((w) => w > 0).length;
   felt.learn(frame);
