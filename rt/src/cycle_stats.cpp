@@ -7,8 +7,8 @@
 
 namespace palpate::rt {
 
-// Values below 2^(kSubBits+1) have a bucket each. A value in [2^m, 2^(m+1)) above that is shifted right until
-// it lies in [64, 128); every shift moves 64 buckets up.
+// Values below 2^(kSubBits+1) have a bucket each. A larger value is shifted right until it lies in [64, 128);
+// each shift moves it 64 buckets up.
 std::size_t CycleStats::bucketOf(std::uint64_t ns) noexcept PALPATE_NONBLOCKING {
   const std::uint64_t value = std::min<std::uint64_t>(ns, (std::uint64_t{1} << kTopBits) - 1);
   const int shift = std::max(0, static_cast<int>(std::bit_width(value)) - 1 - kSubBits);

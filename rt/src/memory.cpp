@@ -42,7 +42,7 @@ MemoryLock lockMemory() noexcept {
 }
 
 void prefaultStack() noexcept {
-  std::array<char, kStackBytes> stack;  // deliberately not initialized: one write a page is enough
+  std::array<char, kStackBytes> stack;  // not initialized: one write per page is enough
   volatile char* const bytes = stack.data();
   for (std::size_t i = 0; i < kStackBytes; i += kPage) bytes[i] = 0;
 }

@@ -8,22 +8,24 @@
 namespace palpate::rt {
 namespace {
 
-constexpr std::int64_t kFirst = 16;    // values until a phase is believed
-constexpr double kGain = 1.0 / 64.0;   // of the mean lead and of its scatter, once so many values came
-constexpr std::int64_t kSettled = 64;  // values
+constexpr std::int64_t kFirst = 16;               // values before a phase is believed
+constexpr double kGain = 1.0 / 64.0;              // of the mean lead and its scatter, after kSettled values
+constexpr std::int64_t kSettled = 64;             // values
 constexpr double kDriftGain = kGain * kGain / 4;  // critically damped
-constexpr double kClosest = 0.10,
-                 kFarthest = 0.14;  // scatter at which a phase is believed, and no more; period / 4 is none
-constexpr double kOutlier = 0.125;  // a value farther from the mean moves it no more than this; of the period
-constexpr double kNear = 0.05;      // of the target: locked; of the period
-constexpr double kMissing = 0.02;   // share of the values that may come later than the margin
-constexpr double kStep = 4e3;       // ns, of the quantile
-constexpr double kGuard = 20e3;     // ns, at most an eighth of the period
+constexpr double
+    kClosest = 0.10,
+    kFarthest =
+        0.14;  // scatter below which a phase is found, and above which it is lost; values without a phase have period / 4
+constexpr double kOutlier = 0.125;        // a value moves the mean by at most this, of the period
+constexpr double kNear = 0.05;            // distance to the target that counts as locked, of the period
+constexpr double kMissing = 0.02;         // share of the values that may come after the margin
+constexpr double kStep = 4e3;             // ns, of the quantile
+constexpr double kGuard = 20e3;           // ns, at most an eighth of the period
 constexpr double kFirstLateness = 100e3;  // ns
 constexpr double kLatest = 0.125;         // of the period
-constexpr double kSilence = 50e6;         // ns without a value: the stream has ended; at least eight periods
+constexpr double kSilence = 50e6;         // ns without a value that end a stream; at least eight periods
 constexpr double kWait = 1e9, kLongestWait = 32e9;  // ns
-constexpr double kTrusted = 10e9;                   // ns locked, then the next wait is the first again
+constexpr double kTrusted = 10e9;                   // ns locked that reset the wait to kWait
 
 }  // namespace
 
@@ -32,7 +34,7 @@ PhaseLock::PhaseLock(std::int64_t period_ns) noexcept
       lateness_(std::min(kFirstLateness, kLatest * period_)),
       next_wait_(std::llround(kWait / period_)) {}
 
-// The same phase, nearest to zero.
+// The same phase in [-period / 2, period / 2].
 double PhaseLock::wrapped(double time_ns) const noexcept PALPATE_NONBLOCKING {
   return time_ns - period_ * std::nearbyint(time_ns / period_);
 }
@@ -48,7 +50,7 @@ std::int64_t PhaseLock::margin() const noexcept PALPATE_NONBLOCKING {
 std::int64_t PhaseLock::follow(std::int64_t deadline_ns,
                                const Arrivals& arrivals) noexcept PALPATE_NONBLOCKING {
   goOn(deadline_ns);
-  // A value that came after its deadline was replaced by the next one before anybody saw it.
+  // A value that comes after its deadline is replaced by the next one before a cycle reads it.
   const bool missed = arrivals.count >= 2 && silent_ == 2;
   if (arrivals.count > 0) observe(static_cast<double>(deadline_ns - arrivals.newest_ns), missed);
   judge();
@@ -57,7 +59,7 @@ std::int64_t PhaseLock::follow(std::int64_t deadline_ns,
   return static_cast<std::int64_t>(std::clamp(wrapped(target() - lead_ - drift_), -most, most));
 }
 
-// By how much the grid really moved, and how many periods went by, is seen from the deadline.
+// The deadline shows how far the grid really moved and how many periods passed.
 void PhaseLock::goOn(std::int64_t deadline_ns) noexcept PALPATE_NONBLOCKING {
   const std::int64_t last_ns = std::exchange(deadline_, deadline_ns);
   if (last_ns == 0) return;

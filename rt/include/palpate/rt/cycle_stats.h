@@ -7,7 +7,7 @@
 
 namespace palpate::rt {
 
-/// Percentiles of durations without keeping them: a histogram whose buckets are linear within each power of
+/// Percentiles of durations from counts alone: a histogram whose buckets are linear within each power of
 /// two, 64 to a power, so that a value is known within 1/64 from 1 ns to 18 minutes. Longer ones count as the
 /// last bucket. Threads: one. Real-time: yes; quantile() walks all buckets, about 1 us.
 class CycleStats {

@@ -10,14 +10,13 @@ struct MemoryLock {
   bool future{false};   ///< and so is all that is mapped later: thread stacks, buffers of libraries
 };
 
-/// Locks the memory of the process, so that no page fault waits inside a tick, and tells malloc to keep what
-/// it has. Future mappings are locked as well only where no limit on locked memory applies: under a limit the
-/// next thread or buffer of a library would fail to map instead of merely not being locked.
+/// Locks the memory of the process, so that no tick waits for a page fault, and tells malloc to keep what it
+/// has. Locks future mappings too, but only where no limit on locked memory applies: under a limit, a library's
+/// next thread or buffer could not be mapped at all.
 /// Real-time: no, before the loop.
 [[nodiscard]] MemoryLock lockMemory() noexcept;
 
-/// Touches the next kilobytes of the calling thread's stack, so that the loop does not fault them in one by
-/// one. Real-time: no, at the start of a thread.
+/// Touches the next 256 kB of the calling thread's stack, so that the loop faults none of them in. Real-time: no, at the start of a thread.
 void prefaultStack() noexcept;
 
 }  // namespace palpate::rt

@@ -9,8 +9,8 @@
 
 namespace palpate::rt {
 
-/// Paces a loop on the caller's own thread, where a PeriodicThread would be a thread more. The grid and what
-/// becomes of missed periods are those of nextDeadline(), taken when the thread wakes: a late cycle still runs.
+/// Paces a loop on the calling thread, for a program that needs no PeriodicThread beside it. The grid and the policy for
+/// missed periods are those of nextDeadline(). The deadline is judged at the wake-up, so a late cycle still runs.
 /// Threads: one.
 class Pacer {
  public:

@@ -29,8 +29,8 @@ struct Deadline {
 /// @param[in] last_ns    deadline of the cycle that just ended
 /// @param[in] period_ns  > 0
 /// @param[in] now_ns     time after the cycle
-/// @param[in] shift_ns   by how much the grid moves, less than a period either way. It is no reason for a missed period:
-///            where it would put the deadline into the past, the deadline is now, and the rest of the shift is dropped
+/// @param[in] shift_ns   by how much the grid moves, less than a period either way. A shift never costs a period: if it
+///            would put the deadline into the past, the deadline is now and the rest of the shift is dropped
 /// @return the first point of the grid after now_ns. Real-time: yes.
 [[nodiscard]] Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns, std::int64_t now_ns,
                                     std::int64_t shift_ns = 0) noexcept PALPATE_NONBLOCKING;
@@ -39,9 +39,9 @@ struct Deadline {
 /// Threads: the function runs on the thread; the other members belong to the creator.
 class PeriodicThread {
  public:
-  /// A plain pointer and context: what it calls is visible, calling it cannot allocate, and where the compiler knows the
-  /// effect a function that may block is refused.
-  /// @return by how much the grid is to move, less than a period either way, ns; 0 keeps it where it is
+  /// A plain pointer and context: its call is visible and cannot allocate. A compiler that knows the effect refuses a
+  /// function that may block.
+  /// @return shift of the grid, less than a period either way, ns; 0 keeps it where it is
   using Function = std::int64_t (*)(void* context, const Cycle& cycle) noexcept PALPATE_NONBLOCKING;
 
   /// Starts at once.
@@ -57,7 +57,7 @@ class PeriodicThread {
 
   [[nodiscard]] bool realtime() const noexcept { return thread_->realtime(); }
 
-  /// Page faults of the thread between the end of its tenth cycle and its last one. Valid after stop().
+  /// Page faults of the thread from the end of its tenth cycle to the end of its last one. Valid after stop().
   [[nodiscard]] std::int64_t pageFaults() const noexcept { return page_faults_; }
 
  private:

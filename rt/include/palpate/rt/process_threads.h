@@ -7,7 +7,7 @@
 
 namespace palpate::rt {
 
-/// A thread of this process as the kernel has it, whoever made it.
+/// A thread of this process as the kernel knows it; libraries make threads too.
 struct ThreadFacts {
   int id{0};
   std::string name;       ///< at most 15 characters
@@ -15,14 +15,14 @@ struct ThreadFacts {
   std::vector<int> cpus;  ///< where it may run, ascending
 };
 
-/// All threads of this process, in the order in which they were made. One that ends meanwhile is left out.
+/// All threads of this process, oldest first. A thread that ends meanwhile is left out.
 /// Real-time: no (reads /proc).
 [[nodiscard]] std::vector<ThreadFacts> threadsOfThisProcess();
 
 /// CPUs that the calling thread may use, ascending. Real-time: no.
 [[nodiscard]] std::vector<int> usableCpus();
 
-/// Lets the calling thread, and the threads that it makes from now on, run on these CPUs only.
+/// Restricts the calling thread, and each thread that it makes from now on, to these CPUs.
 /// @return 0, or the errno of the refusal (EINVAL: none of them exists). Real-time: no.
 [[nodiscard]] int useCpus(std::span<const int> cpus) noexcept;
 

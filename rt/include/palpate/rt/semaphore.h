@@ -11,7 +11,7 @@
 namespace palpate::rt {
 
 /// Wakes another thread. POSIX, because std::counting_semaphore of libstdc++ 12 may spin before it sleeps.
-/// post() takes no lock and is async-signal-safe; it makes a system call only when somebody waits.
+/// post() takes no lock and is async-signal-safe; it makes a system call only when a thread waits.
 /// Threads: any number on both sides. Real-time: post() yes, wait() is where a thread gives up its core.
 class Semaphore {
  public:
@@ -20,8 +20,8 @@ class Semaphore {
   Semaphore(const Semaphore&) = delete;
   Semaphore& operator=(const Semaphore&) = delete;
 
-  // Trusted: both change a counter without a lock. sem_post() makes one system call, FUTEX_WAKE, when somebody waits; it
-  // wakes and does not wait. POSIX lists it among the few functions that a signal handler may call.
+  // Trusted: both change a counter without a lock. When a thread waits, sem_post() makes one system call, FUTEX_WAKE,
+  // which does not wait. POSIX lists it among the few functions that a signal handler may call.
   PALPATE_TRUSTED_BEGIN
   void post() noexcept PALPATE_NONBLOCKING { sem_post(&handle_); }
 

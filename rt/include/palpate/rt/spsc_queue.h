@@ -12,7 +12,7 @@
 namespace palpate::rt {
 
 /// Every value in order from one producer to one consumer; a full ring refuses the new value, it never waits.
-/// Each side keeps a copy of the other's counter and looks at the shared one only when the copy says full or
+/// Each side keeps a copy of the other's counter and reads the shared one only when the copy says full or
 /// empty.
 /// @tparam N  capacity, a power of two
 /// Threads: exactly one producer (push) and one consumer (pop). Real-time: yes, no allocation after
@@ -36,7 +36,7 @@ class SpscQueue {
       if (tail - head_seen_ == N) return false;
     }
     slots_[tail & (N - 1)] = value;
-    // SYNC C (release): pairs with SYNC D in pop(): whoever sees the counter sees the value.
+    // SYNC C (release): pairs with SYNC D in pop(): a consumer that sees the counter sees the value.
     tail_.store(tail + 1, std::memory_order_release);
     return true;
   }

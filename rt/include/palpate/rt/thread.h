@@ -21,7 +21,7 @@ struct ThreadOptions {
 /// A named thread with a priority, joined by its destructor.
 class Thread {
  public:
-  /// Starts the thread and waits until its priority is settled. The thread's stack is touched beforehand.
+  /// Starts the thread, touches its stack, and returns once its priority is granted or refused.
   /// @param[in] body  runs once on the new thread; must not throw
   /// @throw RealtimeError  the policy is kRequire and the system refuses, or it refuses the CPUs; body does not run then
   Thread(const ThreadOptions& options, std::function<void()> body);

@@ -13,8 +13,8 @@ namespace palpate::rt {
 /// Latest value from one writer to one reader; neither ever waits for the other.
 ///
 /// Three slots: the writer fills `back`, the reader looks at `front`, and the third lies in the middle. Each
-/// side swaps its own slot with the middle one, so that no slot is ever seen by both. A value that is
-/// published before the reader took the one before replaces it; publish() says so.
+/// side swaps its own slot with the middle one, so the two never share a slot. A new value replaces one that the
+/// reader has not taken; publish() reports it.
 ///
 /// T is any copyable type. A large one (a struct with sized vectors) is filled in place through back(): all
 /// three slots are copies of the prototype, and nothing is allocated afterwards unless T's own use does.
