@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "palpate/modelfile/model_data.h"
+#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/synthetic_model.h"
 #include "spoiled_file.h"
 
