@@ -208,13 +208,14 @@ TEST_F(CaseCheck, ASeriesHoldsEveryLoad) {
     for (const char* key : {"load.direction = [1, 0, 0]", "load.direction = \"any\"", "load.magnitude = 1",
                             "load.kind = \"node\"", "load.steps = 3", "load.truncation = 3"}) {
       const std::string name = std::string(key).substr(0, std::string(key).find(' '));
-      expectRefused(method, key, name, "says nothing to method " + std::string(method));
+      expectRefused(method, key, name, "has no effect with method " + std::string(method));
     }
 }
 TEST_F(CaseCheck, ASeriesEnrichesNoPairs) {
   for (const char* key : {"separation = \"scalar\"", "tolerance = 0.1", "greedy_pairs = 300", "sweeps = 3",
                           "update = 3", "block = 1"})
-    expectRefused("series-force", "pgd." + std::string(key), "pgd.", "says nothing to method series-force");
+    expectRefused("series-force", "pgd." + std::string(key), "pgd.",
+                  "has no effect with method series-force");
 }
 TEST_F(CaseCheck, TheLinearPgdTakesNoSteps) {
   expectRefused("pgd-linear", "load.steps = 10", "load.steps", "no load steps");

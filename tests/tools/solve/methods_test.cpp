@@ -141,10 +141,11 @@ TEST_F(SolveMethods, RefusesAMethodThatThereIsNot) {
   expectRefusal({"--method", "pod"}, "--method = \"pod\" is not known (known: series-displacement");
 }
 TEST_F(SolveMethods, RefusesAnOrderOfAPgd) {
-  expectRefusal({"--method", "pgd-linear", "--order", "3"}, "model.order says nothing to method pgd-linear");
+  expectRefusal({"--method", "pgd-linear", "--order", "3"},
+                "model.order has no effect with method pgd-linear");
 }
 TEST_F(SolveMethods, RefusesStepsOfASeries) {
-  expectRefusal({"--steps", "30"}, "load.steps says nothing to method series-displacement");
+  expectRefusal({"--steps", "30"}, "load.steps has no effect with method series-displacement");
 }
 TEST_F(SolveMethods, RefusesADirectionOfASeries) {
   expectRefusal({"--method", "series-force", "--load-direction", "0,0,1"}, "load.direction says nothing");
@@ -167,7 +168,7 @@ TEST_F(SolveMethods, NamesTheCaseFileWhoseKeysDoNotFitTheMethod) {
   const ProgramResult result =
       runProgram("palpate-solve", {path("case.toml"), "-o", path("out.h5"), "--method", "series-force"});
   EXPECT_GT(result.exit_code, 0);
-  EXPECT_NE(result.err.find("case.toml: model.near_radius says nothing to method series-force"),
+  EXPECT_NE(result.err.find("case.toml: model.near_radius has no effect with method series-force"),
             std::string::npos)
       << result.err;
 }

@@ -26,7 +26,7 @@ int countOf(const std::vector<int>& components) {
   return components.empty() ? 1 : 1 + *std::max_element(components.begin(), components.end());
 }
 
-/// Columns that Gram-Schmidt left, without those of zeros.
+/// The non-zero columns after Gram-Schmidt.
 MatrixXd independentColumns(const MatrixXd& Q) {
   std::vector<Index> kept;
   for (Index j = 0; j < Q.cols(); ++j)
@@ -34,7 +34,7 @@ MatrixXd independentColumns(const MatrixXd& Q) {
   return Q(Eigen::all, kept);
 }
 
-/// Rows of S one under the other, those of one pair together: (b components) x M.
+/// Stacks the rows of S, those of one pair together: (b components) x M.
 MatrixXd stacked(const NewPairs& pairs) {
   const auto count = static_cast<Index>(pairs.S.size());
   MatrixXd S(pairs.R.cols() * count, pairs.S[0].cols());
@@ -83,8 +83,8 @@ void AlternatingDirections::stepR(const SeparatedSolution& u, NewPairs& pairs) {
     stepHadamardR(u, pairs);
 }
 
-/// K R int S S^T = int (l - K u^n) S^T. Any basis of the span of S gives the same span of R: an orthonormal
-/// one.
+/// K R int S S^T = int (l - K u^n) S^T. Any basis of the span of S gives the same span of R; this one is
+/// orthonormal.
 void AlternatingDirections::stepScalarR(const SeparatedSolution& u, NewPairs& pairs) const {
   const MatrixXd basis =
       independentColumns(orthonormalize(pairs.S[0].transpose(), diagonalProduct(weights_)).Q);
@@ -98,7 +98,7 @@ void AlternatingDirections::stepHadamardR(const SeparatedSolution& u, NewPairs& 
   const MatrixXd S = stacked(pairs);
   const MatrixXd P = weights_.asDiagonal() * S.transpose();
   Eigen::MatrixXd G = S * P;                  // int S_i S_j ds
-  G.diagonal().array() += 1e-13 * G.trace();  // against a component without any displacement
+  G.diagonal().array() += 1e-13 * G.trace();  // for a component without any displacement
   MatrixXd rhs = load_.times(P);
   if (u.pairs() > 0) rhs -= K_ * u.times(P);
   VectorXd r(K_.rows());

@@ -24,7 +24,7 @@ class AlternatingDirections {
   AlternatingDirections(const SparseMatrix& K, const SeparatedLoad& load, const Eigen::VectorXd& weights,
                         const LinearPgdOptions& options, std::vector<int> components);
 
-  /// From random S to the fixed point, or to max_sweeps. No columns: nothing is left to enrich.
+  /// From random S to the fixed point, or to max_sweeps. No columns when the residual is zero.
   [[nodiscard]] NewPairs enrich(const SeparatedSolution& u, int block);
 
   /// S-step: a(R_i e_i, R_j e_j) S_j = l_s(R_i e_i) - a(R_i e_i, u^n(s)) for every s.      paper Eqs. (6)-(10)
@@ -34,7 +34,7 @@ class AlternatingDirections {
   /// Normalizes R. @param[in,out] pairs  S is read, R written
   void stepR(const SeparatedSolution& u, NewPairs& pairs);
 
-  /// K^-1 B, columns shared among the workers.
+  /// K^-1 B; the workers share the columns.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   [[nodiscard]] int componentCount() const noexcept { return count_; }
 
@@ -51,7 +51,7 @@ class AlternatingDirections {
   std::vector<int> components_;  // empty for scalar pairs
   int count_;
   Cholesky factor_;
-  std::unique_ptr<Cholesky> blocks_factor_;  // Hadamard: of K_ij int S_i S_j, every sweep anew
+  std::unique_ptr<Cholesky> blocks_factor_;  // Hadamard: of K_ij int S_i S_j, new in every sweep
   SparseMatrix blocks_;
   unsigned drawn_{0};
 };

@@ -8,7 +8,7 @@
 namespace palpate::offline {
 
 /// Lower triangular L with L L^T = M, M_kl the mean of x^(alpha_k + alpha_l) over the unit ball |x| <= 1:
-/// coefficients times L have the mean square of their polynomial as their squared norm.
+/// coefficients times L have a squared norm equal to the mean square of their polynomial.
 [[nodiscard]] Eigen::MatrixXd momentFactor(const MonomialBasis& basis);
 
 }  // namespace palpate::offline

@@ -25,7 +25,7 @@ std::string text(double x) {
   return buffer;
 }
 
-/// The three parts as they are filled.
+/// Collects the three parts of the model.
 class Builder {
  public:
   Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options, BuildReport& report);
@@ -46,19 +46,19 @@ class Builder {
   MonomialBasis basis_;        ///< of the fields
   MonomialBasis force_basis_;  ///< of the force; begins with the monomials of the fields
   SolverSetup setup_;
-  double d_ref_;  ///< half a patch width: the travel at which the fit weighs the orders against each other
+  double d_ref_;  ///< half a patch width: the travel at which the fit weighs the orders
   std::vector<NearNodes> near_;
   modelfile::ModelData data_;
 };
 
-/// The near field is part of the model, and stands in memory here and in the server.
+/// The near field is part of the model; this program and the server hold all of it in memory.
 void checkNearBytes(const Case& c, std::span<const NearNodes> near, int coefficients) {
   constexpr double kMost = 2147483648.0;  // bytes
   double bytes = 0.0;
   for (const NearNodes& nodes : near) bytes += 12.0 * coefficients * static_cast<double>(nodes.nodes.size());
   if (bytes > kMost)
     throw CaseError("model.near_radius = " + text(c.nearRadiusOrDefault()) + " m makes a near field of " +
-                    text(1e-6 * bytes) + " MB, at most " + text(1e-6 * kMost) + " MB are taken");
+                    text(1e-6 * bytes) + " MB; the limit is " + text(1e-6 * kMost) + " MB");
 }
 
 Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options, BuildReport& report)
@@ -92,7 +92,7 @@ void Builder::fit(const FieldTable& table) {
   for (const std::int32_t node : setup_.positions.nodes)
     weights.push_back(
         fitWeights(setup_.surface, setup_.surface.positions[at(node)], case_.nearRadiusOrDefault()));
-  std::vector<double> ball;  // what is rarely reached must not cost accuracy at small travel
+  std::vector<double> ball;  // large travel is rare and must not cost accuracy at small travel
   for (const double radius : data_.contact_domain_radius) ball.push_back(std::min(d_ref_, radius));
   const FitProblem problem{table, basis_, setup_.surface.areas, weights, ball, d_ref_};
   FitOptions options;

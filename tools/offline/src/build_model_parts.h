@@ -13,9 +13,9 @@
 
 namespace palpate::offline {
 
-// What the ways to a model share. buildModel() chooses among the last two and its own.
+// Parts that the methods share. buildModel() calls one of the last two functions or runs its own method.
 
-/// Wall-clock time since it was made, s.
+/// Wall-clock time since its construction, s.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {
@@ -29,7 +29,7 @@ class Stopwatch {
 /// Factorizes K_T(0). @throw std::runtime_error when it is not positive definite
 void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const Case& c);
 
-/// What becomes of the series of one position. Called from several threads, once a position.
+/// Takes the series of one position. Called from several threads, once per position.
 using SeriesSink =
     std::function<void(const SeriesSolver& series, int lane, std::size_t position, double radius)>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods pgd-linear, pgd-explicit and pgd-euler: the paper's track, from a case to a model.
+// Methods pgd-linear, pgd-explicit and pgd-euler: the paper's methods, from a case to a model.
 #include "build_model_pgd.h"
 
 #include <unistd.h>
@@ -22,7 +22,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// What every way to the pairs ends in: u = sum_k X_k Y_k(s, coefficient).
+/// The pairs, whatever method found them: u = sum_k X_k Y_k(s, coefficient).
 struct Pairs {
   MatrixXd X;  // dofs x n
   MatrixXd Y;  // n x (M C), column position * C + coefficient, m
@@ -83,7 +83,7 @@ class PgdBuilder {
   modelfile::ModelData data_;
 };
 
-/// As given, or that which moves the median contact by 2 mm in linear theory.
+/// The given load, or the load that moves the median contact by 2 mm in linear theory.
 void PgdBuilder::chooseLoad() {
   constexpr double kTravel = 2e-3;  // m
   const Stopwatch watch;
@@ -108,7 +108,7 @@ BodyProblem PgdBuilder::problem() const {
   return BodyProblem(setup_.model, patchLoads(setup_.model, setup_.positions.patches, forces), weights);
 }
 
-/// There are no more pairs than the problem has dimensions.
+/// The problem's dimension limits the number of pairs.
 int PgdBuilder::greedyPairs(const BodyProblem& body) const {
   const int wanted = case_.pgd.greedy_pairs.value_or((3 * case_.modesOrDefault() + 1) / 2);
   return std::min({wanted, body.dofs(), body.positions()});
@@ -146,7 +146,7 @@ Pairs PgdBuilder::solveLinear(const BodyProblem& body) {
   return {std::move(best.pairs.X), std::move(best.pairs.Y)};
 }
 
-/// Refuses what cannot fit: the pairs of every load step are kept until the levels are separated.
+/// Refuses cases that do not fit in memory: the pairs of every load step stay until the levels are separated.
 void PgdBuilder::checkMemory(const BodyProblem& body, const ExplicitOptions& options) const {
   const double pairs = options.max_pairs, M = body.positions(), dofs = body.dofs();
   const double tangents =
@@ -187,7 +187,7 @@ Pairs PgdBuilder::solveExplicitly(const BodyProblem& body) {
   return {std::move(solution.X), std::move(solution.Y)};
 }
 
-/// t_max(s): up to the level before an element is squeezed below min det F = 0.3.      docs/design.md, Series
+/// t_max(s): the last level before an element falls below min det F = 0.3.      docs/design.md, Series
 void PgdBuilder::limitLevels(const BodyProblem& body, const LevelSolution& solution) {
   constexpr double kMinDetF = 0.3;
   constexpr int kSamples = 10;
@@ -203,7 +203,7 @@ void PgdBuilder::limitLevels(const BodyProblem& body, const LevelSolution& solut
   });
 }
 
-/// The rows of the surface nodes, each mode of unit mean square over it (as far as it reaches it).
+/// The rows of the surface nodes; each mode that is not zero there has unit mean square.
 void PgdBuilder::store(const Pairs& pairs) {
   const PatchSurface& surface = setup_.surface;
   MatrixXd X = MatrixXd::Zero(static_cast<Index>(3 * surface.nodes.size()), pairs.X.cols());
@@ -222,7 +222,7 @@ void PgdBuilder::store(const Pairs& pairs) {
   storeModes(setup_, X.cast<float>(), Y.cast<float>(), data_);
 }
 
-/// A load of one direction is answered level by level; three directions make a linear function of the force.
+/// A load of one direction has its answer per level; with three directions the answer is linear in the force.
 void PgdBuilder::storeLoad() {
   ModelAttributes& a = data_.attributes;
   a.reference_displacement = travel_;
@@ -240,8 +240,9 @@ void PgdBuilder::storeLoad() {
   endWhereNothingRises();
 }
 
-/// A level is found by the displacement along the load, so t_max(s) ends where the modes' own stops rising.
-/// @throw std::runtime_error naming a node that the modes do not move along the load at all
+/// The displacement along the load determines the level, so t_max(s) ends where the modes' displacement stops
+/// rising.
+/// @throw std::runtime_error naming a node that the modes do not move along the load
 void PgdBuilder::endWhereNothingRises() {
   const Index C = levels_.rows(), steps = levels_.cols() - 1;
   for (std::size_t s = 0; s < setup_.positions.nodes.size(); ++s) {

@@ -13,7 +13,7 @@ namespace palpate::offline {
 
 namespace {
 
-/// One table of a case file whose keys are taken one by one; what nobody took is unknown.
+/// One table of a case file. Each key is taken once; keys left at the end are unknown.
 class Section {
  public:
   Section(const std::string& file, std::string name, const toml::table& table)

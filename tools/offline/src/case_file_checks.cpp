@@ -18,7 +18,7 @@ constexpr unsigned kSeries = bit(Method::kSeriesDisplacement) | bit(Method::kSer
 constexpr unsigned kStepped = bit(Method::kPgdExplicit) | bit(Method::kPgdEuler);
 constexpr unsigned kPgd = bit(Method::kPgdLinear) | kStepped;
 
-/// A key that means something to some methods only.
+/// A key that only some methods use.
 struct Rule {
   const char* key;
   bool given;
@@ -31,31 +31,31 @@ void check(const Case& c, const Rule& rule) {
   std::string list;
   for (const Method method : kMethods)
     if ((rule.methods & bit(method)) != 0) list += (list.empty() ? "" : ", ") + toString(method);
-  throw CaseError(std::string(rule.key) + " says nothing to method " + toString(c.method) + ": " +
+  throw CaseError(std::string(rule.key) + " has no effect with method " + toString(c.method) + ": " +
                   rule.reason + " (it is for " + list + ")");
 }
 
 void checkKeys(const Case& c) {
   constexpr unsigned kDisplacement = bit(Method::kSeriesDisplacement), kLinear = bit(Method::kPgdLinear);
   const char* const any_load = "a series holds every load of its domain";
-  const char* const no_pairs = "no pair is enriched";
+  const char* const no_pairs = "it enriches no pairs";
   const bool direction = c.load.direction || c.load.any_direction;
   for (const Rule& rule : std::initializer_list<Rule>{
            {"model.order", c.order.has_value(), kSeries, "it is the degree of a series"},
            {"model.near_radius", c.near_radius.has_value(), kDisplacement, "its model is modes only"},
            {"model.sweeps", c.sweeps.has_value(), kSeries,
-            "no table of fields is fitted; pgd.sweeps are those of a pair"},
+            "it fits no table of fields; pgd.sweeps sets the sweeps of a pair"},
            {"load.direction", direction, kPgd, any_load},
            {"load.magnitude", c.load.magnitude.has_value(), kPgd, any_load},
-           {"load.kind", c.load.node.has_value(), kPgd, "a series is that of a contact patch"},
+           {"load.kind", c.load.node.has_value(), kPgd, "a series belongs to a contact patch"},
            {"load.steps", c.load.steps.has_value(), kStepped, "it takes no load steps"},
-           {"load.truncation", c.load.truncation.has_value(), kLinear, "it takes the load as it is"},
-           {"pgd.separation", c.pgd.hadamard.has_value(), kLinear, "its pairs are scalar, if it has any"},
+           {"load.truncation", c.load.truncation.has_value(), kLinear, "it does not truncate the load"},
+           {"pgd.separation", c.pgd.hadamard.has_value(), kLinear, "it has scalar pairs or none"},
            {"pgd.tolerance", c.pgd.tolerance.has_value(), kPgd, no_pairs},
            {"pgd.greedy_pairs", c.pgd.greedy_pairs.has_value(), kPgd, no_pairs},
            {"pgd.sweeps", c.pgd.sweeps.has_value(), kPgd, no_pairs},
-           {"pgd.update", c.pgd.update.has_value(), kLinear, "it updates in a way of its own, if at all"},
-           {"pgd.block", c.pgd.block.has_value(), kLinear, "it finds pairs one at a time, if any"}})
+           {"pgd.update", c.pgd.update.has_value(), kLinear, "it has no such update"},
+           {"pgd.block", c.pgd.block.has_value(), kLinear, "it finds pairs one at a time or none"}})
     check(c, rule);
 }
 

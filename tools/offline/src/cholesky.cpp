@@ -13,7 +13,7 @@ namespace palpate::offline {
 
 namespace {
 
-/// Columns of the lower triangle of the node graph, 3 x 3 blocks expanded; values in place for refill.
+/// Columns of the lower triangle of the node graph, 3 x 3 blocks expanded; new values overwrite the old ones.
 struct Pattern {
   std::vector<int> column_start;  // dofs + 1
   std::vector<int> row;           // ascending in each column
@@ -152,7 +152,7 @@ struct Cholesky::State {
 
   [[nodiscard]] cholmod_factor* active() const { return positive ? definite : indefinite; }
 
-  const FeModel* model;  // none for a matrix from elsewhere
+  const FeModel* model;  // null for a given matrix
   Pattern pattern;
   std::vector<double> values;
   Common common;

@@ -5,7 +5,7 @@
 
 namespace palpate::offline {
 
-// Eigen's decompositions, compiled once: each file that has its own takes half a minute to build.
+// Eigen's decompositions, compiled once: a file that instantiates them takes half a minute to build.
 
 /// A = U diag(values) V^T.
 struct SingularValues {

@@ -10,19 +10,20 @@ namespace palpate::offline {
 
 namespace {
 
-/// What a series leaves out, from its last terms: they go on falling as slowly as they did over the last
-/// degree or the last two. Near the radius of convergence this tail is larger than the last terms. docs/design.md, Series
+/// Estimates the truncation error of a series from its last terms: the terms beyond are taken to fall as
+/// slowly as over the last degree or the last two. Near the radius of convergence this tail exceeds the last
+/// terms. docs/design.md, Series
 double remainder(double last, double previous, double before_previous) {
   if (last == 0.0) return 0.0;
-  // Where a degree happens to vanish the ratio says nothing; a tail of four times the last term is the most
-  // we expect.
+  // Where the terms of a degree vanish by chance the ratio has no meaning; the tail is at most four times the
+  // last term.
   constexpr double kSlowest = 0.8;
   const double ratio = std::min(kSlowest, std::max(last / previous, std::sqrt(last / before_previous)));
   return last * std::max(1.0, ratio / (1.0 - ratio));
 }
 
-/// The answer and its derivative along one ray, x = r e, degree by degree: summed over the monomials once, so
-/// that each r costs one term a degree.
+/// The answer and its derivative along one ray, x = r e, by degree. The monomials are summed once, so each r
+/// costs one term per degree.
 class Ray {
  public:
   Ray(const MonomialBasis& basis, std::span<const Vec3> coefficients, int kept, double tolerance,
@@ -31,8 +32,8 @@ class Ray {
 
  private:
   std::size_t order_;
-  std::size_t kept_;                                       // degree that the model keeps
-  double tolerance_;                                       // of what it leaves out
+  std::size_t kept_;                                       // highest degree in the model
+  double tolerance_;                                       // of the truncation error
   std::array<Vec3, MonomialBasis::kMaxOrder + 1> terms_;   // of degree n at r = 1
   std::array<Mat3, MonomialBasis::kMaxOrder + 1> slopes_;  // of those, symmetric part; kept degrees only
 };
@@ -69,7 +70,7 @@ bool Ray::isTrusted(double r) const {
     if (n > kept_) cut += term;
     K += power * slopes_[n];
   }
-  if (order_ > 1) {  // what a linear answer leaves out, no term of it tells
+  if (order_ > 1) {  // a linear answer has no term to estimate its error from
     const double before_previous = order_ > 2 ? size[order_ - 2] : std::numeric_limits<double>::infinity();
     const double tail = remainder(size[order_], size[order_ - 1], before_previous);
     if (cut.norm() + tail > tolerance_ * whole.norm()) return false;
@@ -132,7 +133,7 @@ const std::vector<Vec3>& sampledDirections() {
 
 double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept, double cap,
                     double tolerance) {
-  constexpr int kScan = 100;  // the radius is found by a scan, then by halving between two samples
+  constexpr int kScan = 100;  // scan for the radius, then halve between two samples
   double radius = cap;
   for (const Vec3& direction : sampledDirections()) {
     const Ray ray(basis, answer, kept, tolerance, direction);
@@ -157,7 +158,7 @@ void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double mi
   for (std::size_t lane = 0; lane < radii.size(); ++lane) radius[static_cast<int>(lane)] = radii[lane];
   for (const int element : suspects(basis, input, min_det_f, radius)) {
     for (const Vec3& direction : sampledDirections()) {
-      // Ten halvings of what is too far: to a thousandth of the radius that was offered.
+      // A radius that is too large is halved up to ten times, to a thousandth.
       Lanes good{};
       Lanes tried = radius;
       Lanes step = 0.5 * radius;

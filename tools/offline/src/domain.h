@@ -13,9 +13,10 @@ namespace palpate::offline {
 /// The unit directions in which a domain is sampled: faces, edges and corners of a cube, 26.
 [[nodiscard]] const std::vector<Vec3>& sampledDirections();
 
-/// Largest radius, at most `cap`, up to which in every sampled direction the part of the answer to degree
-/// `kept` is within `tolerance` of the whole, what lies beyond the last degree estimated, and its derivative
-/// is positive definite.                                                               docs/design.md, Series
+/// Largest radius, at most `cap`, up to which, in every sampled direction, the answer to degree `kept` is
+/// within `tolerance` of the whole and its derivative is positive definite. The part beyond the last degree
+/// is estimated.
+///                                                                                     docs/design.md, Series
 /// @param answer  coefficients of f(d), or of d(f)
 [[nodiscard]] double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept,
                                   double cap, double tolerance);

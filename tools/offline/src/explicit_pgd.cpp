@@ -38,7 +38,7 @@ double enrich(SeparatedIncrement& increment, const ExplicitOptions& options) {
   return residual;
 }
 
-/// Cuts X to the modes that carry the history up to half the tolerance. @return whether any went
+/// Cuts X to the modes that carry the history up to half the tolerance. @return whether it removed any
 bool recompress(SeparatedIncrement& increment, LevelHistory& history, double tolerance) {
   history.X = increment.X();
   const HistoryModes modes = historyModes(history, increment.positionWeights());

@@ -75,7 +75,7 @@ MatrixXf FarFieldFit::whitenedY() const {
   return Z;
 }
 
-/// A first basis: the range of the table met by random numbers (a randomized range finder, one pass).
+/// A first basis: the table times random numbers (a randomized range finder, one pass).
 void FarFieldFit::sketch() {
   for (Worker& worker : workers_) worker.row_rhs = MatrixXd::Zero(rows_, modes_);
   parallelFor(options_.workers, chunks(), [&](int w, std::size_t chunk) {
@@ -133,7 +133,7 @@ void FarFieldFit::sweep(bool last) {
   solveX(rhs);
 }
 
-/// Turns the modes so that Y's mean square is diagonal and falls.
+/// Rotates the modes so that Y's mean square is diagonal and falls.
 void FarFieldFit::orderByEnergy() {
   const MatrixXf Z = whitenedY();
   const MatrixXf gram = Z * Z.transpose();

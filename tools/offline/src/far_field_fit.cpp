@@ -12,14 +12,14 @@ namespace palpate::offline {
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
-/// Y-step: n x n normal equations a position, those of the areas changed at the nodes that count otherwise.
+/// Y-step: n x n normal equations per position: those of the areas, corrected at nodes with another weight.
 void FarFieldFit::solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count,
                          Worker& worker) {
   const MatrixXf weighted = row_area_.cast<float>().asDiagonal() * result_.X;
   const MatrixXf rhs = weighted.transpose() * A;
   MatrixXd gram = (weighted.transpose() * result_.X).cast<double>();
-  gram.diagonal().array() += 1e-6;             // X is orthonormal: against what only free entries would see
-  const Eigen::LLT<MatrixXd> unchanged(gram);  // of the positions for which every node counts by its area
+  gram.diagonal().array() += 1e-6;             // X is orthonormal; for modes that only free entries see
+  const Eigen::LLT<MatrixXd> unchanged(gram);  // of the positions whose weights are the areas
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
     const Listed listed = listedRows(A.middleCols(column, coefficients_), problem_.weights[first + i]);
@@ -47,7 +47,7 @@ void FarFieldFit::solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::
   }
 }
 
-/// The rows of the nodes that count otherwise than by their area.
+/// The rows of the nodes whose weight is not their area.
 FarFieldFit::Listed FarFieldFit::listedRows(const Eigen::Ref<const MatrixXf>& A,
                                             const FitWeights& weights) const {
   const auto K = static_cast<Eigen::Index>(weights.nodes.size());
@@ -63,7 +63,7 @@ FarFieldFit::Listed FarFieldFit::listedRows(const Eigen::Ref<const MatrixXf>& A,
   return listed;
 }
 
-/// Right-hand side of the X-step: A W W^T Y^T, changed at the nodes that count otherwise.
+/// Right-hand side of the X-step: A W W^T Y^T, corrected at nodes with another weight.
 void FarFieldFit::feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker) {
   MatrixXf V(A.cols(), modes_);
   for (std::size_t i = 0; i < count; ++i) {
@@ -86,13 +86,14 @@ void FarFieldFit::feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::s
   worker.row_rhs += product.cast<double>();
 }
 
-/// X-step: one n x n system a node, that of all positions changed where the node counts otherwise.
+/// X-step: one n x n system per node: the sum over all positions, corrected where the node's weight is not
+/// its area.
 void FarFieldFit::solveX(const MatrixXd& rhs) {
   const MatrixXf Z = whitenedY();
   const MatrixXf all_f = Z * Z.transpose();
   MatrixXd all = all_f.cast<double>();
   all.diagonal().array() += 1e-9 * all.trace() / static_cast<double>(modes_);
-  const Eigen::LLT<MatrixXd> unchanged(all);  // of the nodes that count by their area for every position
+  const Eigen::LLT<MatrixXd> unchanged(all);  // of the nodes whose weight is their area for every position
   MatrixXd X(rows_, modes_);
   parallelFor(options_.workers, problem_.areas.size(), [&](int, std::size_t node) {
     const auto& near = positions_near_[node];

@@ -17,11 +17,11 @@ class FarFieldFit {
   FarField run();
 
  private:
-  static constexpr std::size_t kChunk = 32;  // positions read and multiplied at once
+  static constexpr std::size_t kChunk = 32;  // positions per read and product
   struct Worker {
     std::vector<float> fields;
-    Eigen::MatrixXd row_rhs;  // 3 Ns x n, what the X-step is fed with
-    double error{0.0};        // weighted square of what remains
+    Eigen::MatrixXd row_rhs;  // 3 Ns x n, input of the X-step
+    double error{0.0};        // weighted square of the remainder
     double energy{0.0};       // weighted square of the field
   };
   [[nodiscard]] std::size_t chunks() const { return (positions_ + kChunk - 1) / kChunk; }

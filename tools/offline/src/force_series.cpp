@@ -67,8 +67,9 @@ void ForceBuilder::solveSeries(FieldTable& table) {
   report_.series_seconds = series_watch.seconds();
 }
 
-/// The best modes in the area product, positions counting by relative error: no near field takes the dimple
-/// over, so no node is weighted down, and soft spots must not outweigh stiff ones.   docs/design.md, Reproduction
+/// The best modes in the area product, with relative errors per position, so that soft spots do not outweigh
+/// stiff ones. No near field represents the dimple here, so every node keeps its full weight.
+///                                                                               docs/design.md, Reproduction
 void ForceBuilder::fit(const FieldTable& table, const FitSize& fit_size) {
   const Stopwatch watch;
   const std::vector<FitWeights> weights(setup_.positions.nodes.size());
@@ -86,8 +87,8 @@ void ForceBuilder::fit(const FieldTable& table, const FitSize& fit_size) {
   report_.fit_seconds = watch.seconds();
 }
 
-/// Few modes may tell directions apart badly: where the dd/df that they give is not positive definite, no
-/// force answers a displacement. Such a position keeps a thousandth of its domain, and is counted.
+/// Few modes may not resolve all directions: where their dd/df is not positive definite, no force belongs to
+/// a displacement. Such a position keeps a thousandth of its domain and counts as weak.
 void ForceBuilder::limitToWhatTheModesAnswer() {
   constexpr double kLeast = 1e-3;
   const auto C = static_cast<std::size_t>(basis_.size());

@@ -23,7 +23,7 @@ void padWithZeros(LevelHistory& history) {
   }
 }
 
-/// Smallest number of leading values that leaves out at most tolerance^2 of the sum.
+/// Smallest number of leading values whose remainder is at most tolerance^2 of the sum.
 Eigen::Index leading(const Eigen::VectorXd& energy, double tolerance) {
   const double allowed = tolerance * tolerance * energy.sum();
   double tail = 0.0;
@@ -32,8 +32,8 @@ Eigen::Index leading(const Eigen::VectorXd& energy, double tolerance) {
   return count;
 }
 
-/// Right singular vectors over the levels, steps x C: the history times them, times their transpose, is the
-/// best of C level functions.
+/// Right singular vectors over the levels, steps x C: projected on them, the history is the best
+/// approximation with C level functions.
 Eigen::MatrixXd levelVectors(const std::vector<Eigen::MatrixXd>& Y, const Eigen::VectorXd& v,
                              const LevelCut& cut) {
   const auto steps = static_cast<Eigen::Index>(Y.size());
@@ -48,7 +48,7 @@ Eigen::MatrixXd levelVectors(const std::vector<Eigen::MatrixXd>& Y, const Eigen:
   return svd.V.leftCols(std::min<Eigen::Index>(count, cut.max_levels));
 }
 
-/// X to columns of largest entry 1; Y takes the factor.
+/// Scales each column of X to a largest entry of 1; Y takes the factor.
 void scaleModes(Eigen::MatrixXd& X, Eigen::MatrixXd& Y) {
   for (Eigen::Index k = 0; k < X.cols(); ++k) {
     const double largest = X.col(k).cwiseAbs().maxCoeff();

@@ -49,7 +49,7 @@ std::vector<int> componentsOf(const LinearPgdOptions& options, int dofs) {
   return several ? components : std::vector<int>{};
 }
 
-/// Products of the X that the Galerkin step for all Y, and the energy, need.
+/// Products of the X for the energy and for the Galerkin step of all Y.
 class Greedy {
  public:
   Greedy(const ParametricProblem& problem, const LinearPgdOptions& options);
@@ -99,7 +99,7 @@ MatrixXd Greedy::stackedY() const {
   return u_.scalarPairs().Y;
 }
 
-/// 2 l(u^n) - |u^n|^2: what u^n has of the energy of the solution.
+/// 2 l(u^n) - |u^n|^2: the part of the solution's energy that u^n holds.
 double Greedy::captured() const {
   const MatrixXd Y = stackedY();
   return (Y.cwiseProduct(2.0 * load_on_X_ - gram_ * Y)).colwise().sum().dot(weights_);
@@ -118,10 +118,10 @@ void Greedy::add(const NewPairs& pairs) {
   load_on_X_.bottomRows(R.cols()) = load_.project(R);
 }
 
-/// All Y again for fixed X: sum_l a(X_k, X_l) Y_l(s) = l_s(X_k).                 docs/design.md, Reproduction
+/// Updates all Y for fixed X: sum_l a(X_k, X_l) Y_l(s) = l_s(X_k).               docs/design.md, Reproduction
 void Greedy::update() {
   MatrixXd gram = gram_;
-  gram.diagonal().array() += 1e-14;  // the X are of norm 1; against a component without any displacement
+  gram.diagonal().array() += 1e-14;  // the X have norm 1; for a component without any displacement
   const MatrixXd Y = gram.ldlt().solve(load_on_X_);
   for (Index c = 0; c < u_.terms(); ++c)
     u_.Y[static_cast<std::size_t>(c)] = Y(Eigen::seqN(c, u_.pairs(), u_.terms()), Eigen::all);
@@ -134,7 +134,7 @@ void Greedy::estimate(int sweeps) {
   u_.history.push_back({estimated_at_, sweeps, residual.relative, residual.spread, progress_.seconds()});
 }
 
-/// Estimates the residual when it is time to, and says whether to stop.
+/// Estimates the residual every few pairs. @return whether to stop
 bool Greedy::finished(int sweeps) {
   const int pairs = static_cast<int>(u_.pairs());
   const bool full = pairs >= options_.max_pairs;
@@ -144,7 +144,7 @@ bool Greedy::finished(int sweeps) {
 }
 
 SeparatedSolution Greedy::run() {
-  constexpr double kNothing = 1e-30;  // of the strongest pairs' energy: rounding
+  constexpr double kNothing = 1e-30;  // of the strongest pairs' energy: below is rounding
   const int block = components_.empty() ? options_.block : 1;
   for (bool done = false; !done;) {
     const int wanted = std::min(block, options_.max_pairs - static_cast<int>(u_.pairs()));

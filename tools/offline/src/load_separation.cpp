@@ -25,7 +25,7 @@ MatrixXd orthonormalColumns(const MatrixXd& V) {
   return qr.householderQ() * MatrixXd::Identity(V.rows(), V.cols());
 }
 
-/// Orthonormal columns that hold the `count` strongest directions of A's range, and a few more.
+/// Orthonormal columns close to the `count` strongest directions of A's range.
 MatrixXd strongRange(const SparseMatrix& A, Index count, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;

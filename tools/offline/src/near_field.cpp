@@ -7,8 +7,7 @@
 namespace palpate::offline {
 
 double nearWindow(double r, double rho) noexcept {
-  constexpr double kFlat =
-      0.7;  // of rho: the fit is left alone with what is far, the transition spans an element
+  constexpr double kFlat = 0.7;  // of rho: the window falls from there to rho, about one element
   const double t = std::clamp((r / rho - kFlat) / (1.0 - kFlat), 0.0, 1.0);
   return std::max(0.0, 1.0 - t * t * t * (10.0 + t * (-15.0 + 6.0 * t)));
 }

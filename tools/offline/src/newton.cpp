@@ -23,8 +23,7 @@ void addDofs(const FeModel& model, const Eigen::VectorXd& step, Eigen::VectorXd&
     if (model.isFree(node)) u.segment<3>(3 * node) += step.segment<3>(model.dof(node));
 }
 
-/// Largest free nodal force that is out of balance, relative to the largest internal one (reactions
-/// included).
+/// Largest unbalanced force on a free node, relative to the largest internal force (reactions included).
 double imbalance(const FeModel& model, const Eigen::VectorXd& internal, const Eigen::VectorXd& external) {
   const double scale = std::max(internal.cwiseAbs().maxCoeff(), external.cwiseAbs().maxCoeff());
   const double largest = toDofs(model, external - internal).cwiseAbs().maxCoeff();
@@ -90,7 +89,7 @@ struct PatchProblem {
     for (std::size_t a = 0; a < tools.size(); ++a)
       state.forces[a] += df.segment<3>(static_cast<Eigen::Index>(3 * a));
   }
-  /// What patch a still has to move, m.
+  /// Displacement that patch a still lacks, m.
   [[nodiscard]] Vec3 gap(const NewtonResult& state, std::size_t a) const {
     return level * tools[a].d - tools[a].patch.average(state.u);
   }
@@ -109,10 +108,10 @@ bool converge(Problem& problem, NewtonResult& state, const NewtonOptions& option
       return false;  // singular tangent: the caller takes a smaller step
     }
     ++state.iterations;
-    if (!state.u.allFinite()) return false;  // patches that cannot move apart; a maximum would pass it over
+    if (!state.u.allFinite()) return false;  // patches that cannot move apart; a maximum would miss NaN
     state.residual = problem.error(state);
     if (!std::isfinite(state.residual) || state.residual > 1e6) return false;
-    // Rounding may keep the residual just above the tolerance; then it no longer falls.
+    // Rounding may keep the residual just above the tolerance; then it stops falling.
     const bool stagnated = state.residual < 1e3 * options.tolerance && state.residual > 0.5 * previous;
     if (state.residual <= options.tolerance || stagnated) return true;
     previous = state.residual;

@@ -18,9 +18,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kBlock = 32;          // columns orthonormalized at once
-constexpr double kDependent = 1e-13;  // of its length: what is left of a column that depends on earlier ones
+constexpr double kDependent = 1e-13;  // relative length below which a column depends on earlier ones
 
-/// Columns of B against each other, each twice; B = (what B becomes) * R.
+/// Orthonormalizes the columns of B, in two passes; old B = new B * R.
 void orthonormalizeBlock(MatrixXd& B, const InnerProduct& A, const VectorXd& lengths, MatrixXd& R) {
   R = MatrixXd::Zero(B.cols(), B.cols());
   MatrixXd AB = MatrixXd::Zero(B.rows(), B.cols());
@@ -76,7 +76,7 @@ OrthonormalBasis orthonormalize(const MatrixXd& V, const InnerProduct& A) {
     }
     MatrixXd R;
     orthonormalizeBlock(B, A, lengths, R);
-    // A column that was nearly dependent is cleaned of the earlier ones once more.
+    // A nearly dependent column is orthogonalized against the earlier ones once more.
     if (first > 0) {
       const MatrixXd along = earlier.transpose() * A(B);
       B -= earlier * along;

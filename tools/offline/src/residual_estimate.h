@@ -8,11 +8,11 @@
 
 namespace palpate::offline {
 
-/// Dual norm of the residual l - K u^n over that of l, in the mean over the positions, without its M solves.
+/// Dual norm of the residual l - K u^n over that of l, in the mean over the positions, without M solves.
 ///   sum_s w_s |u_s - u^n_s|^2  =  E |sum_s sqrt(w_s) z_s (u_s - u^n_s)|^2,  z_s independent N(0, 1)
-/// K times the sum is a combination of loads and of pairs, so each probe z costs one solve, once. Hutchinson's
-/// estimator of a trace; the norm of the loads is 2 l(u^n) - |u^n|^2 + the estimate, so that it sharpens with
-/// u^n.
+/// K times the sum is a combination of loads and of pairs, so each probe z costs one solve in all.
+/// Hutchinson's estimator of a trace; the norm of the loads is 2 l(u^n) - |u^n|^2 + the estimate, so it
+/// becomes sharper as u^n improves.
 class ResidualEstimate {
  public:
   struct Result {

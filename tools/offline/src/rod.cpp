@@ -72,7 +72,7 @@ void RodProblem::tangent(const Eigen::VectorXd& u, SparseMatrix& K) const {
 
 Eigen::VectorXd RodProblem::internalForce(const Eigen::VectorXd& u) const {
   const Eigen::ArrayXd H = strain(u).array();
-  // (l^3 - l) / 2 without the cancellation at l = 1
+  // (l^3 - l) / 2 without cancellation at l = 1
   return nodalForce(data_.E * data_.area * (H * (1.0 + H) * (1.0 + 0.5 * H)).matrix());
 }
 

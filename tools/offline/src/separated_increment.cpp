@@ -12,7 +12,7 @@ namespace palpate::offline {
 
 namespace {
 
-constexpr Eigen::Index kSolvedTogether = 32;  ///< columns a solve with K0
+constexpr Eigen::Index kSolvedTogether = 32;  ///< columns per solve with K0
 
 Eigen::MatrixXd gaussian(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
   std::mt19937_64 random(seed);
@@ -20,8 +20,8 @@ Eigen::MatrixXd gaussian(Eigen::Index rows, Eigen::Index columns, unsigned seed)
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
 
-/// K X for a symmetric K: rows of X are contiguous, so that one pass over K serves all columns, four entries of
-/// a row of K at a time.
+/// K X for a symmetric K: rows of X are contiguous, so one pass over K serves all columns, four entries of a
+/// row of K at a time.
 void multiply(const TangentTable::View& K, const RowMatrix& X, RowMatrix& product) {
   product.resize(X.rows(), X.cols());
   const int* const starts = K.outerIndexPtr();
@@ -37,7 +37,7 @@ void multiply(const TangentTable::View& K, const RowMatrix& X, RowMatrix& produc
   }
 }
 
-/// A new last row and column of a symmetric matrix.
+/// Appends a last row and column to a symmetric matrix.
 void border(Eigen::MatrixXd& T, const Eigen::VectorXd& row, double corner) {
   const Eigen::Index n = T.rows();
   T.conservativeResize(n + 1, n + 1);
@@ -145,7 +145,7 @@ Eigen::VectorXd SeparatedIncrement::firstGuess() const {
   return K0_.solve(rho_ * v_.cwiseSqrt().cwiseProduct(z));
 }
 
-/// Unit length in K0, at right angles to X. @return length that was left, relative
+/// Makes it orthogonal to X and of unit length in K0. @return relative length before scaling
 double SeparatedIncrement::normalize(Eigen::VectorXd& R) const {
   const auto length = [&] { return std::sqrt(std::max(R.dot(problem_.stiffness() * R), 0.0)); };
   R /= length();
@@ -161,7 +161,7 @@ double SeparatedIncrement::normalize(Eigen::VectorXd& R) const {
 
 /// S from R, then R from S, in one pass over the tangents.                      paper Sections 2.1 and 2.2
 Eigen::VectorXd SeparatedIncrement::sweep(const Eigen::VectorXd& R) {
-  if (tangents_.constant()) {  // the length of R is of no account, and every K_s R is the same
+  if (tangents_.constant()) {  // the length of R does not matter, and every K_s R is the same
     const Eigen::VectorXd S = rho_.transpose() * R;
     return K0_.solve(rho_ * v_.cwiseProduct(S));
   }

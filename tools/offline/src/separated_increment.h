@@ -21,18 +21,18 @@ class SeparatedIncrement {
   void begin(double from, double to);
   /// Relative norm of rho, see ExplicitOptions::tolerance.
   [[nodiscard]] double residual() const;
-  /// Adds a pair. @return false when the residual gave no direction that X does not hold already
+  /// Adds a pair. @return false when X already holds the residual's direction
   bool enrich();
-  /// Takes the increment into the solution.
+  /// Adds the increment to the solution.
   void finish() { Y_ += D_; }
 
   [[nodiscard]] int pairs() const noexcept { return static_cast<int>(X_.cols()); }
   [[nodiscard]] const RowMatrix& X() const noexcept { return X_; }
-  /// Y at the last level taken in, n x M.
+  /// Y at the last level of the solution, n x M.
   [[nodiscard]] const Eigen::MatrixXd& Y() const noexcept { return Y_; }
   /// v_s = w_s / (l_s . K0^-1 l_s).
   [[nodiscard]] const Eigen::VectorXd& positionWeights() const noexcept { return v_; }
-  /// X V for X, V^T Y for Y; between steps. @param V  n x n', orthonormal columns
+  /// Replaces X by X V and Y by V^T Y; call it between steps. @param V  n x n', orthonormal columns
   void rotate(const Eigen::MatrixXd& V);
 
  private:

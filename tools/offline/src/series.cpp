@@ -25,7 +25,7 @@ std::vector<KernelElement> kernelElements(const FeModel& model) {
       for (std::size_t J = 0; J < 3; ++J)
         out.gradients[a][J] = model.gradients(e)(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(J));
   }
-  // Neighbours in memory are neighbours in the mesh: the fields are read once, not once an element.
+  // Neighbours in memory are neighbours in the mesh: each field is read once, not once per element.
   std::sort(elements.begin(), elements.end(), [](const KernelElement& l, const KernelElement& r) {
     return *std::min_element(l.nodes.begin(), l.nodes.end()) <
            *std::min_element(r.nodes.begin(), r.nodes.end());
@@ -111,7 +111,7 @@ Vec3 SeriesSolver::State::average(int lane, int k) {
   return d;
 }
 
-/// W_s = K0^-1 G_s, C_s = G_s^T W_s: the answer to unit forces, if those drive.
+/// W_s = K0^-1 G_s, C_s = G_s^T W_s: the answer to unit forces, when driven by force.
 void SeriesSolver::State::firstDegree() {
   rhs.setZero(model.dofCount(), 3 * kLanes);
   for (int lane = 0; lane < kLanes; ++lane)

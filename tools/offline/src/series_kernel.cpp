@@ -8,14 +8,14 @@ namespace palpate::offline {
 
 namespace {
 
-// Everything below is inlined into the multiversioned entry points, so that each is built whole for its
+// The compiler inlines everything below into the multiversioned entry points and so builds it for each
 // target.
 #define PALPATE_INLINE [[gnu::always_inline]] inline
 
 constexpr std::size_t kMost = MonomialBasis::kMaxCoefficients;
 
-/// The lanes that one AVX2 register holds. GCC splits operations on a whole Lanes through the stack; so the
-/// kernels go through each element once a part, and only memory knows of Lanes.
+/// The lanes that one AVX2 register holds. GCC splits operations on a whole Lanes through the stack, so the
+/// kernels visit each element once per part, and whole Lanes are in memory only.
 using Part [[gnu::vector_size(4 * sizeof(double)), gnu::may_alias]] = double;
 constexpr int kParts = sizeof(Lanes) / sizeof(Part);
 static_assert(sizeof(Lanes) % sizeof(Part) == 0);
@@ -172,7 +172,7 @@ PALPATE_INLINE void assemblePart(const KernelInput& input, const CauchyProduct& 
   }
 }
 
-/// sum E_b : S_c over the pairs of one coefficient, a pair of equals halved.
+/// sum E_b : S_c over the pairs of one coefficient; a pair of equal factors counts half.
 PALPATE_INLINE Part energyOf(const CauchyProduct& energy, int k, const Symmetric* E, const Symmetric* S) {
   Symmetric sum{};
   const int begin = energy.begin[static_cast<std::size_t>(k)],
@@ -207,7 +207,7 @@ PALPATE_INLINE void energyPart(const KernelInput& input, const CauchyProduct& st
     partOf(W[k - first], part) += e.volume * energyOf(energy, k, E.data(), S.data());
 }
 
-/// One part of detF. F is linear in the corners' displacements: those are summed, not the gradients.
+/// One part of detF. F is linear in the corners' displacements, so it sums those and not the gradients.
 PALPATE_INLINE void detPart(const KernelInput& input, int element, int part, const Lanes* monomials,
                             Lanes* det) {
   const KernelElement& e = input.elements[element];

@@ -30,7 +30,7 @@ struct KernelElement {
   double volume;                                   ///< m^3
 };
 
-/// What the kernels work on. U holds all coefficients of all nodes, [node][k][3] lanes.
+/// Input of the kernels. U holds all coefficients of all nodes, [node][k][3] lanes.
 struct KernelInput {
   const KernelElement* elements;
   int element_count;
@@ -53,7 +53,7 @@ void energyCoefficients(const KernelInput& input, const CauchyProduct& strain, c
                         int first, int last, Lanes* W);
 
 /// det F of one element: F = I + sum x^alpha H_alpha.
-/// @param monomials  [k] lanes: x^alpha of each lane's sample  @param[out] det  det F, one a lane
+/// @param monomials  [k] lanes: x^alpha of each lane's sample  @param[out] det  det F, one per lane
 void detF(const KernelInput& input, int element, const Lanes* monomials, Lanes* det);
 
 /// sum_k radius^|alpha_k| |H_alpha_k|_F of one element: a bound of |H|_F in the ball |d| <= radius.

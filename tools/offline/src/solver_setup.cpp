@@ -38,7 +38,8 @@ std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, cons
   return accessible;
 }
 
-/// Clamped nodes last, otherwise in the order of the mesh: nothing moves them, and the packed modes end before them.
+/// Free nodes in the order of the mesh, then the clamped nodes: these never move, and the packed modes leave
+/// them out.
 void clampedLast(const FeModel& model, mesh::BoundarySurface& boundary) {
   std::vector<int> order(boundary.nodes.size()), place(boundary.nodes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -65,12 +66,12 @@ std::string text(double x) {
   return buffer;
 }
 
-/// The patch of a nodal load: so narrow that it holds the node alone.
+/// The patch of a nodal load: so narrow that it holds one node.
 double nodalRadius(const PatchSurface& surface) {
   return 1e-6 * surface.medianEdge();
 }
 
-/// a as given or by default; a patch that reaches no neighbour is a point load, one as wide as the organ no
+/// The given or default a. A patch that reaches no neighbour is a point load; one as wide as the organ is no
 /// contact.
 double patchRadius(const Case& c, const PatchSurface& surface) {
   if (c.nodalLoad()) return nodalRadius(surface);
@@ -118,7 +119,7 @@ void storeMesh(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::M
 ContactPositions contactPositions(const FeModel& model, const PatchSurface& surface,
                                   const std::vector<bool>& accessible, double patch_radius,
                                   const mesh::TetMesh& mesh) {
-  // A helper needs enough of its patch on free nodes to say something of its own.
+  // A helper needs enough of its patch on free nodes to have an answer of its own.
   constexpr double kEnough = 0.05;
   std::vector<bool> wanted = accessible;
   for (const auto& t : surface.triangles)

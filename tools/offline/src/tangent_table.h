@@ -9,22 +9,22 @@
 
 namespace palpate::offline {
 
-/// K_T(u_s) of all positions at one load level. Values of as many positions as the memory allows are kept, those
-/// of the others assembled whenever they are asked for. One thread per worker number.
+/// K_T(u_s) of all positions at one load level. It keeps the values of as many positions as the memory
+/// allows, and assembles the others at each request. One thread per worker number.
 class TangentTable {
  public:
   using View = Eigen::Map<const SparseMatrix>;
 
-  /// @param bytes  what the kept values may take
+  /// @param bytes  limit of the kept values
   TangentTable(const ParametricProblem& problem, double bytes, int workers);
 
-  /// From now on K_T(0) for every displacement, or no longer.
+  /// Whether every displacement has K_T(0) from now on.
   void holdConstant(bool constant) noexcept { constant_ = constant; }
   [[nodiscard]] bool constant() const noexcept { return constant_; }
 
-  /// Assembles K_T(u) for position s. The view holds until this worker's next call.
+  /// Assembles K_T(u) for position s. The view is valid until this worker's next call.
   View assemble(int worker, int s, const Eigen::VectorXd& u);
-  /// The matrix of the last assemble() of s. @param u  that displacement again, called only when not kept
+  /// The matrix of the last assemble() of s. @param u the same displacement, called only when s is not kept
   template <typename Displacement>
   View at(int worker, int s, const Displacement& u) {
     return constant_ || s < kept() ? view(worker, s) : assemble(worker, s, u());
@@ -37,7 +37,7 @@ class TangentTable {
   const ParametricProblem& problem_;
   bool constant_{true};
   std::vector<Eigen::VectorXd> values_;  ///< of the first positions
-  std::vector<SparseMatrix> work_;       ///< one a worker
+  std::vector<SparseMatrix> work_;       ///< one per worker
 };
 
 }  // namespace palpate::offline

@@ -12,12 +12,12 @@ namespace palpate::offline {
 using SparseMatrix = Eigen::SparseMatrix<double>;  ///< column by column
 
 /// Factorization of the tangent stiffness on the unknowns of an FeModel, by CHOLMOD (METIS ordering,
-/// supernodal). The symbolic analysis is done once, at construction; factorize() may be called any number of
-/// times. Const functions and Solvers of one factor may work in several threads at once.
+/// supernodal). The constructor does the symbolic analysis; factorize() may be called any number of times.
+/// Several threads may call const functions and use Solvers of one factor at once.
 class Cholesky {
  public:
   explicit Cholesky(const FeModel& model);
-  /// Of any symmetric matrix, both triangles present; analyses and factorizes it.
+  /// Analyses and factorizes any symmetric matrix that stores both triangles.
   explicit Cholesky(const SparseMatrix& K);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
@@ -35,7 +35,7 @@ class Cholesky {
   /// Unknowns of K0 x = b. @param b  dofs x columns
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 
-  /// Solves for many right-hand sides with memory of its own, so that several threads share one factor.
+  /// Solves for many right-hand sides. Its memory is its own, so several threads can share one factor.
   class Solver {
    public:
     explicit Solver(const Cholesky& factor);

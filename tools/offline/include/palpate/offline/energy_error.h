@@ -8,7 +8,7 @@
 
 namespace palpate::offline {
 
-// For evaluation only: what is here solves at every load position, block by block. The PGD never does.
+// For evaluation only: these functions solve at every load position, block by block. The PGD never does.
 
 /// sum_s w_s |u_s - v_s|^2 over sum_s w_s |u_s|^2 in the energy norm, its root; u_s the full solutions of the
 /// linear problem, v_s = X Y(s). @throw std::invalid_argument when sizes do not fit
@@ -22,7 +22,7 @@ namespace palpate::offline {
 [[nodiscard]] Eigen::VectorXd energySingularValues(const Eigen::MatrixXd& compliance,
                                                    const Eigen::VectorXd& weights);
 
-/// The least energy error that n pairs can have: sqrt(sum_{k>n} sigma_k^2 / sum_k sigma_k^2).
+/// Smallest energy error that n pairs can reach: sqrt(sum_{k>n} sigma_k^2 / sum_k sigma_k^2).
 [[nodiscard]] double bestError(const Eigen::VectorXd& singular_values, Eigen::Index n);
 
 }  // namespace palpate::offline

@@ -11,15 +11,15 @@
 
 namespace palpate::offline {
 
-/// What the fit works on. The table holds U_alpha unscaled, rows node-interleaved.
+/// Input of the fit. The table holds U_alpha unscaled, rows node-interleaved.
 struct FitProblem {
   const FieldTable& table;
   const MonomialBasis& basis;
   std::span<const double> areas;        ///< Ns, m^2
   std::span<const FitWeights> weights;  ///< M
   std::span<const double> ball_radius;  ///< M, m (N): the mean is over this ball
-  double reference;                     ///< d_ref, m (f_ref, N): polynomials are ones in d / d_ref
-  /// M, m: the displacement that the errors of each position are measured by; empty: d_ref for all
+  double reference;                     ///< d_ref, m (f_ref, N): polynomials are in d / d_ref
+  /// M, m: displacement that the errors of each position are relative to; empty: d_ref for all
   std::span<const double> size{};
 };
 
@@ -37,9 +37,9 @@ struct FarField {
   std::vector<double> errors;  ///< after each sweep: RMS of the error over RMS of the field, in the weights
 };
 
-/// Weighted alternating directions: least squares in X and Y in turn of what remains wrong after the near
-/// field has done its part, the weight of node i for position s being A_i (1 - window(r_is))^2 g(r_is); over
-/// d uniform in the ball of each position, relative to |d|. Entries under a window of 1 are free.
+/// Weighted alternating directions: least squares in X and Y in turn, of the error that remains after the
+/// near field. The weight of node i for position s is A_i (1 - window(r_is))^2 g(r_is); d is uniform in the
+/// ball of each position and the error relative to |d|. Entries under a window of 1 are free.
 /// Source: docs/design.md, Parts; g and the mean over the ball are ours. Reads the table once a sweep.
 /// @throw std::runtime_error on a bad table
 [[nodiscard]] FarField fitFarField(const FitProblem& problem, const FitOptions& options);

@@ -7,8 +7,9 @@
 
 namespace palpate::offline {
 
-/// (sum det F V) / (sum V) - 1: what a displacement adds to the volume of the body, relative. Linear solutions
-/// of large bending gain volume without a cause.                                 paper Sections 3 and 4.2
+/// (sum det F V) / (sum V) - 1: relative change of the body's volume. Linear solutions of large bending gain
+/// volume without a physical cause.
+///                                                                                   paper Sections 3 and 4.2
 /// @param u  3 N, m
 [[nodiscard]] double volumeChange(const FeModel& model, const Eigen::VectorXd& u);
 

@@ -7,12 +7,12 @@
 
 namespace palpate::offline {
 
-/// The fields of all contact positions, [position][coefficient][row] in float32, in a scratch file: the whole
-/// never stands in memory. The file has no name once it is open, so that nothing is left behind whatever
-/// happens. Threads: any number may read and write different positions.
+/// The fields of all contact positions, [position][coefficient][row] in float32, in a scratch file: memory
+/// never holds the whole table. The file loses its name once it is open, so the system removes it however the
+/// program ends. Threads: any number may read and write different positions.
 class FieldTable {
  public:
-  /// @param folder  where the scratch file lives  @throw std::runtime_error when it cannot be made that large
+  /// @param folder  where the scratch file lives  @throw std::runtime_error when the disk has no room for it
   FieldTable(const std::filesystem::path& folder, std::size_t positions, std::size_t coefficients,
              std::size_t rows);
   ~FieldTable();

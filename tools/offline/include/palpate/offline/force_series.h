@@ -8,14 +8,15 @@
 
 namespace palpate::offline {
 
-/// How many modes a series is compressed to, and by how many sweeps of the fit.
+/// Number of modes that a series is compressed to, and sweeps of the fit.
 struct FitSize {
   int modes{167};  ///< n, >= 1
   int sweeps{6};   ///< >= 1
 };
 
-/// Method series-force: u(X; s, f) = sum_k X_k(X) sum_alpha (f / f_ref)^alpha Y_k,alpha(s), compressed to each of
-/// several sizes; the series itself is solved once.                      docs/design.md, Reproduction, Series
+/// Method series-force: u(X; s, f) = sum_k X_k(X) sum_alpha (f / f_ref)^alpha Y_k,alpha(s), compressed to
+/// several sizes. The series itself is solved once.
+///                                                                       docs/design.md, Reproduction, Series
 /// @param report  of the last size  @return one model for each size
 /// @throw CaseError, std::runtime_error
 [[nodiscard]] std::vector<modelfile::ModelData> buildForceSeries(const Case& c, const mesh::TetMesh& mesh,

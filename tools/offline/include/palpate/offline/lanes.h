@@ -7,8 +7,8 @@
 
 namespace palpate::offline {
 
-/// Several contact positions go through the same arithmetic at once: one number of each, side by side, so
-/// that a vector unit of any width has whole registers to work on.
+/// Several contact positions share the same arithmetic: their numbers lie side by side and fill the registers
+/// of a vector unit of any width.
 inline constexpr int kLanes = 8;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
@@ -19,8 +19,7 @@ using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 #define PALPATE_MULTIVERSION
 #endif
 
-/// Puts Lanes where the widest vector unit can load them: as a template argument the type loses its
-/// alignment.
+/// Aligns Lanes for the widest vector unit: as a template argument the type loses its alignment.
 template <typename T>
 struct LaneAllocator {
   using value_type = T;

@@ -14,9 +14,9 @@ struct LevelSolution {
   Eigen::MatrixXd Z;  ///< C x (steps + 1), largest entry of each row 1, no unit
 
   std::vector<int> born;         ///< pairs born in each load step
-  std::vector<double> residual;  ///< relative residual of each load step when it ended, see ExplicitOptions
-  int pairs{0};                  ///< in the end, before X was cut to the modes asked for
-  int recompressions{0};         ///< times that X was recompressed on the way
+  std::vector<double> residual;  ///< relative residual at the end of each load step, see ExplicitOptions
+  int pairs{0};                  ///< at the end, before X was cut to LevelCut::modes
+  int recompressions{0};         ///< number of times that X was recompressed
   double seconds{0.0};
 
   [[nodiscard]] int modes() const noexcept { return static_cast<int>(X.cols()); }
@@ -34,10 +34,10 @@ struct LevelHistory {
   std::vector<Eigen::MatrixXd> Y;  ///< Y_j at t_1 .. t_steps; n_j x M, n_j <= n: later pairs are zero
 };
 
-/// How a history becomes a LevelSolution.
+/// How to turn a history into a LevelSolution.
 struct LevelCut {
   int modes{0};             ///< X kept, 0 for all
-  double tolerance{1e-10};  ///< of what the level functions leave out, relative
+  double tolerance{1e-10};  ///< relative error of the level functions
   int max_levels{119};      ///< level functions, >= 1
 };
 

@@ -21,11 +21,11 @@ struct LinearPgdOptions {
   double tolerance{1e-3};       ///< stop at this dual norm of the residual over that of the loads, [0, 1)
   int max_sweeps{3};            ///< alternating directions for a pair (or block), >= 1
   double pair_tolerance{1e-2};  ///< stop a pair at this change of the normalized pair in a sweep, >= 0
-  int update{8};                ///< all Y again for fixed X every so many pairs, >= 0; 0: never
-  int block{8};                 ///< pairs iterated at once, >= 1; scalar only, Hadamard takes one at a time
+  int update{8};                ///< pairs between updates of all Y for fixed X, >= 0; 0: never
+  int block{8};                 ///< pairs iterated at once, >= 1; scalar only, Hadamard iterates one
   int residual_every{8};        ///< pairs between estimates of the residual, >= 1
-  int probes{24};  ///< random combinations of positions that the residual is estimated with, >= 2
-  int workers{1};  ///< threads of the solves, >= 1
+  int probes{24};               ///< random combinations of positions that estimate the residual, >= 2
+  int workers{1};               ///< threads of the solves, >= 1
   unsigned seed{1};
   bool quiet{false};
 };
@@ -35,13 +35,13 @@ struct LinearPgdOptions {
 
 /// Linear parametric PGD: K u_s = l_s for all s at once, by greedy enrichment with alternating directions;
 /// no full solution at a load position is ever formed.                      paper Eqs. (1)-(12), docs/design.md, Reproduction
-/// Differs from the paper: a pair stops on its change and the enrichment on the energy norm of the residual;
-/// pairs may be iterated in blocks, and all Y computed again (Galerkin) for fixed X.
-/// The residual's dual norm (the energy norm of the error) is estimated without bias from solutions for a
-/// few random combinations of the loads; EnrichmentStep::spread says how sharply. It is that of the problem
-/// with the truncated load.
+/// Differs from the paper: a pair stops when it changes little, and the enrichment when the energy norm of
+/// the residual is small. Pairs may be iterated in blocks, and a Galerkin step may update all Y for fixed X.
+/// Solutions for a few random combinations of the loads estimate the residual's dual norm (the energy norm of
+/// the error) without bias; EnrichmentStep::spread is the estimate's standard deviation. With a truncated
+/// load it is the norm for that load.
 /// @throw std::invalid_argument naming the option that is out of range, std::runtime_error when K is singular
-/// Memory O((dofs + M) n). Cost a pair and sweep: one solve, O((dofs + M) n); Hadamard: one factorization.
+/// Memory O((dofs + M) n). Cost per pair and sweep: one solve, O((dofs + M) n); Hadamard: one factorization.
 [[nodiscard]] SeparatedSolution solveLinearPgd(const ParametricProblem& problem,
                                                const LinearPgdOptions& options);
 

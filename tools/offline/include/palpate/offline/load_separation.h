@@ -9,7 +9,7 @@ namespace palpate::offline {
 
 /// The regularized Dirac loads of all positions, in separated form:
 ///   l(x, s) = sum_i f^i(x) g^i(s),  i = 1 .. m                                                  paper Eq. (2)
-/// The paper does not say how f and g are had. Here they are the best m terms in the mean over s (SVD of the
+/// The paper does not say how to find f and g. Here they are the best m terms in the mean over s (SVD of the
 /// nodal forces in the weights of the positions). Without truncation the sparse loads themselves are kept.
 class SeparatedLoad {
  public:
@@ -21,7 +21,7 @@ class SeparatedLoad {
 
   [[nodiscard]] Eigen::Index dofs() const noexcept { return truncated_ ? f_.rows() : loads_.rows(); }
   [[nodiscard]] Eigen::Index positions() const noexcept { return truncated_ ? g_.cols() : loads_.cols(); }
-  /// m, or 0 where nothing is truncated.
+  /// m, or 0 without truncation.
   [[nodiscard]] Eigen::Index terms() const noexcept { return f_.cols(); }
   /// sqrt(sum_s w_s |l_s - sum f g|^2 / sum_s w_s |l_s|^2) in nodal forces; good to 1e-8.
   [[nodiscard]] double truncationError() const noexcept { return error_; }
@@ -34,7 +34,7 @@ class SeparatedLoad {
  private:
   bool truncated_{false};
   double error_{0.0};
-  SparseMatrix loads_;  // while not truncated
+  SparseMatrix loads_;  // without truncation
   Eigen::MatrixXd f_;   // dofs x m, orthonormal
   Eigen::MatrixXd g_;   // m x M, N
 };

@@ -12,7 +12,7 @@ namespace palpate::offline {
 /// rho. docs/design.md, Parts
 [[nodiscard]] double nearWindow(double r, double rho) noexcept;
 
-/// The surface nodes that the near field of one contact position holds.
+/// The surface nodes in the near field of one contact position.
 struct NearNodes {
   std::vector<std::int32_t> nodes;  ///< surface nodes with |X_i - X_s| < rho, ascending
   std::vector<float> window;        ///< nearWindow of each
@@ -20,14 +20,14 @@ struct NearNodes {
 
 [[nodiscard]] NearNodes nearNodes(const PatchSurface& surface, const Vec3& x, double rho);
 
-/// How much more or less than its area a node counts in the fit for one contact position.
+/// How the weight of a node in the fit differs from its area, for one contact position.
 struct FitWeights {
   std::vector<std::int32_t> nodes;  ///< surface nodes whose weight is not 1, ascending
   std::vector<float> change;        ///< weight - 1 of each: (1 - nearWindow(r))^2 g(r) - 1
 };
 
-/// g(r) = max(1, 3 rho / r)^2.5: least squares over the area alone would let a narrow ring of large errors
-/// stand round the near field, since the ring is small; what a user sees is the largest error.
+/// g(r) = max(1, 3 rho / r)^2.5: a ring of large errors round the near field has little area, so least
+/// squares over the area alone would keep it. A user sees the largest error.
 [[nodiscard]] FitWeights fitWeights(const PatchSurface& surface, const Vec3& x, double rho);
 
 }  // namespace palpate::offline

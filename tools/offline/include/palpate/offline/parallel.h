@@ -6,12 +6,12 @@
 
 namespace palpate::offline {
 
-/// Runs work(worker, chunk) for chunk = 0 .. chunks - 1, each once, on `workers` threads; BLAS is held to one
-/// thread meanwhile. The first exception of a worker stops the others and is thrown here.
+/// Runs work(worker, chunk) for chunk = 0 .. chunks - 1, each once, on `workers` threads; BLAS uses one
+/// thread meanwhile. The first exception of a worker stops the others and is thrown again here.
 void parallelFor(int workers, std::size_t chunks,
                  const std::function<void(int worker, std::size_t chunk)>& work);
 
-/// Threads that the machine offers, at least 1.
+/// Hardware threads of the machine, at least 1.
 [[nodiscard]] int machineThreads();
 
 }  // namespace palpate::offline

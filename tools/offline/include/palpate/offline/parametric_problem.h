@@ -13,7 +13,8 @@
 
 namespace palpate::offline {
 
-/// Equilibrium at every load position at once, the problem of the paper's track (Eq. 1, docs/design.md, Reproduction):
+/// Equilibrium at every load position at once, the problem of the paper's methods (Eq. 1, docs/design.md,
+/// Reproduction):
 ///   f_int(u_s) = t l_s,  s = 1 .. M,  t in [0, 1].
 /// M counts right-hand sides: load positions, or positions times directions. Vectors hold the unknowns (dofs)
 /// only. Const functions may be called from any number of threads.
@@ -26,7 +27,7 @@ class ParametricProblem {
   [[nodiscard]] virtual const SparseMatrix& loads() const noexcept = 0;
   /// Quadrature weights of the integral over the load positions (lumped areas or lengths), M, > 0.
   [[nodiscard]] virtual const Eigen::VectorXd& weights() const noexcept = 0;
-  /// K_T(u) with the pattern of `K`, both triangles, N/m. @param[in,out] K  a copy of pattern(), overwritten
+  /// Writes K_T(u), both triangles, N/m, into `K`. @param[in,out] K  a copy of pattern(), overwritten
   virtual void tangent(const Eigen::VectorXd& u, SparseMatrix& K) const = 0;
   /// Nodal forces of the stresses at u, dofs, N.
   [[nodiscard]] virtual Eigen::VectorXd internalForce(const Eigen::VectorXd& u) const = 0;
@@ -64,7 +65,7 @@ class BodyProblem final : public ParametricProblem {
   SparseMatrix loads_;
   Eigen::VectorXd weights_;
   SparseMatrix stiffness_;
-  std::vector<std::int32_t> places_;  ///< 144 per element: where each entry of its tangent goes, -1 for none
+  std::vector<std::int32_t> places_;  ///< 144 per element: where each entry of its tangent goes, -1: nowhere
 };
 
 /// Loads f_j on each patch: column (s, j) = G_s f_j, position-major.                  docs/design.md, Symbols

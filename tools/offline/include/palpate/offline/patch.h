@@ -13,12 +13,13 @@
 
 namespace palpate::offline {
 
-/// The surface that a tool may touch, in surface-node numbering, with what patches are measured by.
+/// The surface that a tool may touch, in surface-node numbering, with the graph and areas that define
+/// patches.
 struct PatchSurface {
   std::vector<std::int32_t> nodes;                     ///< Ns volume nodes, in any order
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, outward
   std::vector<Vec3> positions;                         ///< Ns, m
-  SurfaceGraph graph;                                  ///< the same, as distances are measured on it
+  SurfaceGraph graph;                                  ///< of the same surface, for distances along it
   std::vector<double> areas;                           ///< Ns lumped rest areas A_i, m^2
 
   PatchSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
@@ -47,7 +48,7 @@ struct Patch {
   }
 };
 
-/// Distances along the surface from s to the nodes nearer than a bound, as the running system measures them
+/// Distances along the surface from s to the nodes nearer than a bound, computed as the server does
 /// (core's SurfaceFront). docs/design.md, Parts
 /// @return pairs (surface node, distance in m), nearest first
 [[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const PatchSurface& surface,
@@ -55,7 +56,7 @@ struct Patch {
                                                                             double bound);
 
 /// w_i(s) proportional to A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, restricted to free nodes, sum 1.
-/// docs/design.md, Symbols, Parts. A patch no node of which is free comes back empty with free_share 0.
+/// docs/design.md, Symbols, Parts. A patch without a free node is empty and has free_share 0.
 [[nodiscard]] Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s,
                               double a);
 

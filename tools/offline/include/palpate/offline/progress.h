@@ -9,8 +9,8 @@
 
 namespace palpate::offline {
 
-/// One line of progress on standard error: done, elapsed, time left. On a terminal it renews itself; in a log
-/// it comes at most every ten seconds. Says nothing before two seconds have passed. Any thread may call
+/// One line of progress on standard error: done, elapsed, time left. On a terminal it overwrites itself; in a
+/// log it appears at most every ten seconds. Prints nothing in the first two seconds. Any thread may call
 /// advance().
 class Progress {
  public:

@@ -22,7 +22,7 @@ struct RodData {
 
 /// One-dimensional Saint Venant-Kirchhoff rod, clamped at x = 0, pulled by F at any of its nodes.   paper 4.1
 ///   P = E A (l^3 - l) / 2, l = 1 + du/dX the stretch; linear elements, so that nodal values are exact.
-/// One unknown a node, node i at x = (i + 1) L / N; position s_i is node i, its weight the lumped length.
+/// One unknown per node, node i at x = (i + 1) L / N; position s_i is node i, its weight the lumped length.
 class RodProblem final : public ParametricProblem {
  public:
   /// @throw std::invalid_argument naming the first value that is out of range

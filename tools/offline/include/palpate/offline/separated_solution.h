@@ -6,13 +6,13 @@
 
 namespace palpate::offline {
 
-/// Pairs of one function of the place and one of the parameters: u(x, s) = sum_k X_k(x) Y_k(s).
+/// Pairs of a function of the place and a function of the parameters: u(x, s) = sum_k X_k(x) Y_k(s).
 struct ScalarPairs {
   Eigen::MatrixXd X;  ///< dofs x n
   Eigen::MatrixXd Y;  ///< n x M
 };
 
-/// What one step of the enrichment came to.
+/// Result of one step of the enrichment.
 struct EnrichmentStep {
   int pairs{0};          ///< so far
   int sweeps{0};         ///< alternating directions for the pairs of this step
@@ -31,7 +31,7 @@ struct SeparatedSolution {
   double load_error{0.0};  ///< of the truncated load, relative, SeparatedLoad::truncationError
 
   [[nodiscard]] Eigen::Index pairs() const noexcept { return X.cols(); }
-  /// Scalar pairs that one pair stands for: the number of components.
+  /// Scalar pairs in one pair: the number of components.
   [[nodiscard]] int terms() const noexcept { return static_cast<int>(Y.size()); }
   /// Adds pairs. @param R  dofs x b  @param S  b x M for each set of Y
   void append(const Eigen::MatrixXd& R, const std::vector<Eigen::MatrixXd>& S);
@@ -43,8 +43,9 @@ struct SeparatedSolution {
   [[nodiscard]] ScalarPairs scalarPairs() const;
 };
 
-/// Columns R_j e_c: every column once for each component, zero at the unknowns of the others, those of one
-/// column together.                                                                             paper Eq. (6)
+/// Columns R_j e_c: each column once per component, zero at the other components' unknowns; those of one R_j
+/// adjoin.
+///                                                                                              paper Eq. (6)
 /// @param components  empty: R itself  @return dofs x (columns * count)
 [[nodiscard]] Eigen::MatrixXd byComponent(const Eigen::MatrixXd& R, const std::vector<int>& components,
                                           int count);

@@ -12,7 +12,7 @@
 namespace palpate::offline {
 
 /// The contact positions of an organ: the accessible nodes, then the helpers beside them: nodes that share a
-/// triangle with an accessible one, so that the rim is interpolated between patches like everywhere else.
+/// triangle with an accessible one, so that touches at the rim also interpolate between patches.
 struct ContactPositions {
   std::vector<std::int32_t> nodes;       ///< M surface nodes
   std::vector<std::uint8_t> accessible;  ///< M, 0 for helpers
@@ -24,7 +24,7 @@ struct ContactPositions {
                                                 const std::vector<bool>& accessible, double patch_radius,
                                                 const mesh::TetMesh& mesh);
 
-/// The organ as every method solves it: body, surface, patches.                       docs/design.md, Symbols
+/// The organ for every method: body, surface, patches.                       docs/design.md, Symbols
 struct SolverSetup {
   FeModel model;
   PatchSurface surface;

@@ -8,8 +8,9 @@
 
 namespace palpate::offline {
 
-/// Modes, an empty near field, and the contact displacement d_alpha(s) = G_s^T sum_k X_k Y_k,alpha(s): what
-/// the modes give, so that the field that is shown and the contact agree.        docs/design.md, Reproduction
+/// Modes, an empty near field, and the contact displacement d_alpha(s) = G_s^T sum_k X_k Y_k,alpha(s): the
+/// displacement of the modes, so that the field on screen and the contact agree.
+///                                                                               docs/design.md, Reproduction
 /// @param X  3 Ns x n  @param Y  n x (M C), column position * C + alpha, m
 void storeModes(const SolverSetup& setup, const Eigen::MatrixXf& X, const Eigen::MatrixXf& Y,
                 modelfile::ModelData& data);
