@@ -19,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTick = 1e-3;  // s
 
-/// How the tool moves and what holds it.
+/// Motion of the tool, friction and coupling.
 struct State {
   const char* name;
   double depth;     ///< of the tip below the surface, m; below 0: above it

@@ -5,9 +5,9 @@
 
 namespace palpate::bench {
 
-/// Registers contact_force/<state>: what step() does for one tool between its pose and its force (contact, coupling,
-/// friction, damper, limiter; no field), over random slides on the model, one figure for each state that a contact can
-/// be in. `model` must live until the benchmarks have run.
+/// Registers contact_force/<state>: the part of step() from one tool's pose to its force (contact, coupling,
+/// friction, damper, limiter; no field), over random slides on the model, one time for each state of a
+/// contact. `model` must live until the benchmarks have run.
 void registerContactForce(const MetaModel& model);
 
 }  // namespace palpate::bench

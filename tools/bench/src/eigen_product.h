@@ -5,12 +5,12 @@
 
 namespace palpate::bench {
 
-/// u = X^T y by Eigen, float32: what a program without kernels of its own would do. Built for several
-/// instruction sets, the widest that the processor has is taken. @param X  [n][rows], @param y  [n], @param u
+/// u = X^T y by Eigen, float32: the choice of a program without kernels of its own. Built for several
+/// instruction sets; it uses the widest that the processor has. @param X  [n][rows], @param y  [n], @param u
 /// [rows], overwritten
 void eigenProduct(std::span<const float> X, std::span<const float> y, std::span<float> u);
 
-/// Instruction set that eigenProduct() takes here: "avx512", "avx2" or "baseline".
+/// Instruction set that eigenProduct() uses here: "avx512", "avx2" or "baseline".
 [[nodiscard]] const char* eigenInstructions();
 
 }  // namespace palpate::bench

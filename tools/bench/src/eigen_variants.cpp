@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once for each instruction set (CMakeLists.txt). Eigen's namespace gets another name each time: its
-// inline functions are the same by name and not by code, and the linker would keep one of them for all.
+// Compiled once for each instruction set (CMakeLists.txt). Each time Eigen's namespace gets another name: the
+// variants' inline functions differ in code, and under equal names the linker would keep one for all.
 #define Eigen PALPATE_EIGEN_NAMESPACE
 #include "eigen_variants.h"
 

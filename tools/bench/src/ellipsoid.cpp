@@ -14,7 +14,7 @@ struct Ring {
   [[nodiscard]] std::int32_t node(std::int32_t i) const { return first + i % count; }
 };
 
-/// Rings whose counts follow their lengths and add up exactly, by rounding the running sum.
+/// Rings with node counts in proportion to their lengths. Rounding the running sum makes the total exact.
 std::vector<Ring> ringsOf(int nodes, int between) {
   double whole = 0.0, sum = 0.0;
   for (int r = 1; r <= between; ++r) whole += std::sin(std::numbers::pi * r / (between + 1));
@@ -30,7 +30,7 @@ std::vector<Ring> ringsOf(int nodes, int between) {
   return rings;
 }
 
-/// Triangles between a ring and the one below it: whichever has its next node first goes on.
+/// Triangles between a ring and the one below it: the ring whose next node comes first advances.
 void stitch(const Ring& upper, const Ring& lower, std::vector<std::array<std::int32_t, 3>>& triangles) {
   const std::int32_t ends_up = upper.count > 1 ? upper.count : 0,
                      ends_low = lower.count > 1 ? lower.count : 0;

@@ -14,8 +14,8 @@ struct Ellipsoid {
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise from outside, closed
 };
 
-/// A closed surface with exactly so many nodes, about equally far from each other: rings of latitude, each
-/// ring stitched to the next. @param[in] nodes  at least 20, @param[in] semi_axes  m
+/// A closed surface with a given number of nodes at about equal distances: rings of latitude, each ring
+/// joined to the next. @param[in] nodes  at least 20, @param[in] semi_axes  m
 [[nodiscard]] Ellipsoid ellipsoid(int nodes, const Vec3& semi_axes);
 
 }  // namespace palpate::bench

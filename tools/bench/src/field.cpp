@@ -20,14 +20,14 @@ struct Size {
 constexpr Size kSizes[] = {{500, 20},    {500, 100},  {500, 300},   {2009, 40},   {2009, 100},
                            {2009, 167},  {2009, 300}, {5000, 100},  {10000, 100}, {20000, 20},
                            {20000, 100}, {50000, 20}, {50000, 100}, {50000, 300}};
-constexpr int kPositions = 300;  // a way of 5 mm sees few of them
+constexpr int kPositions = 300;  // a path of 5 mm meets few of them
 
 const char* nameOf(Runner who) {
   constexpr std::array<const char*, kRunners.size()> kNames{"palpate", "eigen_f32", "plain_read"};
   return kNames[static_cast<std::size_t>(who)];
 }
 
-/// The race of one size, held when it is first asked for. Only the last one is kept: large models fill the memory.
+/// The race of one size, run at its first use. Only the last race is kept: large models fill the memory.
 FieldRace& raceOf(const Size& size, double seconds) {
   static Size held{};
   static std::unique_ptr<FieldRace> race;

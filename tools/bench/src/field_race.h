@@ -11,25 +11,25 @@
 
 namespace palpate::bench {
 
-/// Who runs: the field as the server evaluates it, the product of the modes alone by Eigen in float32, and a
-/// plain read of the bytes of the modes that the server's model has.
+/// The runners: the field as the server evaluates it, the product of the modes alone by Eigen in float32, and
+/// a plain read of the bytes of the modes of the server's model.
 enum class Runner { kPalpate, kEigen, kPlainRead };
 inline constexpr std::array<Runner, 3> kRunners{Runner::kPalpate, Runner::kEigen, Runner::kPlainRead};
 
-/// One size of field evaluation, the three runners in turn on one synthetic model, each evaluation with
-/// another contact and other amplitudes, as they follow each other in a slide.
+/// One size of field evaluation: the three runners in turn on one synthetic model. Each evaluation has
+/// another contact and other amplitudes, in the order of a slide.
 class FieldRace {
  public:
   /// @throw modelfile::ModelFileError, LoadError
   explicit FieldRace(const SyntheticSize& size);
 
-  /// The three in alternating blocks, so that who disturbs the machine disturbs all alike. In a block each
-  /// runner has it warm: the first two evaluations do not count. @param[in] seconds  for all of it, at least
+  /// Runs the three in alternating blocks, so that other work on the machine disturbs all alike. The first
+  /// two evaluations of a block warm the caches and do not count. @param[in] seconds  for all of it, at least
   /// six rounds
   void measure(double seconds);
   [[nodiscard]] const Samples& samples(Runner who) const { return samples_[static_cast<std::size_t>(who)]; }
 
-  /// One evaluation; the next one is another.
+  /// One evaluation; the next call takes the next contact.
   void run(Runner who);
   /// Bytes of modes that one evaluation reads.
   [[nodiscard]] std::size_t bytes(Runner who) const;

@@ -5,7 +5,7 @@
 
 namespace palpate::bench {
 
-/// Registers load/default: from a model file, in the system's cache, to a model that step() can run on.
+/// Registers load/default: from a model file in the system's cache to a model that step() can use.
 void registerLoad(const std::filesystem::path& model);
 
 }  // namespace palpate::bench

@@ -29,7 +29,7 @@ struct Options {
   int modes{100};
 };
 
-/// Google Benchmark's own option, which it does not tell: how long each benchmark runs, s.
+/// Google Benchmark's own option, which has no getter: how long each benchmark runs, s.
 double leastSeconds(int argc, char** argv) {
   constexpr std::string_view kOption = "--benchmark_min_time=";
   for (int i = 1; i < argc; ++i)
@@ -37,7 +37,7 @@ double leastSeconds(int argc, char** argv) {
   return 0.5;
 }
 
-/// The model asked for, or the one of tools/demo: under this folder or where this program was built.
+/// The given model, or the one of tools/demo: under this folder or where this program was built.
 std::optional<std::filesystem::path> chooseModel(const Options& options) {
   if (!options.model.empty()) return options.model;
   std::error_code gone;
@@ -49,14 +49,14 @@ std::optional<std::filesystem::path> chooseModel(const Options& options) {
 }
 
 int run(const Options& options, double seconds) {
-  // 1. One processor, and what disturbs on it.
+  // 1. One processor, and other work that disturbs it.
   const int cpu = pinTo(options.cpu);
   if (options.realtime) raiseLikeTheTick();
   for (const std::string& what : disturbances(cpu)) std::cerr << "palpate-bench: " << what << "\n";
   benchmark::AddCustomContext("pinned_to_cpu", std::to_string(cpu));
   benchmark::AddCustomContext("eigen_instructions", eigenInstructions());
   if (options.scale) return printScale(options.modes) ? 0 : 1;
-  // 2. What there is to measure.
+  // 2. The benchmarks.
   registerFields(seconds);
   std::optional<MetaModel> model;
   if (const auto path = chooseModel(options)) {

@@ -17,7 +17,7 @@ __attribute__((target_clones("avx512f", "avx2", "default")))
 std::uint64_t
 plainRead(std::span<const std::byte> bytes) noexcept {
   constexpr std::size_t kBlock = 8 * sizeof(Words);
-  Words sum[8] = {};  // so that no addition waits for the one before
+  Words sum[8] = {};  // so that no addition waits for the previous one
   std::size_t i = 0;
   for (; i + kBlock <= bytes.size(); i += kBlock)
     for (std::size_t k = 0; k < 8; ++k) {

@@ -7,9 +7,8 @@
 
 namespace palpate::bench {
 
-/// Reads every byte once, as fast as the processor's vectors do, and does next to nothing with it: the least
-/// time in which anything that needs these bytes can be done. @return their sum in words of eight, so that no
-/// read is left out
+/// Reads every byte once, at the speed of the processor's vectors, and only adds: no work on these bytes can
+/// be faster. @return their sum in words of eight bytes, so that the compiler keeps every read
 [[nodiscard]] std::uint64_t plainRead(std::span<const std::byte> bytes) noexcept;
 
 }  // namespace palpate::bench

@@ -11,7 +11,7 @@ namespace palpate::bench {
 /// Times of single evaluations, one by one, on a monotonic clock.
 class Samples {
  public:
-  /// Runs `work` and keeps how long it took.
+  /// Runs `work` and stores its time.
   template <typename Work>
   void time(Work&& work) {
     const auto start = std::chrono::steady_clock::now();

@@ -3,10 +3,9 @@
 
 namespace palpate::bench {
 
-/// Prints, size by size, how long a whole step() with near field takes on a synthetic model with so many
-/// modes, beginning at 20,000 surface nodes, and the largest that was found to fit: p99 below a millisecond,
-/// the period at 1 kHz. Larger ones are tried up to 100,000 nodes, smaller ones down to 500. @return whether
-/// any fitted
+/// Prints, for each size, the time of a whole step() with near field on a synthetic model with `modes` modes,
+/// and the largest size that fits: p99 below a millisecond, the period at 1 kHz. It begins at 20,000 surface
+/// nodes and tries sizes up to 100,000 and down to 500. @return whether a size fits
 bool printScale(int modes);
 
 }  // namespace palpate::bench

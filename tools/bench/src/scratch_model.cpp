@@ -12,7 +12,7 @@ namespace palpate::bench {
 
 namespace {
 
-/// A file's name that nobody else uses; the file is gone when this is.
+/// A unique file name; the destructor removes the file.
 class ScratchFile {
  public:
   ScratchFile()

@@ -18,7 +18,7 @@ constexpr double kDepth = 0.002, kPress = 0.001, kLength = 0.02;  // m
 constexpr int kWays = 20;
 using Ways = std::vector<std::vector<Vec3>>;
 
-/// One tick each millisecond; tool k is on the way `first` + k.
+/// One tick per millisecond; tool k is on path `first` + k.
 void play(const MetaModel& model, const StepConfig& config, const Ways& ways, std::size_t first, int tools,
           StepTimes& out) {
   Workspace work(model, config);

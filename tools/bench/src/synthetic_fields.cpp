@@ -25,7 +25,7 @@ double degreeOf(const MultiIndex& alpha) {
   return alpha[0] + alpha[1] + alpha[2];
 }
 
-/// As many waves over the organ as a harmonic of that number has.
+/// Waves over the organ, as many as the harmonic of that number has.
 Wave randomWave(int mode, std::mt19937& random) {
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> phase(0.0, 6.283);
@@ -34,7 +34,7 @@ Wave randomWave(int mode, std::mt19937& random) {
   return {(direction * count / kSize).cast<float>(), static_cast<float>(phase(random))};
 }
 
-/// Clamped nodes stay where they are.
+/// Clamped nodes do not move.
 void fillX(const Ellipsoid& surface, int modes, std::mt19937& random, ModelData& data) {
   std::vector<float>& X = data.modes_X;
   const std::size_t row = 3 * surface.nodes.size();
@@ -51,7 +51,7 @@ void fillX(const Ellipsoid& surface, int modes, std::mt19937& random, ModelData&
       }
 }
 
-/// Each amplitude a wave over the contact positions; a tenth for each degree more.
+/// Each amplitude is a wave over the contact positions, a tenth for each further degree.
 void fillY(const Ellipsoid& surface, int modes, std::mt19937& random, ModelData& data) {
   const MonomialBasis basis(data.attributes.order);
   std::vector<Wave> waves;
@@ -74,7 +74,7 @@ double window(double r, double radius) {
   return x < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0;
 }
 
-/// What the modes miss: a dent as wide as the patch, a tenth for each degree more, m.
+/// The part that the modes lack: a dent as wide as the patch, a tenth for each further degree, m.
 Vec3 dent(const ModelAttributes& a, const MultiIndex& alpha, double r) {
   const Vec3 along(alpha[0], alpha[1], alpha[2]);
   const double size = 0.3 * a.reference_displacement * std::pow(0.1, degreeOf(alpha) - 1.0);

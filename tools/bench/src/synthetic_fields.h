@@ -6,7 +6,7 @@
 
 namespace palpate::bench {
 
-/// /modes/X and /modes/Y of an invented model whose surface, attributes and contact positions are there.
+/// /modes/X and /modes/Y of a synthetic model that has its surface, attributes and contact positions.
 void fillModes(const Ellipsoid& surface, int modes, modelfile::ModelData& data);
 
 /// /near of the same.

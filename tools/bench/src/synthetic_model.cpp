@@ -24,7 +24,7 @@ constexpr double kOwnError =
     0.01;  // of the fields, over the displacement: docs/design.md, Parts, 60 to 100 modes and a near field
 constexpr int kOrder = 3, kForceOrder = 6;
 
-/// Distance between neighbours, m, as if each had its share of the area in a triangular grid.
+/// Distance between neighbours, m, for nodes that share the area in a triangular grid.
 double edgeOf(const Ellipsoid& surface) {
   double area = 0.0;
   for (const auto& [a, b, c] : surface.triangles) {
@@ -80,7 +80,8 @@ void fillPositions(const Ellipsoid& surface, int positions, ModelData& data) {
   }
 }
 
-/// Coefficient of x^beta, x = d / d_ref, in an energy, J: k/2 |d|^2, and small terms that differ from place to place.
+/// Coefficient of x^beta, x = d / d_ref, in an energy, J: k/2 |d|^2, and small terms that vary with the
+/// place.
 double energyCoefficient(const Vec3& X, const MultiIndex& beta) {
   const double scale = kStiffness * kReference * kReference;
   const int degree = beta[0] + beta[1] + beta[2];

@@ -9,13 +9,14 @@ namespace palpate::bench {
 
 struct WayOptions {
   double depth;       ///< of the tip below the surface, m; below 0: above it
-  double press;       ///< by which it goes deeper and less deep on the way, twice in and out, m
+  double press;       ///< by which the depth varies on the path, twice in and out, m
   double tip_radius;  ///< R, m
   int ways{20};
   double length{0.02};  ///< over the surface, m
 };
 
-/// Tip centres along random smooth slides at 50 mm/s, one a millisecond, each reached from above.
+/// Tip centres along random smooth slides at 50 mm/s, one per millisecond; each slide begins above the
+/// surface.
 [[nodiscard]] std::vector<std::vector<Vec3>> waysOver(const MetaModel& model, const WayOptions& options);
 
 }  // namespace palpate::bench

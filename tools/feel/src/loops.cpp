@@ -13,7 +13,7 @@ namespace palpate::feel {
 
 namespace {
 
-/// Adds up what the hand does.
+/// Sums the work of the hand.
 class Ledger {
  public:
   Ledger(const MetaModel& model, const StepConfig& config) : model_(model), player_(model, config) {}
@@ -48,7 +48,8 @@ class Ledger {
   bool begun_{false}, touched_{false};
 };
 
-/// A closed way of d that begins and ends at zero and never draws: sines of the time along the normal and across.
+/// A closed path of d that begins and ends at zero and never pulls: sines of the time along the normal and
+/// across it.
 class HeldWay {
  public:
   HeldWay(double reach, const Vec3& n, std::mt19937& random) : n_(n) {
@@ -115,8 +116,8 @@ std::vector<LoopResult> slidingLoops(const MetaModel& model, const LoopOptions& 
     const auto to = [&](const PathPoint& p, double d) {
       ledger.to(p.position + (config.tip_radius - d) * p.normal);
     };
-    // From the air to the air: the contact surface is rounded and reaches beyond the mesh, and a loop that began
-    // within it would give back what nobody put in.
+    // The path begins and ends in the air: the contact surface is rounded and extends beyond the mesh, and a
+    // loop that began inside it would return energy that no work put in.
     const double clear = 1e-3 + model.contactSurface().bulge();
     for (double d = -clear; d < depth; d += step) to(path->front(), d);
     for (const PathPoint& point : *path) to(point, depth);

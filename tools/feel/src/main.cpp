@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// palpate-feel: what a hand feels of a model, tried without hardware, threads and clocks.
+// palpate-feel: what a hand feels of a model, computed without hardware, threads and clocks.
 #include "palpate/program/command_line.h"
 #include "palpate/program/run.h"
 #include "studies.h"
@@ -9,7 +9,7 @@ namespace {
 
 void addModel(program::Options& command, Study& study) {
   command.add("model", &study.model, "model file (.h5)").required();
-  command.add("--seed", &study.seed, "of the random places and ways");
+  command.add("--seed", &study.seed, "of the random places and paths");
   command.flag("--json", &study.json, "print one JSON object on standard output");
 }
 
@@ -19,14 +19,14 @@ int body(int argc, char** argv) {
                             "loop, through step().");
   Study study;
   program::Options loops = line.options().subcommand(
-      "loops", "closed ways: does the organ ever give back more energy than it got?");
+      "loops", "closed paths: does the organ ever return more energy than it received?");
   program::Options slides =
       line.options().subcommand("slides", "random smooth slides: does the force click?");
   program::Options coupling =
-      line.options().subcommand("coupling", "a held device presses: up to which coupling is it stable?");
+      line.options().subcommand("coupling", "a device in a hand presses: up to which coupling is it stable?");
   for (program::Options* command : {&loops, &slides, &coupling}) addModel(*command, study);
-  loops.add("--loops", &study.count, "how many of each kind").range(1, 100000);
-  slides.add("--paths", &study.paths, "how many").range(1, 100000);
+  loops.add("--loops", &study.count, "number of loops of each kind").range(1, 100000);
+  slides.add("--paths", &study.paths, "number of slides").range(1, 100000);
   for (program::Options* command : {&loops, &slides})
     command->add("--depth", &study.depth, "of the tip below the surface, m");
   slides.add("--speed", &study.speed, "m/s");

@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kTick = 1e-3;  // s
 
-/// The force of one tick and what it would come to be.
+/// The force of one tick, and its quasi-static limit.
 struct Felt {
   Vec3 force;
   Vec3 settled;
   bool contact;
 };
 
-/// The contact of step() once more, to look ahead without moving it.
+/// A copy of step()'s contact, to look ahead without changing it.
 class Shadow {
  public:
   Shadow(const MetaModel& model, const StepConfig& config)
@@ -48,7 +48,7 @@ StepConfig configOf(const SlideOptions& options) {
   return config;
 }
 
-/// Where the tip is from tick to tick: down from 0.5 mm above the path's begin, then along it.
+/// Position of the tip at each tick: down from 0.5 mm above the start of the path, then along it.
 struct Tips {
   std::vector<Vec3> down;
   std::vector<Vec3> along;
@@ -81,7 +81,8 @@ std::vector<Felt> play(const MetaModel& model, const Tips& tips, const SlideOpti
   return felt;
 }
 
-/// The largest step of the force along the same way at a tenth of the speed: a slope gives a tenth, a jump the same.
+/// The largest step of the force on the same path at a tenth of the speed: a slope gives a tenth, a jump the
+/// same.
 double largestSlowStep(const MetaModel& model, const Tips& tips, const SlideOptions& options) {
   constexpr int kSlower = 10;
   Player player(model, configOf(options));

@@ -34,7 +34,7 @@ void print(const Json& rows, bool json) {
   }
 }
 
-/// Loops of a held anchor in which the tool was let go on the way are left out, and counted.
+/// Leaves out, and counts, the loops with a fixed anchor in which the tool was released on the way.
 Json rowOf(const char* kind, double friction, std::vector<LoopResult> loops) {
   int releases = 0;
   for (const LoopResult& loop : loops) releases += loop.releases > 0 ? 1 : 0;
@@ -83,7 +83,7 @@ Json rowOf(double friction, const std::vector<SlideResult>& slides) {
           {"with_release", releases}};
 }
 
-/// The place whose normal stiffness is the median of 99 random ones.
+/// The place with the median normal stiffness of 99 random places.
 ContactPoint ordinaryPlace(const MetaModel& model, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::pair<double, ContactPoint>> places;

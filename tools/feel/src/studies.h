@@ -5,7 +5,7 @@
 
 namespace palpate::feel {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct Study {
   std::string model;
   unsigned seed{1};
@@ -17,7 +17,7 @@ struct Study {
   bool json{false};
 };
 
-// Each runs, prints a table or JSON, and returns the exit code of the program: 0, whatever was found.
+// Each runs a study, prints a table or JSON, and returns the program's exit code, 0 for any result.
 // @throw LoadError
 int runLoops(const Study& study);
 int runSlides(const Study& study);

@@ -14,7 +14,7 @@ bool isSpace(char c) {
   return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\v' || c == '\f';
 }
 
-// For a message: at most 40 characters, none of which disturbs a terminal.
+// For a message: at most 40 characters, without control characters.
 std::string shown(std::string_view text) {
   std::string out;
   for (const char c : text.substr(0, 40)) out += c >= ' ' && c <= '~' ? c : '?';
@@ -44,7 +44,7 @@ ByteReader::ByteReader(const std::filesystem::path& path) : path_(path.string())
 
 void ByteReader::fail(const std::string& message) const {
   if (binary_) throw MeshError(path_ + ": " + message + " (byte " + std::to_string(at_) + ")");
-  // A line end just read still belongs to the line that is wrong.
+  // The line end that was just read belongs to the wrong line.
   const auto read = static_cast<std::ptrdiff_t>(at_ > 0 && bytes_[at_ - 1] == '\n' ? at_ - 1 : at_);
   const auto lines = 1 + std::count(bytes_.begin(), bytes_.begin() + read, '\n');
   throw MeshError(path_ + ": line " + std::to_string(lines) + ": " + message);

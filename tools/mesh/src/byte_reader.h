@@ -9,23 +9,23 @@
 
 namespace palpate::mesh {
 
-/// Walks through the bytes of an untrusted mesh file, as text tokens or as binary numbers. Every read is held
-/// against the end of the file; errors are MeshError with the file's name and, in text, the line.
+/// Reads an untrusted mesh file, as text tokens or as binary numbers. Every read checks the end of the file;
+/// errors are MeshError with the file's name and, in text, the line.
 class ByteReader {
  public:
   /// Reads the whole file. @throw MeshError when it is missing, a directory, unreadable or empty.
   explicit ByteReader(const std::filesystem::path& path);
 
-  /// Binary numbers are in the other byte order from now on.
+  /// From now on binary numbers are in the other byte order.
   void swapBytes(bool swap) { swap_ = swap; }
-  /// Whether integer64(), integer32() and real() take binary numbers from now on.
+  /// Whether integer64(), integer32() and real() read binary numbers from now on.
   void setBinary(bool binary) { binary_ = binary; }
   [[nodiscard]] bool binary() const { return binary_; }
 
   [[nodiscard]] std::string_view rest() const { return std::string_view(bytes_).substr(at_); }
   void skip(std::size_t bytes, const char* what);
   void skipSpace();
-  [[nodiscard]] bool atEnd();  ///< only white space is left
+  [[nodiscard]] bool atEnd();  ///< only white space follows
 
   /// The next word. @throw MeshError at the end of the file.
   std::string_view word(const char* what);
@@ -51,7 +51,8 @@ class ByteReader {
     return value;
   }
 
-  /// A count of things that take at least `bytes_each` more bytes, so that it can be allocated for.
+  /// A count of items of at least `bytes_each` bytes that fit in the rest of the file, so allocating them is
+  /// safe.
   std::size_t checkedCount(std::int64_t count, std::size_t bytes_each, const char* what) const;
 
   /// Throws the MeshError `file: message` (with the line, in text).

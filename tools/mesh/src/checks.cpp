@@ -95,7 +95,7 @@ void checkVolumes(const TetMesh& mesh) {
                       " twice");
     }
     const double volume = signedVolume(mesh, t);
-    // Negated, so that an overflow to NaN is refused as well.
+    // Negated, so NaN from an overflow is refused as well.
     if (!(std::abs(volume) >= kFlat * std::pow(longestEdge(mesh, t), 3)) || volume == 0) {
       throw MeshError(tetName(mesh, t) + " is flat " + inCubicMillimetres(volume));
     }
@@ -120,7 +120,7 @@ void checkDuplicates(const TetMesh& mesh) {
   }
 }
 
-// Of the corners in ascending order: whether the outward face is an even permutation of them.
+// Whether the outward face is an even permutation of its corners in ascending order.
 bool isEven(const TetMesh& mesh, const TetFace& face) {
   const auto& corners = kTetFaces[static_cast<std::size_t>(face.face)];
   const auto& t = mesh.tetrahedra[static_cast<std::size_t>(face.tetrahedron)];

@@ -40,7 +40,7 @@ void prepareRemeshing(double element_size) {
   gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-  // Without a field Gmsh falls back on the edges of the surface that is being replaced.
+  // Without a field Gmsh takes the sizes of the surface that it replaces.
   std::ostringstream size;
   size << std::setprecision(17) << element_size;
   const int field = gmsh::model::mesh::field::add("MathEval");

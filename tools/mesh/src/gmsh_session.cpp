@@ -12,7 +12,7 @@
 #include "palpate/mesh/mesh_error.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-// Gmsh and OpenCASCADE leave memory behind when they finish; LeakSanitizer is to watch our code.
+// Gmsh and OpenCASCADE leak memory when they finish; LeakSanitizer shall report our code only.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libgmsh\nleak:libTK\n";
@@ -46,7 +46,7 @@ GmshSession::~GmshSession() {
 }
 
 void GmshSession::run(const std::string& what, const std::function<void()>& work) const {
-  // Gmsh throws strings, numbers and what OpenCASCADE throws, depending on version and place.
+  // Gmsh throws strings, numbers and OpenCASCADE's exceptions, depending on version and place.
   try {
     work();
   } catch (const std::exception& error) {

@@ -53,8 +53,8 @@ std::optional<std::string> edgeDefect(const std::vector<HalfEdge>& edges, const 
   return std::nullopt;
 }
 
-// With every edge in two triangles, the triangles around a vertex form closed fans. Walk one; if it does
-// not meet all of them there is a second.
+// With every edge in two triangles, the triangles around a vertex form closed fans. Walk one fan; if it
+// misses a triangle there is a second fan.
 std::optional<std::string> fanDefect(const std::vector<Triangle>& triangles, std::size_t vertex_count,
                                      const Namer& vertexName, const Namer& triangleName) {
   struct Spoke {

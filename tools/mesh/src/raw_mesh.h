@@ -14,7 +14,7 @@
 
 namespace palpate::mesh {
 
-/// What the readers of all formats collect: the file's own numbers, nothing dropped yet.
+/// What the readers of all formats collect: the numbers of the file, complete.
 struct RawMesh {
   using GroupId = std::pair<int, std::int64_t>;  ///< dimension, number
 
@@ -22,12 +22,12 @@ struct RawMesh {
   std::vector<std::int64_t> point_tags;
   std::vector<std::array<std::int64_t, 4>> tetrahedra;  ///< point tags
   std::vector<std::int64_t> tetrahedron_tags;
-  std::map<GroupId, std::vector<std::int64_t>> groups;  ///< point tags, repeated as they come
+  std::map<GroupId, std::vector<std::int64_t>> groups;  ///< point tags, with repetitions
   std::map<GroupId, std::string> group_names;
 };
 
 /// Links tags to indices, drops points in no tetrahedron, names groups (see readMesh()).
-/// @throw MeshError on repeated node numbers and references to nodes that are not there
+/// @throw MeshError on repeated node numbers and references to missing nodes
 TetMesh assemble(const std::filesystem::path& path, const RawMesh& raw);
 
 }  // namespace palpate::mesh

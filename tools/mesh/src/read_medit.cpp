@@ -54,7 +54,7 @@ void readElements(ByteReader& in, const std::string& keyword, const Element& kin
   }
 }
 
-// Sections that carry nothing for us (ridges, normals, ...): numbers until the next keyword.
+// Skips sections that are not used (ridges, normals, ...): numbers until the next keyword.
 void skipNumbers(ByteReader& in) {
   while (!in.atEnd()) {
     const char c = in.rest().front();

@@ -23,7 +23,7 @@ void readFormat(ByteReader& in, MshFormat& format) {
   format.major = version.front() - '0';
   format.minor = is_41 ? 1 : 0;
   format.binary = in.textInteger("the file type") == 1;
-  // Gmsh 4.8 cannot write it either, so that we could not test it.
+  // Gmsh 4.8 cannot write it either, so no test could cover it.
   if (format.binary && version.starts_with("4") && !is_41)
     in.fail("binary files of version 4.0 are not read; save as 4.1");
   const auto width = in.textInteger("the data size");
@@ -64,9 +64,9 @@ void readNodes(ByteReader& in, const MshFormat& format, RawMesh& mesh) {
   }
 }
 
-// Versions 1 and 2 list a tetrahedron once for each of its physical groups, under different numbers. The first
-// number stays; the groups have their nodes already. What one group lists twice is left for checkMesh() to
-// refuse, and so is what is listed both within a group and without (0).
+// Versions 1 and 2 list a tetrahedron once for each of its physical groups, under different numbers. The
+// first number stays; the groups have their nodes already. checkMesh() refuses a tetrahedron that one group
+// lists twice, or that is listed both in a group and without one (0).
 void keepFirstListing(RawMesh& mesh, const Tags& group_of) {
   std::map<std::array<std::int64_t, 4>, Tags> listed;
   std::size_t kept = 0;
@@ -114,7 +114,7 @@ Tags readTags(ByteReader& in, std::int64_t count) {
   return tags;
 }
 
-// One element of version 2, whose number of tags is known. Its group is noted if it is a tetrahedron.
+// One element of version 2, whose number of tags is known. Notes its group if it is a tetrahedron.
 void readElement2(ByteReader& in, RawMesh& mesh, std::int64_t tag, std::int64_t type, std::int64_t tags,
                   Tags& group_of) {
   const MshElementType known = mshElementType(in, type, tag);

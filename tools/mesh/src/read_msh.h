@@ -13,7 +13,7 @@ namespace palpate::mesh {
 /// Reads a Gmsh .msh file, for readMesh(). @throw MeshError
 RawMesh readMshFile(const std::filesystem::path& path);
 
-/// What the first section of a .msh file says.
+/// The first section of a .msh file.
 struct MshFormat {
   int major{0};  ///< 1, 2 or 4
   int minor{0};
@@ -26,8 +26,8 @@ struct MshElementType {
   int nodes;
 };
 
-/// Looks up the type of element `tag`. Refuses volume elements that are not linear tetrahedra: leaving them
-/// out would leave a hole.
+/// Looks up the type of element `tag`. Refuses volume elements that are not linear tetrahedra: without them
+/// the organ would have a hole.
 MshElementType mshElementType(const ByteReader& in, std::int64_t type, std::int64_t tag);
 
 /// Reads the nodes of one element; keeps it if it is a tetrahedron, and adds its nodes to its physical

@@ -13,7 +13,7 @@ namespace {
 constexpr int kTetrahedron = 10;
 constexpr std::int64_t kMaxCorners = 1 << 20;  // of one cell; more is a corrupt count
 
-// A legacy VTK file under way: https://docs.vtk.org, "VTK legacy file format". Binary data are big-endian.
+// Reads a legacy VTK file: https://docs.vtk.org, "VTK legacy file format". Binary data are big-endian.
 class VtkFile {
  public:
   explicit VtkFile(const std::filesystem::path& path) : in_(path) {
@@ -47,7 +47,7 @@ class VtkFile {
     }
   }
 
-  // False at the data on cells and points, which come last and are not read.
+  // False at the data on cells and points, which come last and are skipped.
   bool readSection(const std::string& keyword) {
     if (keyword == "CELL_DATA" || keyword == "POINT_DATA") return false;
     if (keyword == "POINTS") {

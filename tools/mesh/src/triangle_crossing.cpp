@@ -19,7 +19,7 @@ bool inTriangle(const Vec3& x, const TrianglePoints& t, const Vec3& n, double to
   return true;
 }
 
-// Segments pq and rs in the plane of normal n: ends on both sides of each other.
+// Whether segments pq and rs, in the plane of normal n, cross: each has its ends on both sides of the other.
 bool cross(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, const Vec3& n) {
   const auto side = [&n](const Vec3& a, const Vec3& b, const Vec3& x) { return n.dot((b - a).cross(x - a)); };
   return side(p, q, r) * side(p, q, s) < 0 && side(r, s, p) * side(r, s, q) < 0;

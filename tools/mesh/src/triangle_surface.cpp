@@ -89,7 +89,7 @@ void turnOutward(TriangleSurface& surface) {
   for (auto& t : surface.triangles) std::swap(t[1], t[2]);
 }
 
-// Corners that both triangles have first, each triangle's own order kept otherwise.
+// Shared corners first; otherwise each triangle keeps its own order.
 std::size_t sharedFirst(Triangle& a, Triangle& b) {
   std::size_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -20,8 +20,7 @@ namespace {
 using Groups = std::vector<int>;  // numbers of physical groups, ascending
 constexpr int kOrgan = 1;         // the physical volume of all tetrahedra
 
-// One entity of the Gmsh model for each combination of groups that occurs, so that an element in two groups
-// is written once.
+// One entity of the Gmsh model for each combination of groups, so an element in two groups is written once.
 template <std::size_t Corners>
 using Entities = std::map<Groups, std::vector<std::array<std::int32_t, Corners>>>;
 
@@ -183,7 +182,7 @@ void writeSections(std::ostream& out, const TetMesh& mesh, const Layout& layout)
   writeElements(out, mesh, layout);
 }
 
-// Writes the file; what went wrong first, if anything. A stream only says that it failed, errno says why.
+// Writes the file. @return the first error, if any. A stream only tells that it failed; errno tells why.
 std::error_code writeFile(const std::filesystem::path& path, const TetMesh& mesh, const Layout& layout) {
   errno = 0;
   std::ofstream out(path);
@@ -196,12 +195,12 @@ std::error_code writeFile(const std::filesystem::path& path, const TetMesh& mesh
 
 void writeMsh(const std::filesystem::path& path, const TetMesh& mesh, const BoundarySurface& boundary) {
   const Layout layout = layoutOf(mesh, boundary);
-  // The process's own name, so that two of them do not write into one file.
+  // A name with the process id, so two processes do not write into one file.
   const std::filesystem::path beside = path.string() + ".tmp-" + std::to_string(::getpid());
   std::error_code error = writeFile(beside, mesh, layout);
   if (!error) std::filesystem::rename(beside, path, error);
   if (!error) return;
-  std::error_code ignored;  // the first error is the one to tell
+  std::error_code ignored;  // the message is about the first error
   std::filesystem::remove(beside, ignored);
   throw MeshError(path.string() + ": cannot be written: " + error.message());
 }

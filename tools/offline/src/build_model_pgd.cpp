@@ -256,7 +256,7 @@ void PgdBuilder::endWhereNothingRises() {
           case_.mesh.string() + ": node " +
           std::to_string(mesh_.node_tags[static_cast<std::size_t>(
               setup_.surface.nodes[static_cast<std::size_t>(setup_.positions.nodes[s])])]) +
-          ": the modes do not let the contact give way along the load; more modes (model.modes) would");
+          ": the modes do not move the contact along the load; raise model.modes");
     double& t_max = data_.contact_domain_radius[s];
     t_max = std::min(t_max, static_cast<double>(rising) / static_cast<double>(steps));
   }

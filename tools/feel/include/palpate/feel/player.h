@@ -5,7 +5,7 @@
 
 namespace palpate::feel {
 
-/// Plays tip positions of one tool through step(), a millisecond each, without threads.
+/// Plays tip positions of one tool through step(), one per millisecond, without threads.
 class Player {
  public:
   Player(const MetaModel& model, const StepConfig& config) : model_(model), work_(model, config) {}
@@ -24,7 +24,7 @@ class Player {
 /// Force on the tool, N.
 [[nodiscard]] Vec3 forceOf(const ToolResult& result);
 
-/// Everything off that is not the contact itself: limiter, ramps, speed limit, coupling.
+/// Configuration of a step with the contact alone: no limiter, ramps, speed limit or coupling.
 [[nodiscard]] StepConfig bareContact(double friction);
 
 }  // namespace palpate::feel

@@ -18,25 +18,25 @@ struct SlideOptions {
   unsigned seed{1};
 };
 
-/// What one slide felt like.
+/// Measures of one slide.
 struct SlideResult {
-  double median_step{0.0};  ///< of the force from tick to tick, N
+  double median_step{0.0};  ///< of the force per tick, N
   double largest_step{0.0};
-  double largest_ratio{0.0};  ///< step / (3 median + 1 % of the force), at worst; above 1: a click
-  /// largest_ratio after the first 3 mm, in which friction comes up or turns into the way's direction
+  double largest_ratio{0.0};  ///< largest step / (3 median + 1 % of the force); above 1: a click
+  /// largest_ratio after the first 3 mm, in which friction builds up or turns into the direction of the slide
   double largest_ratio_later{0.0};
-  /// Largest step at a tenth of the speed, N; 0 where nothing clicked. A steep slope of the force gives a tenth of
+  /// Largest step at a tenth of the speed, N; 0 without a click. A steep slope of the force gives a tenth of
   /// largest_step, a jump all of it.
   double largest_slow_step{0.0};
-  double largest_lag{0.0};  ///< |F - F_q| / (|F_q - F_q of the tick before| + 0.1 % of F), at worst
+  double largest_lag{0.0};  ///< largest |F - F_q| / (|F_q - F_q of the tick before| + 0.1 % of F)
   double mean_force{0.0};   ///< N
   std::size_t worst{0};     ///< tick of largest_ratio
   int releases{0};          ///< ticks without contact after the first one with it
   int ticks{0};
 };
 
-/// One slide through step(), without limiter and ramps. The quasi-static answer F_q is what the same contact ends at
-/// when the tip stays where it is for 20 more ticks.
+/// One slide through step(), without limiter and ramps. The quasi-static answer F_q is the force of the same
+/// contact after the tip has stayed at its place for 20 more ticks.
 [[nodiscard]] SlideResult slide(const MetaModel& model, const std::vector<PathPoint>& path,
                                 const SlideOptions& options);
 

@@ -17,21 +17,21 @@ struct StabilityCase {
   double youngs_modulus;  ///< E, Pa
   device::Hand hand;
   ContactPoint s;       ///< where it presses
-  bool friction{true};  ///< of the device; without it nothing but hand and coupling damps
+  bool friction{true};  ///< of the device; without it only hand and coupling damp
 };
 
-/// The largest coupling that was stable, and how the preset's own did.
+/// The largest stable coupling, and whether the preset's own is stable.
 struct StabilityResult {
   device::Verdict at_default;
   double largest_stable{0.0};  ///< N/m, of those tried up to the preset's stiffness limit; 0: none
 };
 
-/// One press, closed loop at 1 kHz with the answer a period later, through step().
+/// One press through step(), closed loop at 1 kHz; the answer arrives one period later.
 /// @param[in] coupling_stiffness  N/m; the damping keeps the preset's ratio to it
 [[nodiscard]] device::Verdict press(const MetaModel& model, const StabilityCase& which,
                                     double coupling_stiffness);
 
-/// The preset's coupling, and 8 bisections for the largest stable one.
+/// Tries the preset's coupling, then bisects 8 times for the largest stable one.
 [[nodiscard]] StabilityResult stability(const MetaModel& model, const StabilityCase& which);
 
 }  // namespace palpate::feel

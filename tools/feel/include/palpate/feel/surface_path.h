@@ -23,14 +23,15 @@ struct PathPoint {
 /// n . (df/dd) n at rest, N/m.
 [[nodiscard]] double normalStiffness(const MetaModel& model, const ContactPoint& s);
 
-/// A smooth random way over the accessible part: it begins somewhere and turns slowly, at most 60 degrees a cm.
-/// @param[in] step  way between two points, m, @param[in] length  of the whole, m
-/// @return nothing when the border came before half the length; otherwise what was possible
+/// A smooth random path over the accessible part: it begins at a random point and turns by at most 60 degrees
+/// per cm.
+/// @param[in] step distance between two points, m, @param[in] length  of the whole, m
+/// @return nothing when the path met the border before half the length; otherwise the path up to the border
 [[nodiscard]] std::optional<std::vector<PathPoint>> randomPath(const MetaModel& model, double step,
                                                                double length, std::mt19937& random);
 
-/// The way over the surface from `from` towards `to`, always in the direction of the straight line to it.
-/// @return nothing when it cannot be reached over the accessible part within three times the distance
+/// The path over the surface from `from` to `to`, always in the direction of the straight line to `to`.
+/// @return nothing when no such path over the accessible part is shorter than three times the distance
 [[nodiscard]] std::optional<std::vector<PathPoint>> pathBetween(const MetaModel& model,
                                                                 const ContactPoint& from,
                                                                 const ContactPoint& to, double step);

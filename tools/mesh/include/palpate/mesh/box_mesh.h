@@ -8,8 +8,8 @@
 
 namespace palpate::mesh {
 
-/// A box [0, size] of equal cells, six tetrahedra a cell, all six around the diagonal from the cell's
-/// smallest to its largest corner (Kuhn's subdivision): the beam of docs/design.md, Reproduction.
+/// A box [0, size] of equal cells, six tetrahedra per cell, all around the diagonal from the cell's smallest
+/// to its largest corner (Kuhn's subdivision): the beam of docs/design.md, Reproduction.
 ///   Node (i, j, k) has the index i + nx (j + ny k).
 /// @param size   edge lengths, m, positive
 /// @param nodes  nodes along x, y, z, each at least 2

@@ -7,12 +7,12 @@
 
 namespace palpate::mesh {
 
-/// Turns every tetrahedron over when all of them have negative volume, a convention of some exporters.
-/// @return true if it did; a mesh with both signs stays as it is, for checkMesh() to refuse.
+/// Inverts every tetrahedron when all of them have negative volume, a convention of some exporters.
+/// @return true if it did; it leaves a mesh with both signs unchanged, and checkMesh() refuses that.
 bool reorientIfAllNegative(TetMesh& mesh);
 
-/// Refuses what the solver cannot take, in this order: empty mesh, wrong array sizes or indices out of range,
-/// non-finite coordinates, unreferenced nodes, repeated corners, flat tetrahedra (volume < 1e-9 of the
+/// Refuses meshes that the solver cannot use, in this order: empty mesh, wrong array sizes or indices out of
+/// range, non-finite coordinates, unreferenced nodes, repeated corners, flat tetrahedra (volume < 1e-9 of the
 /// longest edge cubed), inverted ones, duplicates, faces shared by more than two tetrahedra or by two on the
 /// same side, disconnected parts, boundary edges in other than two triangles, boundary vertices whose
 /// triangles are not one fan.
@@ -20,9 +20,9 @@ bool reorientIfAllNegative(TetMesh& mesh);
 /// Cost O(T log T). Real-time: no.
 void checkMesh(const TetMesh& mesh);
 
-/// Refuses a group that leaves the organ a rigid motion when its nodes are held: fewer than three nodes, or
-/// nodes on one line. The group's nodes must be indices of the mesh.
-/// @throw MeshError naming the group and its number of nodes, or that there is no such group
+/// Refuses a group of clamped nodes that allows a rigid motion of the organ: fewer than three nodes, or nodes
+/// on one line. The group's nodes must be indices of the mesh.
+/// @throw MeshError naming the group and its number of nodes, or the missing group
 /// Cost O(nodes of the group). Real-time: no.
 void checkHeld(const TetMesh& mesh, const std::string& group);
 

@@ -6,9 +6,9 @@
 
 namespace palpate::mesh {
 
-/// Fills a closed surface with tetrahedra (Gmsh). With `element_size` 0 the surface's triangles are kept, and
-/// its vertices are nodes 1..V in their order; otherwise the surface is remeshed at that size first.
-/// @param surface       one that checkSurface() takes
+/// Fills a closed surface with tetrahedra (Gmsh). With `element_size` 0 it keeps the surface's triangles, and
+/// the vertices are nodes 1..V in their order; otherwise it remeshes the surface at that size first.
+/// @param surface has passed checkSurface()
 /// @param element_size  m; 0 or positive
 /// @throw MeshError when Gmsh cannot mesh it
 /// Cost seconds for 1e4 triangles. Threads: one at a time (Gmsh is global state).

@@ -17,7 +17,7 @@ class GmshSession {
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// Runs `work`, which calls Gmsh, and turns whatever Gmsh throws into a MeshError `what: reason`.
+  /// Runs `work`, which calls Gmsh, and turns every exception of Gmsh into a MeshError `what: reason`.
   void run(const std::string& what, const std::function<void()>& work) const;
 
   /// The tetrahedra of the current Gmsh model, nodes in order of Gmsh's numbers, renumbered from 1; no

@@ -12,8 +12,8 @@ namespace palpate::mesh {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-/// First reason why triangles are not a closed, consistently oriented two-manifold, in words; nothing if they
-/// are. An edge must lie in exactly two triangles that pass it in opposite directions, and the triangles
+/// First reason why triangles are not a closed, consistently oriented two-manifold, in words; nothing when
+/// they are. An edge must lie in exactly two triangles that pass it in opposite directions, and the triangles
 /// around a vertex must form one fan.
 /// @param triangles     T x 3, indices in [0, vertex_count)
 /// @param vertexName    how the message names a vertex

@@ -9,7 +9,7 @@
 
 namespace palpate::mesh {
 
-/// Figures to judge a mesh by. Lengths in m.
+/// Size and quality of a mesh. Lengths in m.
 struct MeshStatistics {
   std::size_t nodes{0};
   std::size_t tetrahedra{0};
@@ -29,7 +29,7 @@ struct MeshStatistics {
 [[nodiscard]] double quality(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                              const Eigen::Vector3d& d);
 
-/// @param mesh      one that checkMesh() takes
+/// @param mesh has passed checkMesh()
 /// @param boundary  boundaryOf(mesh)
 [[nodiscard]] MeshStatistics statisticsOf(const TetMesh& mesh, const BoundarySurface& boundary);
 

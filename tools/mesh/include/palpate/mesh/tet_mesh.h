@@ -10,8 +10,8 @@
 
 namespace palpate::mesh {
 
-/// A volume mesh of linear tetrahedra, as the solver takes it: every node belongs to a tetrahedron, every
-/// tetrahedron has positive volume (nodes 1, 2, 3 counter-clockwise seen from outside node 0's opposite).
+/// A volume mesh of linear tetrahedra for the solver: every node belongs to a tetrahedron, every tetrahedron
+/// has positive volume (nodes 1, 2, 3 counter-clockwise seen from outside node 0's opposite).
 struct TetMesh {
   std::vector<Eigen::Vector3d> nodes;   ///< N rest positions X, m
   std::vector<std::int64_t> node_tags;  ///< N numbers of the nodes in the mesh file, 1-based there

@@ -13,8 +13,8 @@ namespace palpate::mesh {
 /// opposite corner i.
 inline constexpr std::array<std::array<int, 3>, 4> kTetFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// One face of one tetrahedron; `key` holds its nodes ascending, so that the same face of two tetrahedra has
-/// the same key.
+/// One face of one tetrahedron; `key` holds its nodes in ascending order, so two tetrahedra that share a face
+/// have the same key for it.
 struct TetFace {
   std::array<std::int32_t, 3> key;
   std::int32_t tetrahedron;
@@ -25,7 +25,7 @@ struct TetFace {
 [[nodiscard]] std::vector<TetFace> sortedFaces(const TetMesh& mesh);
 
 /// The faces that belong to one tetrahedron only, oriented outward, in ascending order of their nodes.
-///   checkMesh() says whether the result is a closed manifold; this function does not.
+///   checkMesh() checks whether the result is a closed manifold; this function does not.
 /// @param mesh  tetrahedra of positive volume (else their faces point inward)
 /// Cost O(T log T). Real-time: no.
 [[nodiscard]] BoundarySurface boundaryOf(const TetMesh& mesh);

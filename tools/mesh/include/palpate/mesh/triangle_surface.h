@@ -11,7 +11,7 @@
 
 namespace palpate::mesh {
 
-/// A surface of triangles as a file gives it, before it is filled. Messages name triangle and vertex by
+/// A surface of triangles from a file, before it is filled. Messages name triangle and vertex by
 /// position in the file, counted from 1.
 struct TriangleSurface {
   std::vector<Eigen::Vector3d> vertices;               ///< m (after scaling)
@@ -21,13 +21,13 @@ struct TriangleSurface {
 };
 
 /// Refuses a surface that does not bound one solid: non-finite vertices, degenerate triangles, open or
-/// non-manifold edges, several parts, triangles that cut each other. Turns it outward when all of it faces
-/// inward.
+/// non-manifold edges, several parts, triangles that cut each other. Reverses all triangles when all of them
+/// face inward.
 /// @throw MeshError naming the triangle
 /// Cost O(T log T) plus the pairs of triangles whose boxes overlap along x. Real-time: no.
 void checkSurface(TriangleSurface& surface);
 
-/// First two triangles (0-based) that cut or overlap each other other than along what they share.
+/// First two triangles (0-based) that cut or overlap outside their shared corners and edges.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> firstSelfIntersection(
     const TriangleSurface& surface);
 
