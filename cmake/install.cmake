@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` gives: the library for drivers (component haptic) and the programs (component programs).
+# `cmake --install` installs two components: the library for drivers (component haptic) and the programs (component
+# programs).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -18,7 +19,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/palpateConfigVersio
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/palpateConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/palpateConfigVersion.cmake
   DESTINATION ${PALPATE_CMAKE_DIR} COMPONENT haptic)
 
-# The wire's description, for those who speak it in another language; and the driver to start from.
+# The description of the wire, for clients in other languages, and the driver template.
 install(FILES idl/palpate.idl DESTINATION ${PALPATE_DATA_DIR} COMPONENT haptic)
 install(FILES clients/driver_template/driver.cpp clients/driver_template/README.md
   DESTINATION ${PALPATE_DATA_DIR}/driver_template COMPONENT haptic)
@@ -31,7 +32,7 @@ foreach(program IN LISTS PALPATE_PROGRAMS)
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()
 endforeach()
-# The page, where it has been built (clients/viewer/web).
+# The page, if it was built (clients/viewer/web).
 install(DIRECTORY clients/viewer/web/dist/ DESTINATION ${PALPATE_DATA_DIR}/viewer COMPONENT programs OPTIONAL)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 configure_file(server/palpate-server.service.in ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service @ONLY)

@@ -13,10 +13,10 @@ target_compile_options(palpate_options INTERFACE
 # Real time stands in the signature (docs/design.md, Threads): a function effect where the compiler has it, else nothing.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 20)
   target_compile_definitions(palpate_options INTERFACE "PALPATE_NONBLOCKING=[[clang::nonblocking]]")
-  # What clang alone warns of is no error, but this is. gcc judges the rest.
+  # Clang's own warnings are not errors, except this one. gcc judges the rest.
   target_compile_options(palpate_options INTERFACE
     $<$<COMPILE_LANGUAGE:CXX>:-Wfunction-effects -Werror=function-effects>)
-  # Round a function that calls what the compiler cannot see into; each says why it is trusted.
+  # For functions that call code which the compiler cannot see; each use says why the call is safe.
   set(palpate_ignore "_Pragma(\"clang diagnostic ignored \\\"-Wfunction-effects\\\"\")")
   target_compile_definitions(palpate_options INTERFACE
     "PALPATE_TRUSTED_BEGIN=_Pragma(\"clang diagnostic push\") ${palpate_ignore}"
@@ -28,12 +28,12 @@ endif()
 target_compile_definitions(palpate_options INTERFACE PALPATE_VERSION="${PROJECT_VERSION}")
 
 if(PALPATE_SANITIZE)
-  # Line numbers are what a report needs; all of -g doubles the time to build Eigen's templates under a sanitizer.
+  # Reports need line numbers only; full -g doubles the time to build Eigen's templates under a sanitizer.
   add_compile_options(-fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
   add_link_options(-fsanitize=${PALPATE_SANITIZE})
 else()
-  # Kernels marked PALPATE_MULTIVERSION are built for several instruction sets and chosen at load time. The
-  # sanitizers cannot run in the resolvers that this needs, so there it is off.
+  # Kernels marked PALPATE_MULTIVERSION are built for several instruction sets and chosen at load time. This needs
+  # resolvers, in which sanitizers cannot run, so sanitizer builds leave it out.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     target_compile_definitions(palpate_options INTERFACE PALPATE_HAVE_TARGET_CLONES=1)
   endif()

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tools/latency-report is made of."""
+"""The parts of tools/latency-report."""

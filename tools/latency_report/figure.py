@@ -41,7 +41,7 @@ def _script(results, file):
 
 
 def write(setup, results):
-    """report.svg; without gnuplot a line says so."""
+    """Writes report.svg, or one line on standard error when gnuplot is missing."""
     if shutil.which("gnuplot") is None:
         print("no figure: gnuplot is not installed (gnuplot-nox)", file=sys.stderr)
         return

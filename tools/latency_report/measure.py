@@ -14,11 +14,11 @@ from .processes import Failure
 
 TICK_PRIORITY = 80     # docs/design.md, Threads
 RECEIVE_PRIORITY = 70  # of palpate's threads that receive; ddsperf gets the same
-SWEEP_RATE = 991       # poses a second: against 1000 ticks a second a run goes nine times a second through all waits
+SWEEP_RATE = 991       # Hz: against 1000 ticks per second the wait passes through all values nine times per second
 
 
 class Setup:
-    """What all measurements share. @throw Failure naming what is missing"""
+    """The settings that all measurements share. @throw Failure naming a missing program or file"""
 
     def __init__(self, options, tools):
         self.seconds = options.seconds
@@ -53,13 +53,13 @@ class Setup:
 
     def _check_programs(self):
         if not self.model.exists():
-            raise Failure(f"{self.model} is not there: tools/demo makes it, or say --model")
+            raise Failure(f"{self.model} is not there: tools/demo makes it, or give --model")
         for program, package in (("cyclictest", "rt-tests"), ("ddsperf", "cyclonedds-tools"), ("taskset", "util-linux")):
             if shutil.which(program) is None:
                 raise Failure(f"{program} is not installed: apt-get install {package}")
         for program in ("palpate-server", "palpate-latency", "palpate-watch"):
             if not (self.bin / program).exists():
-                raise Failure(f"{self.bin / program} is not there: build first (tools/check, tools/demo), or say --bin")
+                raise Failure(f"{self.bin / program} is not there: build first (tools/check, tools/demo), or give --bin")
 
     def _affinity_of_the_tick(self):
         """Processors that the server's tick thread may use: cyclictest gets the same."""
@@ -67,7 +67,7 @@ class Setup:
             return server.tick_cpus()
 
     def _other_cpus(self):
-        """Where the load goes: every processor but one that the tick may use."""
+        """Processors that get the load: all but one that the tick may use."""
         keep = max(self.tick_cpus)
         return sorted(cpu for cpu in os.sched_getaffinity(0) if cpu != keep)
 
@@ -94,7 +94,7 @@ _COARSE = ("more than 1 % of cyclictest's wake-ups were later than 1 ms: it was 
 
 def cyclictest(setup):
     """Wake-up lateness of a thread like the tick: priority, policy, clock_nanosleep on CLOCK_MONOTONIC each ms, memory locked.
-    On a machine that stands still so often that 1 % of the wake-ups are beyond 1 ms: in whole us, up to 1 s."""
+    Where more than 1 % of the wake-ups are later than 1 ms, it measures again in whole us, up to 1 s."""
     for nanoseconds in (True, False):
         found = wakeups(_cyclictest_thread(setup, nanoseconds), 1e-3 if nanoseconds else 1.0)
         if found is not None:
@@ -118,14 +118,14 @@ def _cyclictest_thread(setup, nanoseconds):
 
 
 def wakeups(thread, unit):
-    """Of what cyclictest writes of a thread, in units of `unit` us. @return None when p99 lies beyond its histogram"""
+    """Percentiles of a thread in cyclictest's output, in units of `unit` us. @return None when p99 is beyond the histogram"""
     lateness = sorted((int(value), count) for value, count in thread["histogram"].items())
     p50, p99 = (_quantile(lateness, thread["cycles"], q) for q in (0.5, 0.99))
     return None if p99 is None else {"p50": p50 * unit, "p99": p99 * unit, "max": thread["max"] * unit}
 
 
 def _quantile(counts, total, q):
-    """counts: sorted (value, how often); what is beyond the histogram is counted in total only. @return None there"""
+    """counts: sorted (value, count); values beyond the histogram count in total only. @return None for a percentile there"""
     seen = 0
     for value, count in counts:
         seen += count
@@ -138,21 +138,21 @@ _STATISTICS = re.compile(r"size \d+ mean [\d.]+us min [\d.]+us 50% ([\d.]+)us 90
 
 
 def ping_pong(text):
-    """Of what `ddsperf ping` prints. It prints half of each round trip, (now - time of the ping) / 2: twice that is the whole."""
+    """Percentiles from `ddsperf ping`. It prints half of each round trip, (now - time of the ping) / 2; this doubles them."""
     found = [tuple(float(x) for x in match) for match in _STATISTICS.findall(text)]
-    full = [second for second in found[1:] if second[3] > _ENOUGH_PINGS]  # in the first one they find each other
+    full = [second for second in found[1:] if second[3] > _ENOUGH_PINGS]  # the sides find each other in the first
     if not full:
         return None
     return {"p50": 2.0 * statistics.median(s[0] for s in full), "p99": 2.0 * statistics.median(s[1] for s in full),
             "max": 2.0 * max(s[2] for s in full)}
 
 
-_ENOUGH_PINGS = 250    # of 1000 a second: some are lost where the machine stands still, most where a side has just begun or ended
-_DDSPERF_ATTEMPTS = 3  # best effort: on a machine that is busy with others a lost ping can cost ddsperf its seconds
+_ENOUGH_PINGS = 250    # of 1000 per second: some get lost while the machine stalls, most while a side begins or ends
+_DDSPERF_ATTEMPTS = 3  # best effort: on a busy machine lost pings can invalidate all seconds of a run
 
 
 def ddsperf(setup, size):
-    """Ping-pong between two processes, best effort, 1000 a second. It tells each second for itself: medians of these."""
+    """Ping-pong between two processes, best effort, 1000 per second. @return medians of what ddsperf reports each second"""
     log = setup.log("ddsperf")
     for _ in range(_DDSPERF_ATTEMPTS):
         found = ping_pong(_ddsperf_output(setup, size, log))
@@ -186,11 +186,11 @@ class Server:
 
     def __exit__(self, kind, *_):
         code = processes.end(self._process, patience=30.0)
-        if code != 0 and kind is None:  # else something else went wrong before
+        if code != 0 and kind is None:  # otherwise an earlier failure is the one to report
             raise Failure(f"palpate-server ended with code {code}: {processes.last_line(self._setup.log('server'))}")
 
     def tick_cpus(self):
-        """@throw Failure when no thread named tick comes up within a minute"""
+        """@throw Failure when no thread named tick appears within a minute"""
         tasks = pathlib.Path(f"/proc/{self._process.pid}/task")
         for _ in range(600):
             time.sleep(0.1)
@@ -198,7 +198,7 @@ class Server:
                 break
             tick = next((task for task in tasks.iterdir() if _name_of(task) == "tick"), None)
             if tick is not None:
-                time.sleep(0.3)  # its affinity may come after its name
+                time.sleep(0.3)  # its affinity may be set after its name
                 return os.sched_getaffinity(int(tick.name))
         raise Failure(f"palpate-server has no tick thread: {processes.last_line(self._setup.log('server'))}")
 

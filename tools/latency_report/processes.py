@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Programs that are started, and that are all gone when the report ends, however it ends."""
+"""Starts programs, and ends them all when the report ends, however it ends."""
 import contextlib
 import os
 import signal
@@ -11,17 +11,17 @@ import time
 
 
 class Failure(Exception):
-    """One line for the user: what was run, and what was wrong."""
+    """One line for the user: the program and its error."""
 
 
 _running = []
 
 
 def start(command, log, env=None, priority=None, stdout=None):
-    """Starts a program in the background; its output goes to `log` (stdout elsewhere if given).
+    """Starts a program in the background; its output goes to `log` (its standard output to `stdout` if given).
     priority: SCHED_FIFO for all of its threads, or None."""
     def before():
-        os.setpgid(0, 0)  # a Ctrl-C is ours to handle
+        os.setpgid(0, 0)  # so that Ctrl-C reaches this script only
         if priority is not None:
             os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
 
@@ -37,7 +37,7 @@ def start(command, log, env=None, priority=None, stdout=None):
 
 
 def end(process, patience=8.0):
-    """Lets a program end by SIGTERM (a stopped one goes on first), or ends it. @return its exit code"""
+    """Ends a program by SIGTERM (after waking a stopped one), or by SIGKILL. @return its exit code"""
     if process.poll() is None:
         for number in (signal.SIGCONT, signal.SIGTERM):
             process.send_signal(number)
@@ -60,7 +60,7 @@ def end_all():
 
 def end_on_signals():
     def leave(number, _):
-        sys.exit(128 + number)  # finally: does the rest
+        sys.exit(128 + number)  # the finally clause ends the programs
 
     signal.signal(signal.SIGTERM, leave)
     signal.signal(signal.SIGHUP, leave)
@@ -88,7 +88,7 @@ def last_line(log):
 
 @contextlib.contextmanager
 def awake():
-    """Keeps the processors out of deep sleep for everybody alike. @return whether that was granted"""
+    """Keeps the processors out of deep sleep for all programs alike. @return whether the system allows it"""
     try:
         file = os.open("/dev/cpu_dma_latency", os.O_WRONLY)
     except OSError:
@@ -102,7 +102,7 @@ def awake():
 
 
 class Slowed:
-    """A program that gets a tenth of the time: it runs 10 ms and stands still 90 ms."""
+    """A program that gets a tenth of the time: it runs for 10 ms and is stopped for 90 ms."""
 
     def __init__(self, process):
         self._process = process
@@ -124,7 +124,7 @@ class Slowed:
 
 @contextlib.contextmanager
 def busy(processors, log):
-    """A loop that never rests on each of these processors."""
+    """An endless loop on each of these processors."""
     loops = [start(["taskset", "-c", str(cpu), "bash", "-c", "while :; do :; done"], log) for cpu in processors]
     try:
         yield

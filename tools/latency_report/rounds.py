@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All measurements in turn, again and again, so that what disturbs the machine disturbs all alike."""
+"""All measurements in turn, in several rounds, so that other work on the machine disturbs all alike."""
 import contextlib
 import statistics
 import sys
@@ -8,7 +8,7 @@ from . import measure, processes
 from .viewers import Viewers
 
 VIEWERS = {"0": (0, False), "1": (1, False), "4": (4, False), "4_one_stopped": (4, True)}
-LOCKED_RATE = 1000  # Hz: what the tick can follow
+LOCKED_RATE = 1000  # Hz: a rate that the tick can lock to
 KEYS = ("p50", "p99", "max")
 
 
@@ -56,7 +56,7 @@ def middle(all_found):
 
 
 def run_all(setup, alternations, loaded):
-    """@return {"idle": ..., "loaded": ...}, each the middle of all alternations"""
+    """@return {"idle": ..., "loaded": ...}, medians over the rounds"""
     found = {"idle": [], "loaded": []} if loaded else {"idle": []}
     for turn in range(alternations):
         for name, rounds in found.items():

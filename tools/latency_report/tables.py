@@ -40,7 +40,7 @@ def _ratio(results, row, key):
 
 
 def _verdict(results, row):
-    """What was asked for, and whether it held; nothing for a row that is not judged."""
+    """The limits and whether they hold; empty for a row that is not judged."""
     said = []
     for key, limit in zip(("p50", "p99"), row[3]):
         if limit is not None:
@@ -63,7 +63,7 @@ def _about(setup):
     cpus = ",".join(str(cpu) for cpu in sorted(setup.tick_cpus))
     return [f"{platform.system()} {platform.release()}, {os.cpu_count()} processors; the tick and cyclictest may use {cpus}; "
             f"load goes to {','.join(str(cpu) for cpu in setup.busy_cpus) or 'none'}",
-            f"medians of {setup.alternations} alternations of {setup.seconds:g} s each; the maximum is of all, and is not judged",
+            f"medians of {setup.alternations} alternations of {setup.seconds:g} s each; the maximum is over all and is not judged",
             f"ddsperf: mean of ping-pongs of {setup.pose_bytes} and {setup.force_bytes} bytes, the sizes of ToolPose and ToolForce, "
             "1000 a second, best effort, " + ("SCHED_FIFO 70" if setup.realtime else "no real-time priority"),
             "pose to force: 991 poses a second, so that all waits for a tick of 1 kHz come up; with phase lock 1000",

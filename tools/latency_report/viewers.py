@@ -19,14 +19,14 @@ class Viewers:
         self._all = [processes.start(command, setup.log("watch"), setup.env, stdout=subprocess.PIPE) for _ in range(count)]
         self._slow = None
         if count > 0:
-            time.sleep(1.5)  # they find the server
+            time.sleep(1.5)  # for discovery of the server
         if hampered:
             self._all[0].send_signal(signal.SIGSTOP)
             self._slow = processes.Slowed(self._all[1])
         self._well = self._all[2:] if hampered else self._all
 
     def end(self):
-        """@throw Failure when a viewer that was left alone saw nothing: then it was no load either"""
+        """@throw Failure when an unhampered viewer received nothing and so was no load"""
         if self._slow is not None:
             self._slow.end()
         seen = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How many bytes the 1 kHz types take on the wire, from idl/palpate.idl itself."""
+"""Sizes in bytes of the 1 kHz types on the wire, from idl/palpate.idl."""
 import re
 
 from .processes import Failure
@@ -9,7 +9,7 @@ _SIZES = {"unsigned long": 4, "long": 4, "unsigned long long": 8, "long long": 8
 
 def size_of(idl, struct):
     """Bytes of a struct of numbers and arrays of them in CDR: each number at a multiple of its size.
-    @throw Failure when the struct is not there or has something else in it"""
+    @throw Failure when the struct is missing or has other members"""
     body = re.search(r"struct " + struct + r" \{(.*?)\};", idl.read_text(encoding="utf-8"), re.S)
     if body is None:
         raise Failure(f"{idl} has no struct {struct}")
@@ -20,7 +20,7 @@ def size_of(idl, struct):
             continue
         member = re.fullmatch(r"(?:@key )?([a-z ]+) \w+(?:\[(\d+)\])?;", line)
         if member is None or member.group(1) not in _SIZES:
-            raise Failure(f"{idl}: struct {struct}: '{line}' is no number")
+            raise Failure(f"{idl}: struct {struct}: '{line}' is not a number")
         number = _SIZES[member.group(1)]
         size = -(-size // number) * number + number * int(member.group(2) or 1)
     return size

@@ -15,8 +15,8 @@ void addModel(program::Options& command, Study& study) {
 
 int body(int argc, char** argv) {
   program::CommandLine line("palpate-feel",
-                            "Tries what a hand feels of a model: closed loops, slides and a device in closed "
-                            "loop, through step().");
+                            "Computes what a hand feels of a model: closed loops, slides, and a device in "
+                            "closed loop, through step().");
   Study study;
   program::Options loops = line.options().subcommand(
       "loops", "closed paths: does the organ ever return more energy than it received?");
