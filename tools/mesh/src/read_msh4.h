@@ -13,8 +13,8 @@ namespace palpate::mesh {
 /// Physical groups of the model's entities: (dimension, tag) -> numbers.
 using MshEntities = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>>;
 
-/// The sections of version 4. The reader stands behind the line with the section's name, and is in binary
-/// mode if the file is.
+/// The sections of version 4. The reader is at the line after the section's name, in binary
+/// mode if the file is binary.
 void readMsh4Entities(ByteReader& in, const MshFormat& format, MshEntities& entities);
 void readMsh4Nodes(ByteReader& in, const MshFormat& format, RawMesh& mesh);
 void readMsh4Elements(ByteReader& in, const MshFormat& format, const MshEntities& entities, RawMesh& mesh);

@@ -12,10 +12,9 @@ namespace palpate::mesh {
 ///   Nodes keep the file's order; those in no tetrahedron are dropped. Points, lines and triangles count
 ///   only for groups. A group is the nodes of all elements of a physical group (Medit: reference), whatever
 ///   their dimension; groups of the same name are one. A group without a name is called by its number, or
-/// `point:1`,
-///   `curve:1`, `surface:1`, `volume:1` where several dimensions use the number. VTK has no groups; there,
+///   `point:1`, `curve:1`, `surface:1`, `volume:1` where several dimensions use the number. VTK has no groups; there,
 ///   nodes and cells are numbered by position from 1. The file is untrusted: counts are checked against its
-/// size, indices against their ranges. checkMesh() checks the geometry.
+///   size, indices against their ranges. checkMesh() checks the geometry.
 /// @throw MeshError, one line with the file and the entity
 [[nodiscard]] TetMesh readMesh(const std::filesystem::path& path);
 

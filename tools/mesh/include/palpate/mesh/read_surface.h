@@ -7,7 +7,7 @@
 
 namespace palpate::mesh {
 
-/// Whether readSurface() is in charge of this file: .stl or .obj.
+/// Whether readSurface() reads this file: .stl or .obj.
 [[nodiscard]] bool isSurfaceFile(const std::filesystem::path& path);
 
 /// Reads the triangles of an .stl (text or binary; corners at the same place become one vertex) or .obj file
