@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A haptic device driver in one file. Copy it, fill in the four places marked FILL IN, build it against palpate::haptic.
-// As it is, it drives a fake device: a point that moves up and down by itself, so that it runs without hardware.
+// Unchanged, it drives a fake device, a point that moves up and down, so that it runs without hardware.
 #include <palpate/haptic/haptic_tool.h>
 
 #include <chrono>
@@ -27,12 +27,12 @@ struct Pose {
 // FILL IN 1: the device. Open it, read its pose, write a force, close it.
 class Device {
  public:
-  Device() = default;  // open the device here; throw std::runtime_error when it is not there
-  ~Device() { write({0.0, 0.0, 0.0}); }  // let go, then close
+  Device() = default;                    // open the device here; throw std::runtime_error when it is missing
+  ~Device() { write({0.0, 0.0, 0.0}); }  // release the force, then close
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  // Largest force that the device may render, N: from its data sheet.
+  // Largest force that the device may render, N, from its data sheet.
   static constexpr double kForceLimit = 3.3;
 
   // The newest pose; must not block for longer than a period of the loop.
@@ -49,10 +49,10 @@ class Device {
   Vec3 written_{};
 };
 
-// FILL IN 2: how the device's frame lies in the organ's. Here: the same axes, the device's zero at `origin`, one to one. A scale
-// other than 1 for positions must be undone for forces (power in = power out), and forces are turned back by the same rotation.
+// FILL IN 2: the device's frame in the organ's frame. Here: the same axes, scale 1, the device's zero at `origin`. If you scale
+// positions by s on the way to the organ, scale forces by s on the way back (power in = power out); rotate them back too.
 struct Workspace {
-  Vec3 origin{0.0, 0.0, 0.06};  // where the middle of the device's workspace lies in the organ's frame, m
+  Vec3 origin{0.0, 0.0, 0.06};  // centre of the device's workspace in the organ's frame, m
 
   Vec3 toWorld(const Vec3& p) const { return {origin[0] + p[0], origin[1] + p[1], origin[2] + p[2]}; }
   Quaternion toWorld(const Quaternion& q) const { return q; }
@@ -62,7 +62,7 @@ struct Workspace {
 struct Arguments {
   palpate::haptic::Options tool;
   Workspace workspace;
-  double seconds = 0.0;  // 0: until it is stopped
+  double seconds = 0.0;  // 0: until stopped
 };
 
 [[noreturn]] void usage(int code) {
@@ -111,8 +111,8 @@ int run(const Arguments& arguments) {
     std::fprintf(stderr, "no server on DDS domain %u within 10 s\n", arguments.tool.domain);
     return 1;
   }
-  // FILL IN 3: the rate. The loop may be faster than the server's 1 kHz: forceAt() carries the force on in between. Most devices
-  // call back at their own rate; then the loop's body belongs into that callback.
+  // FILL IN 3: the rate. The loop may be faster than the server's 1 kHz: forceAt() extrapolates in between. Most devices call
+  // back at their own rate; then put the loop's body into that callback.
   constexpr auto kPeriod = std::chrono::microseconds(500);
   double largest = 0.0;
   long answered = 0;
@@ -122,7 +122,7 @@ int run(const Arguments& arguments) {
     const Vec3 p = arguments.workspace.toWorld(pose.position);
     tool.send(p, arguments.workspace.toWorld(pose.orientation), pose.buttons);
     const palpate::haptic::Force force = tool.forceAt(p);
-    // FILL IN 4: what else the device has to know of, e.g. force.flags on a lamp.
+    // FILL IN 4: what else the device shows, e.g. force.flags on a lamp.
     device.write(arguments.workspace.toDevice(force.force));
     largest = std::fmax(largest, std::hypot(force.force[0], force.force[1], force.force[2]));
     answered += force.gain > 0.0 ? 1 : 0;

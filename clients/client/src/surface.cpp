@@ -58,7 +58,7 @@ Point normalAt(const Surface& surface, std::uint32_t node) {
   return sum;
 }
 
-// Accessible nodes whose triangles have accessible corners only; all accessible ones when there is none.
+// Accessible nodes whose triangles have only accessible corners; without such a node, all accessible nodes.
 std::vector<std::uint32_t> candidates(const Surface& surface) {
   std::vector<std::uint8_t> inner = surface.accessible;
   for (const auto& triangle : surface.triangles)

@@ -38,7 +38,8 @@ std::uint64_t ToolClient::publish(const Point& position, const std::array<double
   std::copy(orientation.begin(), orientation.end(), pose_.orientation);
   pose_.buttons = buttons;
   pose_.stamp_ns = rt::monotonicNow();
-  last_seq_.store(pose_.seq, std::memory_order_relaxed);  // before the pose is out: its answer comes later
+  last_seq_.store(pose_.seq,
+                  std::memory_order_relaxed);  // before the pose is out, so that its answer is known
   return poses_.write(pose_) ? pose_.seq : 0;
 }
 

@@ -30,7 +30,7 @@ double largest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-// K_vc as the server states it, N/m; JSON knows no infinity, so nothing when there is no coupling.
+// K_vc as the server states it, N/m; null without a coupling, because JSON has no infinity.
 json couplingOf(const dds::ServerStatus& status) {
   return std::isfinite(status.coupling_stiffness) ? json(status.coupling_stiffness) : json(nullptr);
 }

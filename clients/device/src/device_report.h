@@ -11,7 +11,7 @@
 
 namespace palpate::device {
 
-/// All that a report tells of.
+/// Everything that a report shows.
 struct Session {
   std::string preset;
   Mechanics mechanics;
@@ -25,7 +25,7 @@ struct Session {
   Verdict verdict;
 };
 
-/// For people: what was run, a chart of the depth, and the verdict.
+/// For people: the run, a chart of the depth, and the verdict.
 [[nodiscard]] std::string textOf(const Session& session);
 /// The object of --json (docs/json.md).
 [[nodiscard]] nlohmann::json jsonOf(const Session& session);

@@ -16,7 +16,7 @@ constexpr double kPeriod = 1e-3;  // s
 constexpr std::int64_t kPeriodNs = 1'000'000;
 constexpr std::uint64_t kPatience = 1000;  // periods
 
-// One exchange with the server each period.
+// One exchange with the server per period.
 class Exchange {
  public:
   explicit Exchange(client::ToolClient& tool) : tool_(tool), pacer_(kPeriodNs) {}
@@ -27,8 +27,8 @@ class Exchange {
     publish();
   }
 
-  /// Waits for the next period, and on until the server has answered the pose before the one sent last.
-  /// @return false when the run has to end
+  /// Waits for the next period, and longer until the server has answered the pose before the newest one.
+  /// @return false when the run must end
   bool await(Recording& recording) {
     for (std::uint64_t periods = 0;; ++periods) {
       pacer_.wait();
@@ -57,7 +57,7 @@ class Exchange {
     const bool ramping = (answer_.flags & dds::flag::kRamping) != 0;
     letting_go_ = stale || (letting_go_ && ramping);
     if (const auto& f = answer_.force; !std::isfinite(f[0] + f[1] + f[2]))
-      throw client::ClientError("the server sent a force that is no number");
+      throw client::ClientError("the server sent a force that is not finite");
   }
 
   client::ToolClient& tool_;
@@ -65,8 +65,8 @@ class Exchange {
   dds::ToolForce answer_{};
   Point sent_{};
   std::uint64_t last_sent_{0};
-  std::uint64_t before_{0};  // the last number of the pose before
-  bool letting_go_{false};   // for staleness; not for a contact that begins
+  std::uint64_t before_{0};  // the last seq of the previous pose
+  bool letting_go_{false};   // a stale pose, and the ramp after it; not the ramp of a new contact
 };
 
 void note(const HeldDevice& device, const dds::ToolForce& answer, Recording& recording) {
@@ -88,7 +88,7 @@ Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDe
   note(device, {}, recording);
   bool goes_on = true;
   for (std::size_t i = 0; i < count && goes_on; ++i) {
-    const dds::ToolForce answer = exchange.answer();  // what the device knows when the period begins
+    const dds::ToolForce answer = exchange.answer();  // the newest when the period begins
     exchange.send(device.position());
     device.step({answer.force[0], answer.force[1], answer.force[2]}, kPeriod);
     note(device, answer, recording);

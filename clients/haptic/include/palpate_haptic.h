@@ -3,9 +3,9 @@
 #define PALPATE_HAPTIC_H
 
 /*
- * palpate/haptic/haptic_tool.h for C (C99): send the tool's pose, read the force on it. What a call does, its watchdog, its
- * bounds, and who may call from which thread (one thread sends and reads) is documented there.
- * SI units; world frame: that of the organ's mesh. No call throws or ends the process.
+ * palpate/haptic/haptic_tool.h for C (C99): sends the tool's pose, reads the force on it. That header documents what each
+ * call does, the watchdog, the bounds and the threads (one thread sends and reads).
+ * SI units; the world frame is that of the organ's mesh. No call throws or ends the process.
  */
 
 #include <stddef.h>
@@ -26,11 +26,10 @@ extern "C" {
 /* What a call returns. */
 enum {
   PALPATE_HAPTIC_OK = 0,
-  PALPATE_HAPTIC_NO_ANSWER = 1, /* no force has come yet, or none for 50 ms: the force is zero */
-  PALPATE_HAPTIC_INVALID_ARGUMENT =
-      -1, /* a null pointer, or a number that is negative or not finite where it must not */
-  PALPATE_HAPTIC_SEND_FAILED = -2, /* DDS refused the pose */
-  PALPATE_HAPTIC_NO_SERVER = -3    /* none within the time */
+  PALPATE_HAPTIC_NO_ANSWER = 1,         /* no force came yet, or none for 50 ms: the force is zero */
+  PALPATE_HAPTIC_INVALID_ARGUMENT = -1, /* a null pointer, or a number out of its range */
+  PALPATE_HAPTIC_SEND_FAILED = -2,      /* DDS refused the pose */
+  PALPATE_HAPTIC_NO_SERVER = -3         /* no server within the time */
 };
 
 /* Values of palpate_haptic_force.state. */
@@ -41,18 +40,18 @@ typedef struct palpate_haptic palpate_haptic; /* one tool of one server */
 typedef struct palpate_haptic_options {
   uint32_t domain;          /* DDS domain, 0 to 230 */
   uint32_t tool_id;         /* 0 to 3 */
-  double force_limit;       /* the device's own, N, 0.01 to 50; the server's holds as well */
+  double force_limit;       /* the device's own, N, 0.01 to 50; the server's limit applies too */
   double max_extrapolation; /* m, 0 to 0.05 */
-  int receive_priority;     /* SCHED_FIFO, 1 to 99; 0: as it is */
+  int receive_priority;     /* SCHED_FIFO, 1 to 99; 0: unchanged */
 } palpate_haptic_options;
 
 typedef struct palpate_haptic_force {
   double force[3];   /* on the tool, N: what the device renders */
-  double anchor[3];  /* rest position of the point that is touched, m */
-  double proxy[3];   /* where it is now, m */
-  double age_s;      /* since the newest answer came, s; infinity before the first */
-  double gain;       /* of the watchdog, 0 to 1, contained in force */
-  uint64_t pose_seq; /* the pose that was answered; 0 before the first answer */
+  double anchor[3];  /* rest position of the touched point, m */
+  double proxy[3];   /* its current position, m */
+  double age_s;      /* time since the newest answer, s; infinity before the first */
+  double gain;       /* the watchdog's gain, 0 to 1, already in force */
+  uint64_t pose_seq; /* the answered pose; 0 before the first answer */
   uint32_t flags;    /* PALPATE_HAPTIC_FLAG_* */
   uint32_t state;    /* PALPATE_HAPTIC_FREE, _STICK, _SLIDE */
 } palpate_haptic_force;
@@ -60,7 +59,7 @@ typedef struct palpate_haptic_force {
 /* Fills in the defaults. Null is ignored. */
 PALPATE_HAPTIC_C_API void palpate_haptic_default_options(palpate_haptic_options* options);
 
-/* Joins the domain. options null: the defaults. Returns null when it cannot, with one line about it in `error` (cut to
+/* Joins the domain. options null: the defaults. On failure returns null and writes one line to `error` (cut to
  * error_size, always terminated; may be null). */
 PALPATE_HAPTIC_C_API palpate_haptic* palpate_haptic_open(const palpate_haptic_options* options, char* error,
                                                          size_t error_size);
@@ -71,19 +70,18 @@ PALPATE_HAPTIC_C_API void palpate_haptic_close(palpate_haptic* tool);
  * without one. */
 PALPATE_HAPTIC_C_API int palpate_haptic_wait_for_server(const palpate_haptic* tool, double seconds);
 
-/* Sends the pose of now. orientation null: no rotation. */
+/* Sends the current pose. orientation null: no rotation. */
 PALPATE_HAPTIC_C_API int palpate_haptic_send(palpate_haptic* tool, const double position[3],
                                              const double orientation[4], uint32_t buttons);
 
-/* The newest force, held. PALPATE_HAPTIC_OK or PALPATE_HAPTIC_NO_ANSWER; `out` is filled in both cases. */
+/* The newest force, held until the next answer. PALPATE_HAPTIC_OK or PALPATE_HAPTIC_NO_ANSWER; `out` is filled in both cases. */
 PALPATE_HAPTIC_C_API int palpate_haptic_read(palpate_haptic* tool, palpate_haptic_force* out);
 
-/* The same, carried on to where the tool is now. */
+/* The same, extrapolated to the tool's current position. */
 PALPATE_HAPTIC_C_API int palpate_haptic_read_at(palpate_haptic* tool, const double position[3],
                                                 palpate_haptic_force* out);
 
-/* What the server said of itself: the radius of the tip (m) and the limit of its force (N); 0 until it did, or for
- * null. */
+/* The tip radius (m) and the force limit (N) from the server's status; 0 until it has come, or for null. */
 PALPATE_HAPTIC_C_API double palpate_haptic_tip_radius(const palpate_haptic* tool);
 PALPATE_HAPTIC_C_API double palpate_haptic_server_force_limit(const palpate_haptic* tool);
 

@@ -11,7 +11,7 @@ namespace palpate::haptic {
 
 using client::Point;
 
-/// What of a ToolForce is rendered. Plain: it crosses threads.
+/// The parts of a ToolForce that are rendered. Plain data: it crosses threads.
 struct Answer {
   Vec3 force{};                       ///< N
   std::array<double, 9> stiffness{};  ///< d force_i / d position_j, row-major, N/m
@@ -23,14 +23,15 @@ struct Answer {
   std::int64_t arrived_ns{0};  ///< this machine's clock
 };
 
-/// From answers to the force of now: watchdog, extrapolation, limits (haptic_tool.h says which). Knows no DDS and no clock: the
-/// caller tells the time. Threads: one. Real-time: yes, all of it.
+/// Turns answers into the current force: watchdog, extrapolation, limits (haptic_tool.h). Knows neither DDS nor a clock: the
+/// caller passes the time. Threads: one. Real-time: yes.
 class ForceRenderer {
  public:
-  static constexpr double kStaleAfter = 0.020;   ///< s without an answer until the force falls
-  static constexpr double kRamp = 0.030;         ///< s from full force to none, and back
-  static constexpr double kLongestRead = 0.005;  ///< s by which one read brings the force back at most
-  static constexpr std::size_t kPoses = 1024;    ///< that are remembered; a quarter of a second at 4 kHz
+  static constexpr double kStaleAfter = 0.020;  ///< s without an answer until the force falls
+  static constexpr double kRamp = 0.030;        ///< s from full force to none, and back
+  static constexpr double kLongestRead =
+      0.005;  ///< s; one read raises the force by at most this much of the ramp
+  static constexpr std::size_t kPoses = 1024;  ///< remembered poses; a quarter of a second at 4 kHz
 
   /// @param[in] max_extrapolation  m
   explicit ForceRenderer(double max_extrapolation) noexcept : max_extrapolation_(max_extrapolation) {}
@@ -38,13 +39,12 @@ class ForceRenderer {
   /// @param[in] seq  rises by one with each pose
   void sent(std::uint64_t seq, const Point& position) noexcept PALPATE_NONBLOCKING;
 
-  /// @return false when it was left out: a number that is not finite, or the answer to an older pose than the last
-  /// one's
+  /// @return false when it is ignored: a number is not finite, or the pose is older than that of the last answer
   bool answered(const Answer& answer) noexcept PALPATE_NONBLOCKING;
 
-  /// The force of now.
-  /// @param[in] position  where the tool is; null: the answered force is held
-  /// @param[in] limit     of the size of the force, N
+  /// The current force.
+  /// @param[in] position  of the tool; null: the answered force is held
+  /// @param[in] limit     of the force's size, N
   [[nodiscard]] Force at(const Point* position, std::int64_t now_ns,
                          double limit) noexcept PALPATE_NONBLOCKING;
 

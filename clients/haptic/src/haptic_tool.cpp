@@ -81,7 +81,7 @@ class HapticTool::Impl {
                                                   force.flags, force.state, received_ns});
   }
 
-  // Two numbers that do not belong together: each is used alone, so relaxed order suffices.
+  // Two independent numbers: relaxed order suffices.
   static void onStatus(dds::ReaderView<dds::ServerStatus> reader, void* context) noexcept {
     auto& self = *static_cast<Impl*>(context);
     dds::ServerStatus status;
@@ -100,7 +100,7 @@ class HapticTool::Impl {
   std::atomic<double> tip_radius_{0.0};
   dds::Participant participant_;
   dds::Reader<dds::ServerStatus> statuses_;
-  client::ToolClient tool_;  // last, so that nothing is received while the rest goes
+  client::ToolClient tool_;  // last: nothing is received while the other members are destroyed
 };
 
 HapticTool::HapticTool(const Options& options) try : impl_(std::make_unique<Impl>(options)) {

@@ -6,9 +6,9 @@
 namespace palpate::latency {
 namespace {
 
-/// From the pose's arrival to the deadline of its tick: what a server says of it, if it can be true.
+/// From the pose's arrival to the deadline of its tick, as the server states it, clamped to what is possible.
 std::int64_t waitOf(const dds::ToolForce& force) noexcept {
-  constexpr std::int64_t kLongest = 3'600'000'000'000;  // ns; whatever was sent, the difference is a number
+  constexpr std::int64_t kLongest = 3'600'000'000'000;  // ns; keeps the difference within 64 bits
   const auto sane = [&](std::int64_t ns) { return std::clamp<std::int64_t>(ns, -kLongest, kLongest); };
   return std::max<std::int64_t>(0, sane(force.pose_wait_ns) - sane(force.wakeup_ns));
 }
@@ -28,7 +28,7 @@ void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noex
   if (force.pose_stamp_ns == 0) return;
   const std::int64_t age_ns = received_ns - force.pose_stamp_ns;
   if (age_ns > 2 * period_ns_) ++late_;
-  if (known) return;  // only the first answer to a pose is a round trip
+  if (known) return;  // only the first answer to a pose gives a round trip
   const std::int64_t wait_ns = waitOf(force);
   pose_to_force_.add(age_ns);
   wait_.add(wait_ns);

@@ -10,12 +10,11 @@
 
 namespace palpate::latency {
 
-/// What the answers of a server say about time.
-/// Threads: add() on the receive thread; the rest before receiving starts or after it ended, but for
-/// record().
+/// Times in the answers of a server.
+/// Threads: add() on the receive thread, record() on any; the rest before receiving starts or after it ends.
 class LatencyLog {
  public:
-  /// @param[in] period_ns  of the poses: an answer to a pose older than two of them is late
+  /// @param[in] period_ns  of the poses; an answer to a pose older than two periods is late
   explicit LatencyLog(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
 
   /// Starts and ends the measurement; answers before and after do not count. Threads: any.
@@ -28,7 +27,7 @@ class LatencyLog {
   [[nodiscard]] const rt::CycleStats& poseToForce() const noexcept { return pose_to_force_; }
   /// From a pose's arrival at the server to the planned time of the tick that answered it, by the server's clock.
   [[nodiscard]] const rt::CycleStats& wait() const noexcept { return wait_; }
-  /// Pose to force less that wait, pose by pose: what wire, wake-up, tick and threads cost.
+  /// Pose to force less that wait, pose by pose: the cost of wire, wake-up, tick and threads.
   [[nodiscard]] const rt::CycleStats& poseToForceLessWait() const noexcept { return less_wait_; }
   [[nodiscard]] const rt::CycleStats& wakeup() const noexcept { return wakeup_; }
   [[nodiscard]] const rt::CycleStats& tick() const noexcept { return tick_; }
@@ -36,7 +35,7 @@ class LatencyLog {
   [[nodiscard]] std::uint64_t lost() const noexcept { return answers_.lost(); }
   [[nodiscard]] std::uint64_t restarts() const noexcept { return answers_.restarts(); }
   [[nodiscard]] std::uint64_t late() const noexcept { return late_; }
-  /// Of the server, during the measurement.
+  /// The server's counts during the measurement.
   [[nodiscard]] std::uint64_t overruns() const noexcept { return last_.overruns - first_.overruns; }
   [[nodiscard]] std::uint64_t superseded() const noexcept { return last_.superseded - first_.superseded; }
 
@@ -47,7 +46,7 @@ class LatencyLog {
   };
 
   std::int64_t period_ns_;
-  std::atomic<bool> recording_{false};  // a flag on its own: nothing else is read because of it
+  std::atomic<bool> recording_{false};  // orders nothing else
   rt::CycleStats pose_to_force_;
   rt::CycleStats wait_;
   rt::CycleStats less_wait_;

@@ -10,7 +10,7 @@
 
 namespace palpate::latency {
 
-/// The table of percentiles, the counters, and the histogram of the round trip, for people.
+/// For people: the table of percentiles, the counters, and the histogram of the round trip.
 [[nodiscard]] std::string textOf(const LatencyLog& log, const SenderStats& sender,
                                  const dds::ServerStatus& server);
 

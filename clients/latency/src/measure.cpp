@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kApproachSeconds = 1.0;
 
-// In between 1 and 2 mm deep, one second a turn, so that the force never rests.
+// Moves between 1 and 2 mm deep, one second per cycle, so that the force keeps changing.
 client::Path gentlePress(const client::Spot& spot, const MeasureOptions& options) {
   const auto above = [&](double height) {
     return spot.position + (options.tip_radius + height) * spot.normal;
@@ -27,7 +27,7 @@ client::Path gentlePress(const client::Spot& spot, const MeasureOptions& options
   return client::Path(above(0.010), std::move(legs));
 }
 
-// Sends from `from` to `to` on the path's time; the pacer keeps going from one call to the next.
+// Sends the path from time `from` to time `to`; the pacer's grid continues over the calls.
 void send(client::ToolClient& tool, const client::Path& path, double from, double to, rt::Pacer& pacer,
           SenderStats& stats) {
   const std::int64_t start_ns = rt::monotonicNow();

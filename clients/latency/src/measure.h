@@ -7,7 +7,7 @@
 
 namespace palpate::latency {
 
-/// How to measure.
+/// Parameters of a measurement.
 struct MeasureOptions {
   double seconds{10.0};      ///< of the measurement, in (0, 86400]
   double rate_hz{1000.0};    ///< of the poses, in [10, 4000]
@@ -15,17 +15,17 @@ struct MeasureOptions {
   std::uint32_t tool_id{0};
 };
 
-/// This process's side of the measurement.
+/// The sender's side of the measurement.
 struct SenderStats {
-  rt::CycleStats wakeup;  ///< how late the sending thread woke
-  double seconds{0.0};    ///< how long it was measured
+  rt::CycleStats wakeup;  ///< lateness of the sending thread's wake-ups
+  double seconds{0.0};    ///< duration of the measurement
   std::uint64_t sent{0};
   bool realtime{false};
 };
 
-/// Presses the organ gently at `spot`, for the tick has less to do without contact, and fills `log`. About
-/// one second of approach before and of retreat after are not measured.
-/// @throw client::ClientError when no server takes poses
+/// Presses the organ gently at `spot`, because a tick has less to do without contact, and fills `log`. The
+/// approach before and the retreat after, about one second each, are not measured.
+/// @throw client::ClientError  no server takes poses
 [[nodiscard]] SenderStats measure(const dds::Participant& participant, const client::Spot& spot,
                                   const MeasureOptions& options, LatencyLog& log);
 

@@ -8,7 +8,7 @@
 
 namespace palpate::parameters {
 
-/// Asks a server until it answers: the request is sent every 200 ms under one request_id, which is chosen here.
+/// Sends a request every 200 ms, under one new request_id, until the server answers.
 /// @param[in] request  server_id, fields and values
 /// @return the server's answer, accepted or not
 /// @throw client::ClientError  no answer within `patience`, or the user interrupted; dds::DdsError

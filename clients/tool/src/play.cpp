@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
 
-// Written by the receive thread; read once the ToolClient, and with it the receiving, has ended.
+// The receive thread writes it; it is read after the ToolClient, and so the receiving, has ended.
 struct AnswerLog {
   explicit AnswerLog(std::size_t capacity) { first_answers.reserve(capacity); }
 
@@ -37,8 +37,7 @@ struct AnswerLog {
   std::vector<dds::ToolForce> first_answers;
   client::GapCounter answers;
   std::uint64_t newest_pose{0};
-  std::atomic<bool> server_left{
-      false};  // a flag on its own: nothing else is read because of it while receiving
+  std::atomic<bool> server_left{false};  // orders nothing else while receiving
 };
 
 struct SentPose {
@@ -84,7 +83,7 @@ Recording play(const dds::Participant& participant, std::uint32_t tool_id, const
     client::ToolClient tool(participant, tool_id, &AnswerLog::onForce, &log);
     if (!client::prepareToSend(tool)) std::cerr << client::kNotRealtime;
     sendAlong(path, tool, log, sent, recording);
-    std::this_thread::sleep_for(20ms);  // the last answers are still on their way
+    std::this_thread::sleep_for(20ms);  // the last answers are on their way
   }
   recording.samples = join(sent, log.first_answers);
   recording.answers = log.answers;

@@ -18,12 +18,12 @@ struct Sample {
   dds::ToolForce force;
 };
 
-/// What happened while a path was played.
+/// Record of a played path.
 struct Recording {
   std::vector<Sample> samples;  ///< in the order of the poses
   client::GapCounter answers;
   std::uint64_t sent{0};
-  std::uint64_t missed_periods{0};  ///< periods in which this process did not get to run
+  std::uint64_t missed_periods{0};  ///< periods that this process missed
   bool server_left{false};          ///< the server said that it shuts down
   /// Poses without a recorded answer: superseded, or their answer was lost.
   [[nodiscard]] std::uint64_t unanswered() const noexcept { return sent - samples.size(); }
@@ -33,9 +33,9 @@ struct Recording {
   }
 };
 
-/// Sends poses along the path at 1 kHz and records the answers; ends early on a stop signal or when the
+/// Sends poses along the path at 1 kHz and records the answers. Ends early on a stop signal or when the
 /// server leaves.
-/// @throw client::ClientError when no server takes poses, or none answers
+/// @throw client::ClientError  no server takes poses, or none answers
 [[nodiscard]] Recording play(const dds::Participant& participant, std::uint32_t tool_id,
                              const client::Path& path);
 

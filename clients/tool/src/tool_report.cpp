@@ -18,7 +18,7 @@ Point forceOf(const Sample& sample) {
   return {sample.force.force[0], sample.force.force[1], sample.force.force[2]};
 }
 
-// How far the tip has gone below the undeformed surface at the spot, m.
+// Depth of the tip below the undeformed surface at the spot, m.
 double depthOf(const Played& played, const Sample& sample) {
   return played.options.tip_radius - dot(sample.pose - played.spot.position, played.spot.normal);
 }
@@ -66,7 +66,7 @@ std::string summaryOf(const Played& played, const Recording& recording) {
          (recording.server_left ? "the server shut down before the script's end\n" : "");
 }
 
-// Work done by the hand on the organ up to each sample, J: the integral of -force . d pose, by trapezoids.
+// Work of the hand on the organ up to each sample, J: the integral of -force . d pose, by trapezoids.
 std::vector<double> workOf(const Recording& recording) {
   std::vector<double> work;
   for (std::size_t i = 0; i < recording.samples.size(); ++i) {

@@ -10,7 +10,7 @@
 
 namespace palpate::tool {
 
-/// What was played, for the reports.
+/// The played script, for the reports.
 struct Played {
   std::string script;
   client::ScriptOptions options;
@@ -19,7 +19,7 @@ struct Played {
   const client::ServerInfo& server;
 };
 
-/// A table of force over time, a chart of its size, and a summary line, for people.
+/// For people: a table of force over time, a chart of its size, and a summary line.
 [[nodiscard]] std::string tableOf(const Played& played, const Recording& recording);
 
 /// The same for programs: `t_s`[n], `pose_m`[n][3], `force_N`[n][3] (on the tool), `flags`[n],

@@ -26,7 +26,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// The name in "name:port" or "[name]:port"; the port is what `rest` holds.
+// The name in "name:port" or "[name]:port"; `rest` gets the port.
 std::string nameOf(std::string_view host, std::string_view& rest) {
   if (host.starts_with('[')) {
     const std::size_t end = host.find(']');
@@ -39,7 +39,7 @@ std::string nameOf(std::string_view host, std::string_view& rest) {
   return lower(host.substr(0, colon));
 }
 
-// "https://name:port": what a Host header would say.
+// The Host header that belongs to "https://name:port".
 std::string_view hostOfOrigin(std::string_view origin) {
   const std::size_t at = origin.find("://");
   return at == std::string_view::npos ? std::string_view() : origin.substr(at + 3);

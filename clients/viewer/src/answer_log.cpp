@@ -25,7 +25,7 @@ void AnswerLog::since(std::uint64_t& place, std::size_t most, std::vector<Answer
 }
 
 std::int64_t StampClock::toLocal(std::int64_t stamp_ns, std::int64_t received_ns) noexcept {
-  constexpr std::int64_t kFurthest = 1LL << 60;  // 36 years: no sum below leaves 64 bits
+  constexpr std::int64_t kFurthest = 1LL << 60;  // 36 years: sums below stay within 64 bits
   stamp_ns = std::clamp(stamp_ns, -kFurthest, kFurthest);
   const std::int64_t offset = received_ns - stamp_ns;
   const bool jumped = offset - offset_ns_ > kJumpNs || offset_ns_ - offset > kJumpNs;

@@ -8,7 +8,7 @@
 
 namespace palpate::viewer {
 
-/// The newest answers of all tools, in the order in which they came; each reader keeps its own place. Threads: one.
+/// The newest answers of all tools, in order of arrival; each reader keeps its own place. Threads: one.
 class AnswerLog {
  public:
   static constexpr std::size_t kCapacity = 8192;  ///< two seconds of four tools at 1 kHz
@@ -19,11 +19,11 @@ class AnswerLog {
     ring_[count_ % kCapacity] = answer;
     ++count_;
   }
-  /// Answers since the log began: the place of a reader who has seen them all.
+  /// Answers since the log began: the place of a reader that has seen them all.
   [[nodiscard]] std::uint64_t end() const noexcept { return count_; }
 
-  /// Answers from `place` on, at most `most` of them: when there are more, of each tool every n-th, the newest always
-  /// among them. Those that fell out of the log are left out.
+  /// Answers from `place` on, at most `most` of them. Of more, every n-th of each tool, always with the newest. Answers
+  /// that fell out of the log are missing.
   /// @param[in,out] place  moved to end()
   /// @param[out]    out    replaced
   void since(std::uint64_t& place, std::size_t most, std::vector<AnswerRecord>& out) const;
@@ -33,12 +33,12 @@ class AnswerLog {
   std::uint64_t count_{0};
 };
 
-/// Turns a server's stamps into this machine's time. The clock may be another machine's: the offset is the least seen
-/// of arrival less stamp, which forgets at 100 ppm of 1 kHz answers. One server's: another needs a new one.
+/// Converts one server's stamps to this machine's time; the server may run on another machine. The offset is the least
+/// of arrival minus stamp so far, which rises by 100 ns per answer (100 ppm at 1 kHz) so that it follows a drift.
 /// Threads: one.
 class StampClock {
  public:
-  /// @return when the stamp was made, this machine's clock, ns; never after its arrival
+  /// @return time of the stamp on this machine's clock, ns; never after its arrival
   [[nodiscard]] std::int64_t toLocal(std::int64_t stamp_ns, std::int64_t received_ns) noexcept;
 
  private:

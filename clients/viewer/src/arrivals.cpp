@@ -12,7 +12,7 @@
 namespace palpate::viewer {
 namespace {
 
-// Pages are sent float32, also sums and lengths of these; what it cannot hold, or is no number, is not an answer.
+// Pages get numbers, their sums and their lengths as float32. An answer that float32 cannot hold is dropped.
 bool allFit(std::span<const double> numbers) noexcept {
   constexpr double kLargest = 1e30;
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::fabs(x) <= kLargest; });
@@ -32,7 +32,7 @@ std::uint64_t Arrivals::keyOf(std::uint32_t organ_id, std::string_view model_id)
   return (std::hash<std::string_view>{}(model_id)*31 + organ_id) | 1U << 31;
 }
 
-// Other organs' fields must not spend the pace.
+// Judged before the pace, so that other organs' fields do not use it up.
 bool Arrivals::admits(const dds::SurfaceDisplacement& field, void* context) noexcept {
   auto& self = *static_cast<Arrivals*>(context);
   if (keyOf(field.organ_id, field.model_id) != self.organ_.load(std::memory_order_relaxed)) return false;

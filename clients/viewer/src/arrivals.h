@@ -16,7 +16,7 @@ namespace palpate::viewer {
 /// Called on DDS's receive thread; must not block.
 using WakeFunction = void (*)(void* context) noexcept;
 
-/// A displacement field as it came, not judged yet.
+/// A displacement field as it came, unchecked.
 struct ArrivedField {
   std::uint32_t organ_id{0};
   std::string model_id;
@@ -31,20 +31,20 @@ struct TimedForce {
   std::int64_t received_ns;
 };
 
-/// What comes too often to be asked for: fields, of which the newest is kept, and forces, all of them. From DDS's
-/// threads to the web thread, by a lock that both hold for a copy.
+/// Takes what comes often from DDS's threads to the web thread: the newest field, and all forces. Both sides hold a lock
+/// for the time of a copy.
 class Arrivals {
  public:
-  static constexpr std::size_t kMostForces = 8192;        ///< kept while nobody takes them
-  static constexpr std::size_t kMostNumbers = 3'000'000;  ///< of a field; longer ones are not looked at
+  static constexpr std::size_t kMostForces = 8192;        ///< kept until the next takeForces()
+  static constexpr std::size_t kMostNumbers = 3'000'000;  ///< of a field; longer ones are ignored
 
   /// @throw dds::DdsError
   Arrivals(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context);
 
-  /// At most so many fields a second are looked at. Threads: any.
+  /// Takes at most this many fields per second. Threads: any.
   void setRate(double rate_hz) noexcept { rate_hz_.store(rate_hz, std::memory_order_relaxed); }
 
-  /// Only fields of this organ and model are looked at; before the first call none. Threads: any.
+  /// Takes only fields of this organ and model; none before the first call. Threads: any.
   void setOrgan(std::uint32_t organ_id, std::string_view model_id) noexcept {
     organ_.store(keyOf(organ_id, model_id), std::memory_order_relaxed);
   }
@@ -59,7 +59,7 @@ class Arrivals {
   static bool admitsForce(const dds::ToolForce& force, void* context) noexcept;
   static void onField(dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept;
   static void onForce(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept;
-  /// Names organ and model in one number, never 0; two of the same are told apart later, by the surface.
+  /// Organ and model as one number, never 0. Two models may share it; the surface tells them apart later.
   static std::uint64_t keyOf(std::uint32_t organ_id, std::string_view model_id) noexcept;
   void keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns);
 

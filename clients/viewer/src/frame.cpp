@@ -62,7 +62,7 @@ void putHeader(const Frame& frame, Bytes& out) {
 
 EncodedField encodeField(std::span<const float> displacement) {
   constexpr float kUnits = 32767.0F;
-  constexpr float kLeastScale = 1e-12F;  // m; of a field that is zero
+  constexpr float kLeastScale = 1e-12F;  // m; scale of a field of zeros
   float largest = 0.0F;
   for (const float u : displacement) largest = std::max(largest, std::fabs(u));
   EncodedField field;

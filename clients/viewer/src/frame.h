@@ -12,7 +12,7 @@ namespace palpate::viewer {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// First number of a binary message: what follows (PROTOCOL.md).
+/// First number of a binary message: its kind (PROTOCOL.md).
 inline constexpr std::uint32_t kMeshKind = 1;
 inline constexpr std::uint32_t kFrameKind = 2;
 
@@ -20,7 +20,7 @@ inline constexpr std::size_t kFrameHeaderSize = 56;
 inline constexpr std::size_t kToolRecordSize = 72;
 inline constexpr std::size_t kAnswerRecordSize = 32;
 
-/// A displacement field as it is sent: 16 bits a number.
+/// A displacement field as pages get it: 16 bits per number.
 struct EncodedField {
   std::uint32_t mesh_revision{0};
   std::uint64_t seq{0};              ///< the server's counter
@@ -34,7 +34,7 @@ struct ToolRecord {
   std::uint32_t tool_id{0};
   std::uint32_t state{0};
   std::uint32_t flags{0};
-  bool mine{false};  ///< the page that gets this drives it
+  bool mine{false};  ///< the receiving page drives it
   std::array<float, 3> tip{};
   std::array<float, 3> proxy{};
   std::array<float, 3> anchor{};
@@ -50,11 +50,11 @@ struct AnswerRecord {
   double t_us{0.0};         ///< when the tick woke, viewer's monotonic clock, us
   float force{0.0F};        ///< size, N
   float penetration{0.0F};  ///< m
-  float wakeup_us{0.0F};    ///< how late the tick woke
+  float wakeup_us{0.0F};    ///< lateness of the tick's wake-up
   float stiffness{0.0F};    ///< -n.K n, N/m, along the outward normal n; 0 when free
 };
 
-/// What one binary FRAME message holds.
+/// The content of one binary FRAME message.
 struct Frame {
   std::uint32_t seq{0};
   std::uint32_t mesh_revision{0};

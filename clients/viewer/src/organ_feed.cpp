@@ -17,7 +17,7 @@ client::Point pointOf(const double (&v)[3]) {
   return {{v[0], v[1], v[2]}};
 }
 
-// -n.K n: how much harder the organ pushes back for each metre along the normal.
+// -n.K n: rise of the organ's push per metre along the normal.
 double normalStiffness(const dds::ToolForce& force, const client::Point& n) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -26,12 +26,12 @@ double normalStiffness(const dds::ToolForce& force, const client::Point& n) {
 }
 
 bool admitsPose(const dds::ToolPose& pose, void*) noexcept {
-  constexpr double kFurthest = 1e6;  // m: of no organ; pages are sent float32
+  constexpr double kFurthest = 1e6;  // m: larger than any organ; pages get float32
   return pose.tool_id < OrganFeed::kTools && std::all_of(std::begin(pose.position), std::end(pose.position),
                                                          [](double x) { return std::fabs(x) <= kFurthest; });
 }
 
-// The tool's poses stopped, and the force has ended: the server answers on, but nobody holds it.
+// The tool's poses stopped and its force is zero: the server goes on answering, but no hand holds the tool.
 bool isGhost(const dds::ToolForce& force) {
   return (force.flags & dds::flag::kStalePose) != 0 && sizeOf(force.force) == 0.0;
 }
@@ -76,7 +76,7 @@ void OrganFeed::pollServer(std::int64_t now_ns) {
   for (std::size_t i = 0; i < answered; ++i) keepParameters(answers[i]);
 }
 
-// Of a server that is not followed yet too: they come once.
+// Also of a server that is not followed yet: parameters come once.
 void OrganFeed::keepParameters(const dds::ServerParameters& parameters) {
   constexpr std::size_t kMostServers = 64;
   const auto& status = watch_.status();

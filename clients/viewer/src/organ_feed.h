@@ -20,14 +20,14 @@
 
 namespace palpate::viewer {
 
-/// All that pages are shown, as it comes over DDS: the newest surface, field, status and parameters, and every answer.
-/// Survives servers that end and others that start. Threads: one, the web thread.
+/// What comes over DDS for the pages: the newest surface, field, status and parameters, and every answer. It outlives
+/// servers and follows the next one. Threads: one, the web thread.
 class OrganFeed {
  public:
   static constexpr std::size_t kTools = 4;
   static constexpr std::int64_t kToolShownNs = 500'000'000;  ///< after its last answer
 
-  /// A tool as the server answered it last.
+  /// A tool in the server's last answer to it.
   struct ToolView {
     dds::ToolForce force{};
     std::int64_t received_ns{0};  ///< 0: never
@@ -36,40 +36,40 @@ class OrganFeed {
     bool tip_known{false};
   };
 
-  /// @param[in] wake  called on DDS's thread when a field has come
+  /// @param[in] wake  called on DDS's thread when a field comes
   /// @throw dds::DdsError
   OrganFeed(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context);
 
-  /// Takes in what came. @param[in] own_writer  poses from it are this program's
-  /// @return tools of which other programs sent poses
+  /// Takes in what came. @param[in] own_writer  writer of this program's poses
+  /// @return tools for which other programs sent poses
   std::vector<std::uint32_t> poll(std::int64_t now_ns, dds::WriterId own_writer);
 
-  /// Whether anybody looks; nobody needs few fields.
+  /// Without a page that watches, few fields are taken.
   void setWatched(bool watched) noexcept { arrivals_.setRate(watched ? rate_hz_ : 1.0); }
 
   [[nodiscard]] const ServerWatch& watch() const noexcept { return watch_; }
-  /// Of the server that is followed; nothing before it said them.
+  /// Parameters of the followed server; nothing before it has sent them.
   [[nodiscard]] std::optional<dds::ServerParameters> parameters() const;
   [[nodiscard]] ServerState state(std::int64_t now_ns) const;
-  /// Rises when a status of the server that is followed, or any parameters, have come.
+  /// Rises when a status of the followed server, or any parameters, come.
   [[nodiscard]] std::uint64_t statusVersion() const noexcept { return status_version_; }
 
-  /// The surface shown, nullptr before the first; revision 0 then, and rises with each other one.
+  /// The surface shown; nullptr and revision 0 before the first. The revision rises with each new surface.
   [[nodiscard]] const client::Surface* surface() const noexcept {
     return revision_ == 0 ? nullptr : &surface_;
   }
   [[nodiscard]] std::uint32_t revision() const noexcept { return revision_; }
   [[nodiscard]] const Outward& outward() const noexcept { return outward_; }
-  /// The newest field that fits it, nullptr when none has come.
+  /// The newest field that fits the surface; nullptr before the first.
   [[nodiscard]] const EncodedField* field() const noexcept { return has_field_ ? &field_ : nullptr; }
   /// Rises with each field.
   [[nodiscard]] std::uint64_t fieldVersion() const noexcept { return field_version_; }
   [[nodiscard]] std::uint64_t droppedFields() const noexcept { return dropped_fields_; }
 
   [[nodiscard]] const AnswerLog& answers() const noexcept { return answers_; }
-  /// nullptr when this tool is not answered, or only because its poses stopped.
+  /// nullptr when the server does not answer this tool, or answers only that its poses stopped.
   [[nodiscard]] const ToolView* tool(std::uint32_t id, std::int64_t now_ns) const noexcept;
-  /// Answers of a server, on `parameters`, since the last call.
+  /// Servers' answers on topic `parameters` since the last call.
   [[nodiscard]] std::vector<dds::ServerParameters> newParameters() {
     return std::exchange(new_parameters_, {});
   }

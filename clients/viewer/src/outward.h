@@ -7,7 +7,7 @@
 
 namespace palpate::viewer {
 
-/// Which way is off the organ: the area-weighted outward normal of the rest surface's nearest node.
+/// Directions away from the organ: the area-weighted outward normal at the nearest node of the rest surface.
 class Outward {
  public:
   Outward() = default;

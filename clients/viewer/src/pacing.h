@@ -6,12 +6,12 @@
 
 namespace palpate::viewer {
 
-/// How many messages a sender may send: `rate` a second in the long run, `burst` at once. Threads: one.
+/// Limits a sender's messages: `rate` per second in the long run, `burst` at once. Threads: one.
 class TokenBucket {
  public:
   TokenBucket(double rate, double burst) noexcept : rate_(rate), burst_(burst), left_(burst) {}
 
-  /// @return whether there was one left
+  /// @return whether one more message is allowed
   [[nodiscard]] bool take(std::int64_t now_ns) noexcept {
     if (last_ns_ != 0)
       left_ = std::min(burst_, left_ + rate_ * 1e-9 * static_cast<double>(now_ns - last_ns_));
@@ -28,11 +28,11 @@ class TokenBucket {
   std::int64_t last_ns_{0};
 };
 
-/// When the next frame may go: `rate` a second in the mean. A source of just that rate, which comes now early, now
-/// late, passes whole: half a period early is early enough. A new rate holds at once. Threads: one.
+/// Times the frames: `rate` per second in the mean. A frame may go up to half a period early, so a source of the same rate
+/// with jitter passes whole. A new rate holds at once. Threads: one.
 class FramePace {
  public:
-  static constexpr std::int64_t kLongestNs = 10'000'000'000;  ///< between frames; slower rates are this one
+  static constexpr std::int64_t kLongestNs = 10'000'000'000;  ///< between frames; the slowest rate
 
   explicit FramePace(double rate_hz) noexcept { setRate(rate_hz); }
   /// @param[in] rate_hz  0: never
@@ -46,7 +46,7 @@ class FramePace {
   [[nodiscard]] bool due(std::int64_t now_ns) const noexcept {
     return period_ns_ > 0 && now_ns >= planned_ns_ + period_ns_ - period_ns_ / 2;
   }
-  /// One went now.
+  /// A frame goes now.
   void went(std::int64_t now_ns) noexcept {
     planned_ns_ = std::max(planned_ns_ + period_ns_, now_ns - period_ns_ / 2);
     went_ns_ = now_ns;
@@ -54,8 +54,8 @@ class FramePace {
 
  private:
   std::int64_t period_ns_{0};
-  std::int64_t planned_ns_{-kLongestNs};  // of the newest one: when it was to go, at most half a period ahead
-  std::int64_t went_ns_{-kLongestNs};     // and when it went
+  std::int64_t planned_ns_{-kLongestNs};  // planned time of the newest frame, at most half a period ahead
+  std::int64_t went_ns_{-kLongestNs};     // when it went
 };
 
 }  // namespace palpate::viewer

@@ -52,7 +52,8 @@ Close Page::act(const PageMessage& message) {
     grant_ = viewer_.tools.grab(id_);
     rival_told_ = false;
   } else if (const auto* target = std::get_if<Target>(&message)) {
-    (void)viewer_.tools.target(id_, target->position);  // after an ending: on its way to the page
+    (void)viewer_.tools.target(id_,
+                               target->position);  // false after an ending, which is on its way to the page
   } else if (std::holds_alternative<Release>(message)) {
     viewer_.tools.release(id_);
   } else if (const auto* wanted = std::get_if<SetParameters>(&message)) {
@@ -65,7 +66,7 @@ Close Page::act(const PageMessage& message) {
 
 void Page::answered(const ParameterDesk::Answer& answer) {
   constexpr std::size_t kMost =
-      16;  // one comes for each request that the server was asked; a page that does not read
+      16;  // one comes per request to the server; bounds those of a page that does not read
   if (answers_.size() >= kMost) answers_.pop_front();
   answers_.push_back(answer);
 }
@@ -94,7 +95,7 @@ bool Page::frameDue(std::int64_t now_ns) const {
          shown_ != shownTools(now_ns);
 }
 
-// Of a server that is gone neither field nor answer comes: its tools go all the same.
+// After a server is gone neither field nor answer comes, but its tools must leave the page.
 std::uint32_t Page::shownTools(std::int64_t now_ns) const {
   std::uint32_t shown = 0;
   for (std::uint32_t id = 0; id < OrganFeed::kTools; ++id)
@@ -142,7 +143,7 @@ std::optional<bool> Page::next(std::int64_t now_ns, Bytes& out) {
   }
   if (meshDue()) {
     mesh_revision_ = viewer_.feed.revision();
-    field_version_ = 0;  // what was seen belongs to the surface before
+    field_version_ = 0;  // the field sent last belongs to the old surface
     encodeMesh(*viewer_.feed.surface(), mesh_revision_, out);
     return true;
   }

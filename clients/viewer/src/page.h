@@ -13,17 +13,17 @@
 
 namespace palpate::viewer {
 
-/// WebSocket close codes that a page may meet (RFC 6455, 7.4.1).
+/// WebSocket close codes that a page may get (RFC 6455, 7.4.1).
 enum class Close : std::uint16_t { kNone = 0, kNotText = 1003, kPolicy = 1008, kTooLarge = 1009 };
 
-/// One page: what it has seen, what it is to get next. It never has a queue: each kind of message is written when the
-/// socket takes it, from what is newest then; of frames at most kInFlight are unacknowledged. Threads: the web thread.
+/// One page: what it has, and what it gets next. It has no queue: each message is made from the newest data when the socket
+/// takes it. At most kInFlight frames are unacknowledged. Threads: the web thread.
 class Page {
  public:
   static constexpr std::uint32_t kInFlight = 2;
   static constexpr double kMessagesPerSecond = 400.0;
-  static constexpr double kPartsPerSecond = 1600.0;         ///< that messages come in
-  static constexpr std::size_t kMostAnswers = 256;          ///< in a frame
+  static constexpr double kPartsPerSecond = 1600.0;         ///< parts of messages
+  static constexpr std::size_t kMostAnswers = 256;          ///< per frame
   static constexpr std::int64_t kStatusNs = 1'000'000'000;  ///< between statuses when nothing changes
   static constexpr std::int64_t kLeastStatusNs = 100'000'000;
 
@@ -32,14 +32,14 @@ class Page {
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
 
-  /// A part of a text message came. @param[in] last  it is whole now
-  /// @return kNone, or why the page is to be shut out
+  /// A part of a text message came. @param[in] last  completes the message
+  /// @return kNone, or the reason to close the page
   [[nodiscard]] Close receive(std::string_view part, bool first, bool last, bool binary, std::int64_t now_ns);
 
-  /// Whether next() has something.
+  /// Whether next() has a message.
   [[nodiscard]] bool wants(std::int64_t now_ns) const;
 
-  /// Appends the next message. @return whether it is binary; nothing when there is none
+  /// Appends the next message. @return whether it is binary; nothing without a message
   [[nodiscard]] std::optional<bool> next(std::int64_t now_ns, Bytes& out);
 
   void toolEnded(const std::string& message) { grant_ = ToolGrant{false, 0, message}; }
@@ -67,7 +67,7 @@ class Page {
   TokenBucket parts_{kPartsPerSecond, kPartsPerSecond};
   std::string incoming_;
 
-  bool hello_{true};  // what is to be sent
+  bool hello_{true};  // messages to send
   std::uint64_t state_version_{0};
   std::uint32_t mesh_text_revision_{0};
   std::uint32_t mesh_revision_{0};

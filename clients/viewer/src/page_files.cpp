@@ -33,7 +33,7 @@ const char* typeOf(const fs::path& path) {
   return "application/octet-stream";
 }
 
-// No part may start with a dot (.., .git), hold a backslash or be empty.
+// A part may not start with a dot (.., .git), hold a backslash or be empty.
 bool partsAreNames(std::string_view uri) {
   while (!uri.empty()) {
     const std::size_t slash = std::min(uri.find('/'), uri.size());
@@ -66,10 +66,9 @@ std::optional<PageFile> PageFiles::find(std::string_view uri) const {
   if (uri.empty()) uri = "index.html";
   if (!partsAreNames(uri)) return std::nullopt;
   std::error_code failure;
-  const fs::path path =
-      fs::canonical(folder_ / uri, failure);  // links are followed, and judged by where they lead
+  const fs::path path = fs::canonical(folder_ / uri, failure);  // follows links; their target is judged
   if (failure || !isInside(path, folder_) || !fs::is_regular_file(path, failure)) return std::nullopt;
-  const bool hashed = uri.starts_with("assets/");  // Vite names these by their content
+  const bool hashed = uri.starts_with("assets/");  // Vite names them by their content
   return PageFile{path, typeOf(path), hashed ? "public, max-age=31536000, immutable" : "no-cache"};
 }
 

@@ -8,21 +8,21 @@
 
 namespace palpate::viewer {
 
-/// A file of the page, ready to be sent.
+/// A file of the page, ready to send.
 struct PageFile {
   std::filesystem::path path;
   const char* type;   ///< MIME
   const char* cache;  ///< Cache-Control
 };
 
-/// The folder that the page is served from, and nothing beside it.
+/// The folder of the page's files; nothing outside it is served.
 class PageFiles {
  public:
-  /// @throw client::ClientError when the folder holds no index.html, saying how to build it
+  /// @throw client::ClientError  the folder holds no index.html; says how to build it
   explicit PageFiles(const std::filesystem::path& folder);
 
-  /// @param[in] uri  path of a request, decoded, from "/" on
-  /// @return nothing when there is no such regular file inside the folder, or its name starts with a dot
+  /// @param[in] uri  decoded path of a request, from "/" on
+  /// @return nothing when the folder holds no such regular file, or a part of the path starts with a dot
   /// Real-time: no. Threads: any.
   [[nodiscard]] std::optional<PageFile> find(std::string_view uri) const;
 
@@ -32,7 +32,7 @@ class PageFiles {
   std::filesystem::path folder_;  // canonical
 };
 
-/// Where the page is unless the user says otherwise: beside the installed program, else in the source tree.
+/// The page's folder by default: beside the installed program, else in the source tree.
 [[nodiscard]] std::filesystem::path defaultPageFolder();
 
 }  // namespace palpate::viewer

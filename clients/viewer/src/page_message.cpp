@@ -40,8 +40,8 @@ std::optional<PageMessage> target(const json& object) {
 }
 
 std::optional<PageMessage> parameters(const json& object) {
-  constexpr std::uint64_t kMaxExact = 1ULL << 53;  // of a page's numbers
-  constexpr double kLargest = 1e12;                // ranges are the server's to judge
+  constexpr std::uint64_t kMaxExact = 1ULL << 53;  // a page's numbers are exact up to here
+  constexpr double kLargest = 1e12;                // the server judges the ranges
   const auto request = whole(object, "request", kMaxExact);
   if (!request) return std::nullopt;
   SetParameters result{};
@@ -55,7 +55,8 @@ std::optional<PageMessage> parameters(const json& object) {
       {"force_rate_limit", &result.force_rate_limit}};
   for (const auto& [key, value] : fields) {
     if (!object.contains(key)) continue;
-    const bool factor = value == &result.youngs_factor;  // on the wire 0 would be the model's own E
+    const bool factor =
+        value == &result.youngs_factor;  // 0 is refused: on the wire it means the model's own E
     *value = number(object, key, factor ? 1e-6 : 0.0, kLargest);
     if (!*value) return std::nullopt;
   }

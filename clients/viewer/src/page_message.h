@@ -10,12 +10,12 @@
 
 namespace palpate::viewer {
 
-/// The largest message that a page may send, bytes.
+/// Largest message of a page, bytes.
 inline constexpr std::size_t kMaxMessage = 4096;
 
-/// What a page says (PROTOCOL.md).
+/// Messages of a page (PROTOCOL.md).
 struct Ack {
-  std::uint32_t seq;  ///< of the frame that was decoded
+  std::uint32_t seq;  ///< of the decoded frame
 };
 struct Ping {
   double t0;  ///< echoed
@@ -23,11 +23,12 @@ struct Ping {
 struct Grab {};
 struct Release {};
 struct Target {
-  client::Point position;  ///< where the tip's centre is to be, world W, m; |x|, |y|, |z| <= kMaxCoordinate
+  client::Point
+      position;  ///< wanted position of the tip's centre, world W, m; |x|, |y|, |z| <= kMaxCoordinate
 };
 struct SetParameters {
-  std::uint64_t request;                ///< the page's number of it
-  std::optional<double> youngs_factor;  ///< of the model's E
+  std::uint64_t request;                ///< the page's number for it
+  std::optional<double> youngs_factor;  ///< times the model's E
   std::optional<double> friction;
   std::optional<double> coupling_stiffness;  ///< N/m
   std::optional<double> coupling_damping;    ///< N s/m
@@ -41,8 +42,8 @@ using PageMessage = std::variant<Ack, Ping, Grab, Release, Target, SetParameters
 
 inline constexpr double kMaxCoordinate = 100.0;  ///< m
 
-/// Reads one text message of a page, which is not trusted.
-/// @return nothing when it is no JSON object of a type above with its fields in range
+/// Reads one text message of a page; the page is not trusted.
+/// @return nothing unless it is a JSON object of a type above with its fields in range
 [[nodiscard]] std::optional<PageMessage> parsePageMessage(std::string_view text);
 
 }  // namespace palpate::viewer

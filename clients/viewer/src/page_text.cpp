@@ -107,7 +107,7 @@ std::string meshText(const client::Surface& surface, std::uint32_t revision, dou
 std::string statusText(const std::optional<dds::ServerStatus>& status,
                        const std::optional<dds::ServerParameters>& parameters, const ViewerFigures& figures) {
   json object = status ? serverOf(*status) : json::object();
-  if (parameters) {  // newer than what the status says of them
+  if (parameters) {  // newer than those in the status
     object["youngs_modulus"] = parameters->youngs_modulus;
     object["model_youngs_modulus"] = parameters->model_youngs_modulus;
     object["friction"] = parameters->friction;

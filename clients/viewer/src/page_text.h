@@ -10,21 +10,21 @@
 
 namespace palpate::viewer {
 
-/// What the viewer says of itself in a status.
+/// The viewer's own figures in a status.
 struct ViewerFigures {
   std::size_t pages{0};
-  double frame_rate{0.0};           ///< frames a second to the page that is told
+  double frame_rate{0.0};           ///< frames per second to the page that gets the status
   std::uint64_t dropped_fields{0};  ///< that did not fit the surface
 };
 
-/// A tool that was asked for.
+/// The answer to a page that wants a tool.
 struct ToolGrant {
   bool granted{false};
   std::uint32_t tool_id{0};
   std::string message;
 };
 
-/// Text messages to a page, JSON as PROTOCOL.md has them. Infinity is null; what is no UTF-8 is mended.
+/// Text messages to a page, JSON as in PROTOCOL.md. Infinity is null; invalid UTF-8 is replaced.
 [[nodiscard]] std::string helloText(std::uint64_t page_id, double rate_hz);
 [[nodiscard]] std::string stateText(const ServerState& state);
 [[nodiscard]] std::string meshText(const client::Surface& surface, std::uint32_t revision, double tip_radius);

@@ -9,7 +9,7 @@ namespace {
 std::uint64_t freshId() {
   std::random_device random;
   return (static_cast<std::uint64_t>(random()) << 32 | random()) >> 1 |
-         1U;  // rises by one with each, never 0
+         1U;  // rises by one per request, never 0
 }
 
 }  // namespace

@@ -12,20 +12,20 @@
 
 namespace palpate::viewer {
 
-/// The later values over the earlier ones: one request for both.
+/// Merges two requests; later values replace earlier ones.
 [[nodiscard]] SetParameters merged(const SetParameters& earlier, const SetParameters& later);
 
-/// The request on the wire. @param[in] model_youngs_modulus  E that the factor is of, Pa
+/// The request on the wire. @param[in] model_youngs_modulus  E that the factor multiplies, Pa
 [[nodiscard]] dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs_modulus);
 
-/// Passes pages' wishes for parameters on to the server, one at a time for each page: what comes meanwhile is merged,
-/// so that a slider that is dragged leaves no queue. Threads: one, the web thread.
+/// Passes pages' parameter requests to the server, one at a time per page. Requests that come meanwhile are merged, so
+/// that a dragged slider leaves no queue. Threads: one, the web thread.
 class ParameterDesk {
  public:
   static constexpr std::int64_t kRepeatNs = 200'000'000;
   static constexpr std::int64_t kPatienceNs = 3'000'000'000;
 
-  /// What became of a page's requests up to and including `request`.
+  /// The outcome of a page's requests up to and including `request`.
   struct Answer {
     std::uint64_t page_id;
     std::uint64_t request;
@@ -39,17 +39,17 @@ class ParameterDesk {
   void set(std::uint64_t page_id, const SetParameters& wanted);
   void drop(std::uint64_t page_id) { wishes_.erase(page_id); }
 
-  /// A server's answer came, to whomever.
+  /// A server's answer came, to this or another client.
   void saw(const dds::ServerParameters& answer);
-  /// Sends and repeats.
-  /// @param[in] server  parameters of the server to ask; nothing: none is there, or it has not said them
+  /// Sends requests and repeats them.
+  /// @param[in] server  parameters of the server to ask; nothing: there is none, or it has not sent them
   void tend(const std::optional<dds::ServerParameters>& server, std::int64_t now_ns);
 
   [[nodiscard]] std::vector<Answer> answers() { return std::exchange(answers_, {}); }
 
  private:
   struct Wish {
-    std::optional<SetParameters> asked;    // waits for the server's answer
+    std::optional<SetParameters> asked;    // awaits the server's answer
     std::optional<SetParameters> waiting;  // the page's next
     dds::ParameterRequest request{};
     std::int64_t since_ns{0};

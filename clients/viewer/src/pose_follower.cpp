@@ -6,10 +6,10 @@
 
 namespace palpate::viewer {
 
-// The longest interval of late, and a little: up at once, down slowly.
+// The longest recent interval, and a little more: rises at once, falls slowly.
 void PoseFollower::learnInterval(double interval) noexcept {
   constexpr double kForget = 0.002;
-  constexpr double kPause = 0.2;  // s, no rhythm any more
+  constexpr double kPause = 0.2;  // s; a longer interval is a pause, not the rhythm
   if (interval > kPause) return;
   longest_s_ = std::max(interval, (1.0 - kForget) * longest_s_);
   delay_s_ = std::clamp(1.1 * longest_s_, 0.004, static_cast<double>(kMaxDelayNs) * 1e-9);
@@ -68,12 +68,12 @@ void PoseFollower::moveTowards(const client::Point& goal, double longest) noexce
   position_ = size > longest ? position_ + (longest / size) * way : goal;
 }
 
-// The clock of the playing runs up to a fifth faster or slower until it is `delay_s_` behind. It waits at the newest
-// target: going on from there when the next one comes, late, the tool does not jump.
+// The playing clock runs up to a fifth faster or slower until it is `delay_s_` behind. It waits at the newest target, so that
+// the tool does not jump when the next target comes late.
 void PoseFollower::play(double now_s, double dt) noexcept {
   constexpr double kCatchUp = 0.1;  // s
   double behind = now_s - delay_s_ - played_s_;
-  if (behind > kCatchUp) {  // after a stall; the speed limit holds all the same
+  if (behind > kCatchUp) {  // after a stall; the speed limit still holds
     played_s_ += behind;
     behind = 0.0;
   }
@@ -87,7 +87,7 @@ std::optional<client::Point> PoseFollower::step(std::int64_t now_ns) noexcept {
   const std::int64_t patience = state_ == State::kWaiting ? kFirstNs : kPatienceNs;
   if (state_ != State::kLifting && now_ns - last_target_ns_ > patience) state_ = State::kOver;
   if (state_ == State::kOver || state_ == State::kWaiting) return std::nullopt;
-  constexpr double kLongestStep = 0.005;  // s: a stall is not made up for in one stride
+  constexpr double kLongestStep = 0.005;  // s: does not make up for a stall in one stride
   const double dt = std::clamp(static_cast<double>(now_ns - last_step_ns_) * 1e-9, 0.0, kLongestStep);
   last_step_ns_ = now_ns;
   if (state_ == State::kLifting) {

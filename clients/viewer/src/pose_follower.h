@@ -9,20 +9,20 @@
 
 namespace palpate::viewer {
 
-/// Makes a steady stream of poses out of the targets that a page sends at 30 to 120 Hz, now early, now late: the way
-/// between targets, played one interval later, never faster than a limit. Threads: one. Real-time: yes.
+/// Turns a page's targets, which come at 30 to 120 Hz with jitter, into a steady stream of poses. It plays the straight path
+/// between targets one interval later, never faster than a limit. Threads: one. Real-time: yes.
 class PoseFollower {
  public:
-  static constexpr std::int64_t kPatienceNs = 250'000'000;  ///< without a target, then it is over
-  static constexpr std::int64_t kFirstNs = 2'000'000'000;   ///< the same before the first one
-  static constexpr std::int64_t kMaxDelayNs = 50'000'000;   ///< of the playing, at most
-  static constexpr double kLift = 0.02;                     ///< way off the organ after a release, m
+  static constexpr std::int64_t kPatienceNs = 250'000'000;  ///< longest time without a target
+  static constexpr std::int64_t kFirstNs = 2'000'000'000;   ///< longest time until the first one
+  static constexpr std::int64_t kMaxDelayNs = 50'000'000;   ///< largest delay of the playing
+  static constexpr double kLift = 0.02;                     ///< distance off the organ after a release, m
   static constexpr double kLiftSpeed = 0.15;                ///< m/s, less where the limit is lower
 
   enum class State {
     kWaiting,  ///< no target yet
     kFollowing,
-    kLifting,  ///< released: on its way off the organ
+    kLifting,  ///< released: moves off the organ
     kOver      ///< lifted off, or without targets for kPatienceNs
   };
 
@@ -31,22 +31,22 @@ class PoseFollower {
   PoseFollower(std::int64_t now_ns, double speed_limit) noexcept
       : speed_limit_(speed_limit), last_target_ns_(now_ns) {}
 
-  /// Where the tip's centre is to be, world W, m. No effect after a release.
+  /// The wanted position of the tip's centre, world W, m. No effect after a release.
   void target(const client::Point& p_WT, std::int64_t now_ns) noexcept;
 
-  /// The page wants the tool back before it is over: from where it is, at the next target.
+  /// The page takes the tool back before kOver: it continues from its position at the next target.
   void regrab(std::int64_t now_ns) noexcept;
 
   /// @param[in] outward  unit direction off the organ at the tool
   void release(const client::Point& outward) noexcept;
 
-  /// The pose for now; nothing before the first target and when it is over.
+  /// The current pose; nothing before the first target and in kOver.
   [[nodiscard]] std::optional<client::Point> step(std::int64_t now_ns) noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
   /// The newest pose given by step(). Valid after the first one.
   [[nodiscard]] const client::Point& position() const noexcept { return position_; }
-  /// How much later targets are played than they came, s.
+  /// Delay from a target's arrival to its playing, s.
   [[nodiscard]] double delay() const noexcept { return delay_s_; }
 
  private:
@@ -68,10 +68,10 @@ class PoseFollower {
   State state_{State::kWaiting};
   std::array<Timed, kKept> targets_{};
   std::size_t count_{0};
-  double longest_s_{1.0 / 60.0};  // between targets, of late
+  double longest_s_{1.0 / 60.0};  // recently, between targets
   double delay_s_{1.0 / 60.0};
   double played_s_{0.0};
-  bool placed_{false};  // position_ is a pose that was given
+  bool placed_{false};  // position_ holds a pose that step() gave
   client::Point position_{};
   client::Point lift_to_{};
 };

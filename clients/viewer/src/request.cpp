@@ -34,7 +34,7 @@ bool names(std::string_view list, std::string_view name) {
 }
 
 std::string headersOf(const PageFile& file, const std::string& host) {
-  // 'self' is not the WebSocket in every browser, so it is named.
+  // In some browsers 'self' does not include the WebSocket, so it is named.
   return "Content-Security-Policy: default-src 'self'; connect-src 'self' ws://" + host + " wss://" + host +
          "; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; base-uri "
          "'none'; "

@@ -10,7 +10,7 @@
 
 namespace palpate::viewer {
 
-/// A request's header; empty when absent or longer than 1 kB. Several of a name come as one.
+/// A request's header; empty when absent or longer than 1 kB. Headers of the same name come joined.
 [[nodiscard]] std::string headerOf(lws* wsi, lws_token_indexes header);
 
 /// Value of ?token=; empty when absent.
@@ -19,10 +19,10 @@ namespace palpate::viewer {
 /// Whether a comma-separated list has the name.
 [[nodiscard]] bool names(std::string_view list, std::string_view name);
 
-/// Headers that go with a file: what the page may load, and from where. @param[in] host  ours, checked
+/// Headers of a file's response: what the page may load, and from where. @param[in] host  our own, checked
 [[nodiscard]] std::string headersOf(const PageFile& file, const std::string& host);
 
-/// Answers with an error page. @return what the callback returns
+/// Answers with an error page. @return the callback's result
 int refuse(lws* wsi, unsigned code, const char* reason);
 int refuseUpgrade(lws* wsi, unsigned code, const char* reason);
 

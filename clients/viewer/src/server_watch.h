@@ -9,7 +9,7 @@
 
 namespace palpate::viewer {
 
-/// What the viewer waits for, or that it waits for nothing.
+/// The viewer's view of the server.
 struct ServerState {
   std::string name;  ///< waiting, starting, mismatch, serving, gone
   std::string text;  ///< in words
@@ -23,20 +23,20 @@ class ServerWatch {
 
   explicit ServerWatch(std::uint32_t domain) : domain_(domain) {}
 
-  /// A status came. Of several servers the first is followed until it is gone or stopping.
-  /// @return whether it is of the server that is followed
+  /// A status came. Of several servers the watch follows the first until it is gone or stopping.
+  /// @return whether the status is from the followed server
   bool saw(const dds::ServerStatus& status, std::int64_t now_ns) noexcept;
 
-  /// @param[in] surface_model  model of the organ's surface that came; empty: none
-  /// @param[in] mismatch       one line when types on the wire do not fit, else empty
+  /// @param[in] surface_model  model of the organ's received surface; empty: none
+  /// @param[in] mismatch       one line when types on the wire differ, else empty
   [[nodiscard]] ServerState state(std::int64_t now_ns, const std::string& surface_model,
                                   const std::string& mismatch) const;
 
-  /// Whether a server runs that was heard of lately.
+  /// Whether a status came within kSilenceNs.
   [[nodiscard]] bool alive(std::int64_t now_ns) const noexcept {
     return status_ && now_ns - heard_ns_ <= kSilenceNs;
   }
-  /// The newest status, also of a server that is gone; nothing before the first.
+  /// The newest status, even of a server that is gone; nothing before the first.
   [[nodiscard]] const std::optional<dds::ServerStatus>& status() const noexcept { return status_; }
 
  private:

@@ -28,7 +28,7 @@ client::Surface Surfaces::bounded(const dds::SurfaceMesh& message) {
   return client::checkedSurface(message);
 }
 
-// Asked of each sample before DDS keeps it, which it need not then.
+// DDS calls it for each sample before it keeps one; the sample is copied here and need not be kept.
 bool Surfaces::copy(const dds::SurfaceMesh& message, void* context) noexcept {
   constexpr std::size_t kMostArrived = 16;  // between two polls, 20 ms
   auto& self = *static_cast<Surfaces*>(context);

@@ -12,30 +12,30 @@
 
 namespace palpate::viewer {
 
-/// Rest surfaces of all organs and models on the domain, as they came. Each comes once, and DDS keeps one of an organ
-/// id only: two servers with different models may share one, so each is copied as it comes. Threads: poll() and what is
-/// const, the web thread.
+/// Rest surfaces of all organs and models on the domain. Each comes once, and DDS keeps only one per organ id. Two servers
+/// with different models may share an id, so each surface is copied on arrival. Threads: poll() and the const functions,
+/// the web thread.
 class Surfaces {
  public:
-  static constexpr std::size_t kMostKept = 16;  ///< then the oldest goes, never the one that is followed
+  static constexpr std::size_t kMostKept = 16;  ///< then the oldest is dropped, but not the followed one
   static constexpr std::size_t kMostNumbers =
       3'000'000;  ///< of positions and of triangles: a million of each
 
   /// @throw dds::DdsError
   explicit Surfaces(const dds::Participant& participant);
 
-  /// Takes in what came. @param[in] organ_id, model_id  of the surface that is followed
+  /// Takes in what came. @param[in] organ_id, model_id  of the followed surface
   void poll(std::uint32_t organ_id, std::string_view model_id);
 
-  /// nullptr when it has not come. Valid until the next poll().
+  /// nullptr before it has come. Valid until the next poll().
   [[nodiscard]] const client::Surface* find(std::uint32_t organ_id, std::string_view model_id) const;
-  /// Model of the organ's newest surface; empty: none has come.
+  /// Model of the organ's newest surface; empty before the first.
   [[nodiscard]] std::string anyModel(std::uint32_t organ_id) const;
-  /// Why the newest surface was refused; empty when it was not.
+  /// Why the newest surface was refused; empty when it was accepted.
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
   [[nodiscard]] std::string mismatch() const { return reader_.mismatch(); }
 
-  /// The surface, copied. @throw client::ClientError  above kMostNumbers, or not a surface
+  /// A copy of the surface. @throw client::ClientError  it has more than kMostNumbers, or is malformed
   [[nodiscard]] static client::Surface bounded(const dds::SurfaceMesh& message);
 
  private:

@@ -54,7 +54,7 @@ ToolGrant ToolDesk::grab(std::uint64_t page_id) {
   if (server_tools_ == 0) return {false, 0, "no server answers tools yet"};
   const std::int64_t now_ns = rt::monotonicNow();
   const std::lock_guard lock(mutex_);
-  // The answer to this is newer than what became of the tool before.
+  // The answer to this grab is newer than the pending endings.
   std::erase_if(endings_, [&](const Ending& ending) { return ending.page_id == page_id; });
   if (Tool* own = find(page_id)) {
     if (own->driven->follower.state() != PoseFollower::State::kOver) {
@@ -158,7 +158,7 @@ void ToolDesk::stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses) {
 }
 
 void ToolDesk::run() {
-  // Below the server's threads; where the kernel grants none, ordinary.
+  // Below the server's threads; an ordinary thread where the kernel refuses.
   constexpr int kPriority = 30;
   (void)rt::raiseThisThread(kPriority);
   std::vector<dds::ToolPose> poses;

@@ -16,53 +16,53 @@
 
 namespace palpate::viewer {
 
-/// Tools that pages drive: gives each page that asks a free tool id and publishes its poses at 1 kHz, on a thread of
-/// its own that waits while no tool is driven. Threads: the web thread calls; the lock is held for microseconds, never
-/// while a pose is written.
+/// Tools that pages drive. Gives a page a free tool id on request and publishes its poses at 1 kHz, on its own thread, which
+/// waits while no tool is driven. Threads: the web thread calls. The lock is held for microseconds, never while a pose is
+/// written.
 class ToolDesk {
  public:
   static constexpr std::size_t kTools = 4;  ///< palpate.idl: tool_id 0 .. 3
-  /// A tool of which another program's pose came within this time is that program's.
+  /// A tool belongs to another program for this long after that program's last pose.
   static constexpr std::int64_t kTakenNs = 500'000'000;
-  /// After its last pose a tool rests, so that the server has let it go (zero_after, 50 ms).
+  /// A tool rests this long after its last pose, so that its force is zero at the server (zero_after, 50 ms).
   static constexpr std::int64_t kRestNs = 120'000'000;
   static constexpr double kMaxSpeed = 0.6;  ///< m/s, and at most half of the server's speed limit
 
-  /// A tool that a page has no more, and why.
+  /// A page lost its tool, and why.
   struct Ending {
     std::uint64_t page_id;
     std::string message;
   };
 
-  /// @param[in] ids  which tools may be given to pages, in the order of preference
+  /// @param[in] ids  tools that pages may drive, in the order of preference
   /// @throw dds::DdsError
   ToolDesk(const dds::Participant& participant, std::vector<std::uint32_t> ids);
   ~ToolDesk();
   ToolDesk(const ToolDesk&) = delete;
   ToolDesk& operator=(const ToolDesk&) = delete;
 
-  /// What the server answers. @param[in] tools  0: no server, nobody gets a tool
+  /// The tools that the server answers. @param[in] tools  0: no server, so no page gets a tool
   void setServer(std::uint32_t tools, double speed_limit);
   void setSurface(const client::Surface& surface) { outward_ = Outward(surface); }
   /// A pose of this tool came over the wire from another program.
   void sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept;
 
-  /// What became of the page's tool before is not told any more: the answer is newer.
+  /// Drops the page's pending endings: this answer is newer.
   [[nodiscard]] ToolGrant grab(std::uint64_t page_id);
   /// @return false when the page has no tool
   bool target(std::uint64_t page_id, const client::Point& p_WT);
   /// The tool lifts off the organ; its id is free afterwards.
   void release(std::uint64_t page_id);
-  /// The page is gone: its tool stops where it is, and the server takes the force to zero.
+  /// The page is gone: its tool stops where it is, and the server fades the force to zero.
   void drop(std::uint64_t page_id);
 
   /// Tools that ended since the last call.
   [[nodiscard]] std::vector<Ending> endings();
 
   [[nodiscard]] std::optional<std::uint32_t> toolOf(std::uint64_t page_id) const;
-  /// The newest pose published for a tool that a page drives.
+  /// The newest published position of a tool that a page drives.
   [[nodiscard]] std::optional<client::Point> tipOf(std::uint32_t tool_id) const;
-  /// This program's own poses on the wire have this writer.
+  /// The writer of this program's poses on the wire.
   [[nodiscard]] dds_instance_handle_t writerId() const noexcept;
 
  private:

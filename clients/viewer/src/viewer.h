@@ -11,16 +11,16 @@ namespace palpate::viewer {
 
 class Page;
 
-/// What all pages share: what comes over DDS, the tools that pages drive, the parameters that they set.
+/// State shared by all pages: data from DDS, the tools that pages drive, the parameters that they set.
 /// Threads: one, the web thread.
 class Viewer {
  public:
-  /// @param[in] wake  called on DDS's thread when a field has come
+  /// @param[in] wake  called on DDS's thread when a field comes
   /// @throw dds::DdsError
   Viewer(const dds::Participant& participant, double rate_hz, std::vector<std::uint32_t> tool_ids,
          WakeFunction wake, void* context);
 
-  /// Takes in what came and passes it on; call at least every 20 ms or so.
+  /// Takes in what came and passes it on; call about every 20 ms.
   void tend(std::int64_t now_ns);
 
   void add(Page& page);

@@ -13,14 +13,14 @@ namespace palpate::viewer {
 namespace {
 
 constexpr std::int64_t kTickUs = 20'000;
-constexpr std::size_t kMoreConnections = 64;  // that are no pages: files under way, handshakes, refusals
+constexpr std::size_t kMoreConnections = 64;  // beside the pages: files under way, handshakes, refusals
 constexpr int kGoOn = 0;
 constexpr int kHangUp = -1;
 
-// A page that says nothing for 10 s is asked, and given up after 20 s.
+// A silent page is pinged after 10 s and closed after 20 s.
 constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, 10, 20, 0};
 
-// Others can cause these lines, and must not fill the disk: one a second. The service thread's.
+// Strangers can cause these lines and must not fill the disk: one per second. The service thread's.
 void warn(std::string_view text) {
   static std::int64_t next_ns = 0;
   const std::int64_t now_ns = rt::monotonicNow();
@@ -124,7 +124,7 @@ void WebServer::onTick(lws_sorted_usec_list_t* timer) {
   lws_sul_schedule(self->context_, 0, timer, &WebServer::onTick, kTickUs);
 }
 
-// Nothing leaves it: what came over DDS is no connection's fault, and none is closed for it.
+// Catches all: an error in data from DDS must not close a connection.
 void WebServer::tend() noexcept {
   try {
     lookForNews();
@@ -149,7 +149,7 @@ int WebServer::onEvent(lws* wsi, lws_callback_reasons reason, void* user, void* 
   if (self == nullptr) return kGoOn;
   try {
     return self->handle(wsi, reason, user, in, length);
-  } catch (const std::exception& error) {  // out of memory: this connection goes, the rest stays
+  } catch (const std::exception& error) {  // out of memory: closes this connection only
     spdlog::error("a connection is closed: {}", error.what());
     return kHangUp;
   }
@@ -170,7 +170,7 @@ int WebServer::handle(lws* wsi, lws_callback_reasons reason, void* user, void* i
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
       return judgeUpgrade(wsi, static_cast<const char*>(in));
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
-      if (std::string_view(lws_get_protocol(wsi)->name) == "http") tend();  // comes once for each protocol
+      if (std::string_view(lws_get_protocol(wsi)->name) == "http") tend();  // comes once per protocol
       return kGoOn;
     case LWS_CALLBACK_ESTABLISHED:
     case LWS_CALLBACK_CLOSED:

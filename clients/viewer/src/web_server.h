@@ -19,27 +19,27 @@ namespace palpate::viewer {
 inline constexpr const char* kSubprotocol = "palpate.viewer.v1";
 
 struct WebOptions {
-  AccessOptions access;        ///< its port may be 0: any that is free
+  AccessOptions access;        ///< port 0: any free port
   std::filesystem::path page;  ///< folder
   std::size_t max_pages{16};   ///< in [1, 256]
-  double rate_hz{60.0};        ///< frames a second to a page, at most
+  double rate_hz{60.0};        ///< most frames per second to a page
 };
 
-/// Serves the page's files and its WebSocket at /ws, on the thread that calls run(). Refuses who is not allowed in
-/// (AccessRules) with 403, and more pages than max_pages with 503.
+/// Serves the page's files and its WebSocket at /ws, on the thread that calls run(). Refuses requests against AccessRules
+/// with 403, and pages beyond max_pages with 503.
 class WebServer {
  public:
-  /// @throw client::ClientError  the page is not there, or the address cannot be listened on
+  /// @throw client::ClientError  the page is missing, or the address cannot be bound
   explicit WebServer(const WebOptions& options);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
-  /// Serves until a stop signal has come. `viewer` must outlive the server.
-  /// @throw client::ClientError  libwebsockets gave up before
+  /// Serves until a stop signal comes. `viewer` must outlive the server.
+  /// @throw client::ClientError  libwebsockets gave up earlier
   void run(Viewer& viewer);
 
-  /// Lets run() look for news. Threads: any.
+  /// Makes run() look for news. Threads: any.
   static void wake(void* server) noexcept;
 
   /// "http://127.0.0.1:8080/"

@@ -21,7 +21,8 @@ NodeDisplacement largestOf(const dds::SurfaceDisplacement& field) noexcept {
 
 bool FieldPace::admits(std::int64_t now_ns) noexcept {
   if (now_ns < next_ns_) return false;
-  const bool behind = now_ns - next_ns_ > period_ns_;  // at first, and after a pause: no bunch to catch up
+  const bool behind =
+      now_ns - next_ns_ > period_ns_;  // at the start and after a pause: does not catch up in a bunch
   next_ns_ = (behind ? now_ns : next_ns_) + period_ns_;
   return true;
 }

@@ -13,7 +13,7 @@
 
 namespace palpate::watch {
 
-/// Which fields a viewer looks at that wants fewer than come: at most `rate_hz` in the mean, evenly. Threads: one.
+/// Thins fields evenly, to at most `rate_hz` in the mean. Threads: one.
 class FieldPace {
  public:
   /// @param[in] rate_hz  above 0; 0: all of them
@@ -35,18 +35,18 @@ struct NodeDisplacement {
   double size{0.0};   ///< m
 };
 
-/// What the fields showed since the log began, or since the last look.
+/// Summary of the fields since the log began.
 struct FieldSummary {
   std::uint64_t received{0};
   std::uint64_t superseded{
       0};                    ///< sent by the server but replaced, lost, or not admitted before they came here
-  std::uint64_t refused{0};  ///< of another model, of the wrong size, or with a number that is not finite
+  std::uint64_t refused{0};  ///< of another model, of another size, or with a number that is not finite
   NodeDisplacement largest;  ///< of the newest field
   NodeDisplacement peak;     ///< of all fields so far
 };
 
 /// Follows an organ's displacement field. Threads: take() on the receive thread, the rest on one other; they
-/// share a lock, for a viewer may wait. Real-time: no.
+/// share a lock. Real-time: no.
 class FieldLog {
  public:
   /// @param[in] surface  must outlive the log
@@ -55,7 +55,7 @@ class FieldLog {
   void take(dds::ReaderView<dds::SurfaceDisplacement> reader) noexcept;
 
   [[nodiscard]] FieldSummary summary() const;
-  /// The field in which the largest displacement so far was seen, 3 Ns, m; zero before the first.
+  /// The field with the largest displacement so far, 3 Ns, m; zero before the first field.
   [[nodiscard]] std::vector<float> peakField() const;
 
  private:

@@ -7,8 +7,7 @@
 namespace palpate::device {
 namespace {
 
-constexpr double kLongestSubstep =
-    50e-6;  // s: 20 in a millisecond; the rule is stable at any, this is for accuracy
+constexpr double kLongestSubstep = 50e-6;  // s; the rule is stable for any step, this one is for accuracy
 constexpr int kFewestSubsteps = 10;
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace palpate::client {
 
-/// What a client cannot go on with, in one line for its user. Thrown only before data flows.
+/// Why a client cannot continue, in one line for its user. Thrown only before data flows.
 class ClientError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

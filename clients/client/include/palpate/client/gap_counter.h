@@ -5,8 +5,8 @@
 
 namespace palpate::client {
 
-/// Counts what is missing from a counter that rises by one: the samples lost on the way. A counter that falls
-/// back means that the sender started anew. Threads: one. Real-time: yes.
+/// Counts samples lost on the way, from a counter that rises by one with each. A counter that falls back means
+/// that the sender was restarted. Threads: one. Real-time: yes.
 class GapCounter {
  public:
   void add(std::uint64_t seq) noexcept {

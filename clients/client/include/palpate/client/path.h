@@ -7,7 +7,7 @@
 
 namespace palpate::client {
 
-/// x, y, z in world frame W, m; or a direction, 1. A type of its own, so that the operators below are found.
+/// x, y, z in world frame W, m; or a direction, 1. A type of its own, so that lookup finds the operators below.
 struct Point : std::array<double, 3> {};
 
 [[nodiscard]] Point operator+(const Point& a, const Point& b) noexcept;
@@ -27,11 +27,11 @@ struct Point : std::array<double, 3> {};
 /// One leg of a path.
 struct Leg {
   Point target;    ///< where it ends, m
-  double seconds;  ///< how long it takes, above 0; a leg to where it starts is a pause
+  double seconds;  ///< its duration, above 0; a leg that ends where it starts is a pause
   std::string name;
 };
 
-/// A smooth way through space: straight minimum-jerk legs that stop at each target.
+/// A smooth path through space: straight minimum-jerk legs that stop at each target.
 class Path {
  public:
   Path(const Point& start, std::vector<Leg> legs);
@@ -43,7 +43,7 @@ class Path {
   [[nodiscard]] const std::string& legAt(double t) const noexcept;
   [[nodiscard]] double seconds() const noexcept { return ends_.back(); }
 
-  /// The same way in another time.
+  /// The same path in another duration.
   /// @param[in] seconds  above 0
   [[nodiscard]] Path stretchedTo(double seconds) const;
 

@@ -9,8 +9,8 @@ namespace palpate::client {
 inline constexpr const char* kNotRealtime =
     "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
 
-/// Waits until a server takes the tool's poses, then raises the calling thread and those that receive: below the server's
-/// threads, so that a client on its machine does not delay it (docs/design.md, Threads).
+/// Waits until a server takes the tool's poses, then raises the calling thread and the receiving threads. They stay below
+/// the server's threads, so that a client on the same machine does not delay it (docs/design.md, Threads).
 /// @return whether the calling thread got its priority
 /// @throw ClientError  no server within 5 s
 /// Real-time: no.

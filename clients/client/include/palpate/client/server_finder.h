@@ -8,7 +8,7 @@
 
 namespace palpate::client {
 
-/// What a client has to know about the server before it starts.
+/// What a client needs to know about the server before it starts.
 struct ServerInfo {
   dds::ServerStatus status{};
   Surface surface;
@@ -21,8 +21,7 @@ class ServerFinder {
   explicit ServerFinder(const dds::Participant& participant);
 
   /// Waits for a running server's status and for the surface that fits it (organ id and model id).
-  /// @throw ClientError saying what is missing: no status, no surface, another model, another version of the
-  /// types;
+  /// @throw ClientError  what is missing (a status, a surface, the right model, the right version of the types),
   ///        or that the user interrupted
   /// Real-time: no.
   [[nodiscard]] ServerInfo wait(std::chrono::milliseconds timeout);

@@ -3,11 +3,11 @@
 
 namespace palpate::client {
 
-/// From now on SIGINT and SIGTERM only raise a flag; a second one ends the process the usual way.
+/// From now on the first SIGINT or SIGTERM only raises a flag; a second one ends the process as usual.
 /// Real-time: no.
 void catchStopSignals();
 
-/// Whether one has come. Real-time: yes. Threads: any.
+/// Whether such a signal has come. Real-time: yes. Threads: any.
 [[nodiscard]] bool stopRequested() noexcept;
 
 }  // namespace palpate::client

@@ -23,9 +23,8 @@ struct Surface {
   std::vector<std::int64_t> mesh_tags;                  ///< Ns node numbers in the mesh file
 };
 
-/// Copies what came over the wire, once it is checked: whoever publishes is not trusted.
-/// @throw ClientError naming the field and the number: sizes that do not fit, an index out of range, a
-/// non-finite
+/// Checks and copies a surface from the wire; its sender is not trusted.
+/// @throw ClientError naming the field and the number: sizes that differ, an index out of range, a non-finite
 ///        position, no triangle
 [[nodiscard]] Surface checkedSurface(const dds::SurfaceMesh& message);
 
@@ -37,9 +36,9 @@ struct Spot {
   Point normal{};    ///< outward unit normal there, angle-weighted over the triangles around
 };
 
-/// The accessible node nearest to `at`, or the one highest up (+z) when `at` is absent; nodes with none but
-/// accessible neighbours come first.
-/// @throw ClientError when no node is accessible, or the surface has no normal there
+/// The accessible node nearest to `at`, or the highest one (+z) when `at` is absent. Nodes whose neighbours are
+/// all accessible come first.
+/// @throw ClientError  no node is accessible, or the surface has no normal there
 [[nodiscard]] Spot chooseSpot(const Surface& surface, const std::optional<Point>& at);
 
 }  // namespace palpate::client

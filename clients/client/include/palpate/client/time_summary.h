@@ -8,7 +8,7 @@
 
 namespace palpate::client {
 
-/// What a distribution of times is reported as, us.
+/// Percentiles of a distribution of times, us.
 struct TimeSummary {
   double p50{0.0};
   double p99{0.0};
@@ -26,9 +26,9 @@ struct HistogramBar {
   std::uint64_t count;
 };
 
-/// Bars of equal width on a logarithmic axis, from the first value's to the last one's, empty ones in
-/// between included; empty when no value was added.
-/// @param[in] per_decade  bars for a factor of ten, in [1, 50]
+/// Bars of equal width on a logarithmic axis, from the first value to the last. Bars in between may be empty.
+/// Without values there is no bar.
+/// @param[in] per_decade  bars per factor of ten, in [1, 50]
 [[nodiscard]] std::vector<HistogramBar> barsOf(const rt::CycleStats& times, int per_decade);
 
 }  // namespace palpate::client

@@ -12,8 +12,7 @@
 
 namespace palpate::client {
 
-/// One haptic tool as the server sees it: send its poses, get the forces on it. What a device driver builds
-/// on.
+/// One haptic tool as the server sees it: sends its poses, receives the forces on it. Device drivers build on it.
 class ToolClient {
  public:
   /// Called for every answer to this tool, on Cyclone's receive thread: must not block or throw.
@@ -32,21 +31,20 @@ class ToolClient {
   /// Sends the next pose, stamped now.
   /// @param[in] position     p_WT, m
   /// @param[in] orientation  q_WT, x y z w, unit length
-  /// @return its seq, which starts at the clock so that a restarted client does not fall behind its past; 0
-  /// when DDS
-  ///         refused it
+  /// @return its seq, which starts at the clock, so that a restarted client stays ahead of its old poses; 0 when
+  ///         DDS refused the pose
   /// No allocation of ours (Cyclone's own: docs/design.md, Threads). Threads: one.
   std::uint64_t publish(const Point& position, const std::array<double, 4>& orientation = {0, 0, 0, 1},
                         std::uint32_t buttons = 0) noexcept;
 
-  /// The newest answer, if there is one that no call gave before. Real-time: yes. Threads: one, any.
+  /// The newest answer, unless an earlier call gave it: then false, and `force` is unchanged. Real-time: yes. Threads: one, any.
   [[nodiscard]] bool latest(dds::ToolForce& force) noexcept {
     if (!latest_.update()) return false;
     force = latest_.front();
     return true;
   }
 
-  /// @return whether a server listens to the poses and one sends forces, within `timeout`
+  /// @return whether, within `timeout`, a server listens to the poses and a server sends forces
   [[nodiscard]] bool waitForServer(std::chrono::milliseconds timeout) const noexcept;
 
  private:
@@ -55,14 +53,13 @@ class ToolClient {
 
   std::uint32_t tool_id_;
   std::uint64_t first_seq_;
-  dds::ToolPose pose_{};  // publish()'s only
-  std::atomic<std::uint64_t>
-      last_seq_;  // written by publish(), read by the receive thread; a number on its own
+  dds::ToolPose pose_{};                 // publish()'s only
+  std::atomic<std::uint64_t> last_seq_;  // publish() writes, the receive thread reads; orders nothing else
   ForceCallback callback_;
   void* context_;
   rt::TripleBuffer<dds::ToolForce> latest_;  // written by the receive thread, read by latest()'s caller
   dds::Writer<dds::ToolPose> poses_;
-  dds::Reader<dds::ToolForce> forces_;  // last, so that no callback comes once the rest is gone
+  dds::Reader<dds::ToolForce> forces_;  // last: no callback comes after it is destroyed
 };
 
 }  // namespace palpate::client

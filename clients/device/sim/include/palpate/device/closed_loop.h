@@ -13,7 +13,7 @@ namespace palpate::device {
 /// @param[in] force_at     Point(const Point& position): the force on the tool, N, that answers a pose; called in the
 ///                         order of time
 /// @param[in] delay        periods from a pose to the first period in which its answer acts, in [0, 3]. 0: at once. 1:
-///                         what a driver has that sends, waits for its next period and then reads
+///                         a driver that sends, waits for its next period and then reads
 /// @param[in] period       s
 /// @return one entry per period, the first at the start
 template <class ForceAt>

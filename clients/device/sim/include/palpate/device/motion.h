@@ -12,18 +12,18 @@ using client::Point;
 
 /// How the hand moves.
 struct MotionOptions {
-  double depth{0.003};  ///< how far below the rest surface the hand wants the tip, m, in (0, 0.05]
-  /// How much farther than that the hand goes each way because friction holds the tip back, m, in [0, 0.2]:
+  double depth{0.003};  ///< wanted depth of the tip below the rest surface, m, in (0, 0.05]
+  /// How much farther the hand goes each way because friction holds the tip back, m, in [0, 0.2]:
   /// leadOf(device, hand). Without it a loose hand cannot bring a device with much friction to the organ.
   double lead{0.0};
   double clearance{0.005};      ///< of the tip from the surface at the start and the end, m, in (0, 0.2]
-  double drag_distance{0.015};  ///< way along the surface, m, in (0, 0.1]
-  int taps{3};                  ///< before the last one, which is held, in [1, 1000]
-  double seconds{4.0};  ///< of the whole; the hold takes what is left, at least 0.8 s of it, at most 3600
-  double tip_radius{0.005};  ///< R, m, in [0, 0.05]; take the server's
+  double drag_distance{0.015};  ///< distance along the surface, m, in (0, 0.1]
+  int taps{3};                  ///< before the last tap, which is held, in [1, 1000]
+  double seconds{4.0};       ///< of the whole motion, at most 3600; the hold takes the rest, at least 0.8 s
+  double tip_radius{0.005};  ///< R, m, in [0, 0.05]; use the server's
 };
 
-/// What the hand does: a path, and the part of it in which the hand rests in the organ.
+/// The hand's path, and the part of it in which the hand rests in the organ.
 struct Motion {
   client::Path path;
   double hold_start;  ///< s; the last rest in contact begins
@@ -34,16 +34,16 @@ struct Motion {
   double depth;       ///< MotionOptions::depth, m
 };
 
-/// c / K: by so much the tip lags behind a hand that moves it slowly, m.
+/// c / K: lag of the tip behind a hand that moves it slowly, m.
 [[nodiscard]] double leadOf(const Mechanics& device, const Hand& hand) noexcept;
 
 /// Minimum-jerk legs at a spot of the rest surface, each motion ending in a hold and a retreat to the start:
-///   press  to the surface in 0.4 s, to the depth in 0.6 s: contact is made slowly, as by palpate-tool
+///   press  to the surface in 0.4 s, to the depth in 0.6 s: slow contact, as palpate-tool makes it
 ///   drag   the same, a rest of 0.2 s, then along the surface (tangentOf the normal) in 1 s
-///   tap    in and out `taps` times, 0.1 s each way, then in once more: contact is made fast
+///   tap    in and out `taps` times, 0.1 s each way, then in once more: fast contact
 /// @param[in] surface, normal  X, m, and the outward unit normal there
-/// @throw std::invalid_argument for another kind, or naming the first field out of its range; the shortest `seconds`
-/// is what the legs take and 0.8 s
+/// @throw std::invalid_argument  another kind, or a field out of its range, which it names; the least `seconds` is the
+/// duration of the legs plus 0.8 s
 [[nodiscard]] Motion makeMotion(const std::string& kind, const Point& surface, const Point& normal,
                                 const MotionOptions& options);
 

@@ -8,33 +8,33 @@
 
 namespace palpate::device {
 
-/// Where the tip was and what pushed it, at even steps of time.
+/// Positions of the tip and the forces on it, at even steps of time.
 struct Trace {
   double dt{1e-3};              ///< s between two entries, above 0
-  std::vector<Point> position;  ///< n tip positions; entry i at the time i dt, m
+  std::vector<Point> position;  ///< n tip positions; entry i at time i dt, m
   std::vector<Point> force;     ///< n forces on the tool that acted until then, N
 };
 
-/// Motion of the tip about its slow trend, after it was given time to settle.
+/// Motion of the tip about its slow trend, after the time to settle.
 struct Oscillation {
-  double pp{0.0};  ///< largest minus smallest value of the axis that moves most, m
+  double pp{0.0};  ///< peak to peak on the axis that moves most, m
   bool growing{
       false};  ///< the second half of the time is larger than 1.2 times the first and the noise floor
 };
 
-/// Below this no oscillation counts: the finest nominal position resolution among the presets' devices (0.02 mm,
-/// Premium 3.0). No device of theirs could show it.
+/// Oscillations below this do not count. It is the finest nominal position resolution of the presets' devices (0.02 mm,
+/// Premium 3.0): none of them could show less.
 inline constexpr double kNoiseFloor = 20e-6;  // m
 
 /// The trace in the hold, from 0.5 s after its start to 0.125 s before its end, less its running mean over 0.25 s.
-/// A trace that ends earlier, or holds a number that is not finite or beyond 10 m, is growing.
+/// A trace counts as growing when it ends earlier, or holds a number that is not finite or beyond 10 m.
 [[nodiscard]] Oscillation oscillationIn(const Trace& trace, const Motion& motion);
 
-/// From the start of the hold until the tip stays within 5 % of the imposed depth, and not less than the noise floor,
-/// of where it is at the hold's end (mean of its last 0.25 s), s; nothing when it never does.
+/// Time from the start of the hold until the tip stays near its end position (mean of the last 0.25 s of the hold), s:
+/// within 5 % of the imposed depth, or within the noise floor where that is larger. Nothing when it never does.
 [[nodiscard]] std::optional<double> settleTime(const Trace& trace, const Motion& motion);
 
-/// What a run in contact with the organ was like, beside the same run without it.
+/// Judgement of a run in contact with the organ, beside the same run without it.
 struct Verdict {
   bool stable{
       false};  ///< not growing, and the oscillation at most twice that without the organ plus kNoiseFloor
