@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tools/demo --serve as somebody starts it, with the tests' organ, because solving the liver takes minutes.
+// tools/demo --serve as a user starts it, but with the tests' organ, because solving the liver takes minutes.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { test } from 'node:test';

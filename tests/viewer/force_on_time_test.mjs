@@ -38,7 +38,7 @@ test('four pages do not make the force of a headless tool late', async (t) => {
   console.log(`pose to force, p99 / us, without: ${list(p99(without))}; with four pages: ${list(p99(beside))}`);
   if (!without[0].server_realtime || !without[0].client_realtime) {
     console.log(`the ratio of the medians: ${ratioOf(without, beside).toFixed(2)}`);
-    console.log('SKIPPED: real time not granted'); // as ctest knows it: nobody keeps to times here
+    console.log('SKIPPED: real time not granted'); // the word that ctest looks for; without real time the figures say nothing
     return t.skip('real time not granted');
   }
   measured('force p99 with four pages, medians', ratioOf(without, beside), 1.2, 'x that without');

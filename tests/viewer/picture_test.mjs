@@ -12,7 +12,7 @@ const liver = process.env.PALPATE_TEST_MODEL ?? fileURLToPath(new URL('../../bui
 stage({ model: () => (existsSync(liver) ? liver : bench.model()), server: ['--force-limit', '22'] });
 
 for (const dark of [false, true])
-  test(`the page while somebody presses, ${dark ? 'dark' : 'light'}`, async () => {
+  test(`the page during a press, ${dark ? 'dark' : 'light'}`, async () => {
     const seen = await Seen.open(browser, viewer.address, { width: 1280, height: 800, dark });
     await seen.organ();
     const { x, y } = await seen.middle();

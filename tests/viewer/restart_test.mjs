@@ -12,7 +12,7 @@ async function press(seen) {
   await seen.until('a force', (f) => f.force > 0.2);
 }
 
-/** Nothing of who is gone comes back: no force, no slider, no number of the server's. */
+/** After the server is gone the page shows nothing of it: no force, no slider, no number. */
 async function staysEmpty(seen, seconds) {
   for (const end = Date.now() + 1000 * seconds; Date.now() < end; await seen.page.waitForTimeout(100)) {
     const { force, tools, samples, largestDisplacement, state } = await seen.figures();
@@ -38,7 +38,7 @@ test('it says what it waits for, and comes back when the server or the viewer do
   const first = await bench.server(bench.model(4));
   const before = await seen.until('the organ', (f) => f.nodes === 2562 && f.state.level === 'good');
 
-  // 3. It is killed while somebody presses: no force is shown of a server that is not there.
+  // 3. It is killed during a press: the page shows no force of a server that is gone.
   const middle = await seen.middle();
   await seen.page.mouse.move(middle.x, middle.y);
   await press(seen);
@@ -55,7 +55,7 @@ test('it says what it waits for, and comes back when the server or the viewer do
   assert.ok(after.meshRevision > before.meshRevision);
   await press(seen);
 
-  // 5. The viewer itself goes while somebody presses, and comes back at the same address.
+  // 5. The viewer itself ends during a press, and comes back at the same address.
   const port = Number(new URL(viewer.address).port);
   await viewer.stop('SIGKILL');
   await seen.until('no line is said', (f) => f.state.level === 'bad' && /viewer/.test(f.state.text));

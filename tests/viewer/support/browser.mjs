@@ -10,10 +10,10 @@ const require = createRequire(new URL('package.json', web));
 const CHROMIUM = process.env.PALPATE_CHROMIUM ?? '/usr/bin/chromium';
 const shots = process.env.PALPATE_SHOTS ?? '/tmp/palpate-viewer-shots';
 
-/** The package of that name that the page's lock file names. */
+/** The package of that name, in the version of the page's lock file. */
 export const packageOf = (name) => require(name);
 
-/** Ends the program, said, where there is no browser or no page: ctest counts it as skipped. */
+/** Without a browser or a page, says so and ends the program; ctest counts it as skipped. */
 export function skipWithoutBrowser() {
   const lacks = !existsSync(CHROMIUM)
     ? `no ${CHROMIUM}: tools/install_packages installs it`
@@ -31,7 +31,7 @@ export async function openBrowser() {
 }
 
 /**
- * The page as somebody sees it: `see` gives pictures, `figures` the panel's numbers. Errors of its scripts fail the
+ * The page as a user sees it: `see` gives pictures, `figures` the panel's numbers. Errors of its scripts fail the
  * test that closes it.
  */
 export class Seen {

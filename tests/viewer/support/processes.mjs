@@ -56,7 +56,7 @@ export class Program {
     return this.ended;
   }
 
-  /** As somebody who waits: SIGTERM, and SIGKILL to what has not ended some seconds later. */
+  /** SIGTERM, and SIGKILL when the program has not ended some seconds later. */
   async end(seconds = 10) {
     const hard = setTimeout(() => this.child.kill('SIGKILL'), 1000 * seconds);
     const how = await this.stop('SIGTERM');

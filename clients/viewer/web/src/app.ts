@@ -24,9 +24,9 @@ const PANEL_MS = 250;
 const CHART_MS = 40;
 const NOTICE_MS = 5000;
 const HIDDEN_HZ = 1;
-const USUAL_TIP = 0.005; // m, until the viewer says
+const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
-/** The page: hears the viewer, draws, and lets people press. */
+/** The page: listens to the viewer, draws, and lets people press. */
 export class App implements LineListener {
   readonly figures = new Figures();
   readonly strips = new Strips();
@@ -98,7 +98,7 @@ export class App implements LineListener {
 
   frame(frame: Frame, received: readonly Received[]): void {
     this.figures.frame(frame, received, performance.now());
-    if (!this.serving) return; // it waited while the server went
+    if (!this.serving) return; // the message waited while the server went
     this.frame_ = frame;
     this.view?.frame(frame);
     this.strips.add(frame.answers);
@@ -119,7 +119,7 @@ export class App implements LineListener {
     this.view?.setTip(radius);
   }
 
-  /** What the server says counts while it serves: after it has gone the viewer repeats its last words. */
+  /** A status counts only while the server serves: after it is gone the viewer repeats the last one. */
   private status(status: Said): void {
     if (!this.serving) return this.panel.heard({ type: 'status', viewer: status['viewer'] });
     this.setTip(numberIn(status, 'tip_radius'));
@@ -140,7 +140,7 @@ export class App implements LineListener {
     this.askRate();
   }
 
-  /** What a server said that does not serve any more is not shown: no force of nobody. */
+  /** Clears everything that a server said once it no longer serves. */
   private forget(): void {
     this.hand.drop();
     this.view?.calm();
@@ -151,7 +151,7 @@ export class App implements LineListener {
     this.panel.heard(undefined);
   }
 
-  /** A page that nobody sees wants few frames. */
+  /** A hidden page wants few frames. */
   private askRate(): void {
     if (this.lineOpen) this.line.send({ type: 'rate', hz: document.hidden ? HIDDEN_HZ : this.usualHz });
   }
@@ -166,7 +166,7 @@ export class App implements LineListener {
     this.view?.restyle();
   }
 
-  /** One turn of the display: draws what changed, nothing while all is at rest. */
+  /** One turn of the display: draws what changed, and nothing while all is at rest. */
   private turn(nowMs: number): void {
     requestAnimationFrame((next) => this.turn(next));
     const tool = toolToShow(this.frame_?.tools ?? []);

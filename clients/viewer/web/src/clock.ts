@@ -3,15 +3,15 @@
 export const clockMs = (): number => performance.timeOrigin + performance.now();
 
 /**
- * The viewer's clock as seen from this page. Each ping bounds the offset by half its round trip; the shortest round
- * trip of the last few says it best (Cristian, "Probabilistic clock synchronization", Distributed Computing 3, 1989).
+ * The viewer's clock as seen from this page. Each ping bounds the offset by half its round trip, so the shortest recent
+ * round trip is the most accurate (Cristian, "Probabilistic clock synchronization", Distributed Computing 3, 1989).
  */
 export class ViewerClock {
   private readonly pings: { tripMs: number; offsetUs: number }[] = [];
 
   constructor(private readonly keep = 32) {}
 
-  /** @param sentMs page's clock at the ping @param receivedMs and at its answer @param viewerUs viewer's clock in between */
+  /** @param sentMs page's clock at the ping @param receivedMs page's clock at its answer @param viewerUs viewer's clock in between */
   learn(sentMs: number, receivedMs: number, viewerUs: number): void {
     const tripMs = receivedMs - sentMs;
     if (!(tripMs >= 0) || !Number.isFinite(viewerUs)) return;
@@ -23,7 +23,7 @@ export class ViewerClock {
     this.pings.length = 0;
   }
 
-  /** Offset to the page's clock, us, good to half of the round trip; NaN until a ping was answered. */
+  /** Offset to the page's clock, us, accurate to half the round trip; NaN before the first answer. */
   reading(): ClockReading {
     let best = this.pings[0];
     for (const ping of this.pings) if (ping.tripMs < best.tripMs) best = ping;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { scale, type Vec3 } from './vec';
 
-/** Linear light, 0 to 1: what three.js wants in vertex colours. */
+/** Linear light, 0 to 1, as three.js takes vertex colours. */
 export type Rgb = Vec3;
 
 export const linearOf = (c: number): number => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
@@ -90,10 +90,10 @@ export class ColourMap {
   }
 }
 
-/** Displacement: porcelain at rest, the deeper the darker; lightness alone tells the order. Control points our own. */
+/** Displacement: porcelain at rest, darker with depth; lightness alone shows the order. The control points are our own. */
 export const DISPLACEMENT = new ColourMap(['#efe6d8', '#b9d8cf', '#6db7c4', '#3d86b8', '#35539f', '#2c2468']);
 
-/** Stiffness: viridis (S. van der Walt and N. Smith, matplotlib 2015, CC0), every eighth of it. */
+/** Stiffness: viridis (S. van der Walt and N. Smith, matplotlib 2015, CC0), sampled at every eighth. */
 export const STIFFNESS = new ColourMap([
   '#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725',
 ]);
@@ -101,7 +101,7 @@ export const STIFFNESS = new ColourMap([
 export const TISSUE = rgbOf('#c26a5c');
 export const NOT_FELT = rgbOf('#cfcac3');
 
-/** The next larger of 1, 2, 5 times a power of ten: an end for a scale that does not fidget. */
+/** The next larger of 1, 2, 5 times a power of ten: the end of a scale that does not flicker. */
 export function niceCeiling(x: number): number {
   if (!(x > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(x));

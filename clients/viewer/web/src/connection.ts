@@ -3,20 +3,20 @@ import { clockMs, viewerUs, ViewerClock, type ClockReading } from './clock';
 import { decodeFrame, decodeMesh, kindOf, KIND_FRAME, KIND_MESH, SUBPROTOCOL, type Frame, type Mesh } from './protocol';
 import type { Vec3 } from './vec';
 
-/** What the viewer says as text; fields as in PROTOCOL.md, not trusted to be there. */
+/** A text message of the viewer; fields as in PROTOCOL.md, any of which may be missing. */
 export interface Said {
   readonly type: string;
   readonly [field: string]: unknown;
 }
 
-/** A frame's way here. */
+/** How a frame came here. */
 export interface Received {
   readonly bytes: number;
   readonly delayMs: number; // from the DDS sample at the viewer to the decoded frame; NaN: unknown, or no surface
 }
 
 export interface Listener {
-  /** The line to the viewer. @param text what to tell people; empty while it stands */
+  /** The line to the viewer. @param text for people; empty while the line is up */
   link(open: boolean, text: string): void;
   said(message: Said): void;
   mesh(mesh: Mesh): void;
@@ -25,16 +25,16 @@ export interface Listener {
   trouble(text: string): void;
 }
 
-const BAD_MESSAGE = 4000; // close codes from 4000 on are the application's
+const BAD_MESSAGE = 4000; // applications use close codes from 4000 on
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 3000;
 const PING_MS = 500;
-const TARGET_MS = 12; // between targets; the viewer makes 1 kHz of them
-const HOLD_MS = 1000; // so long a target is repeated for a page that does not come round to a new one
+const TARGET_MS = 12; // between targets; the viewer turns them into 1 kHz
+const HOLD_MS = 1000; // longest repetition of a target while a busy page sends no new one
 
 /**
- * The WebSocket to palpate-viewer: opened again when it breaks, each frame acknowledged when it is decoded, the target
- * repeated while the tool is held. Runs in a worker, so that none of this waits for drawing.
+ * The WebSocket to palpate-viewer. It opens again when it breaks, acknowledges each frame once it is decoded, and repeats
+ * the target while the tool is held. It runs in a worker, so that none of this waits for drawing.
  */
 export class Connection {
   private readonly clock = new ViewerClock();
@@ -56,7 +56,7 @@ export class Connection {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  /** Where the tool is to be until the next call; undefined: no tool is held. */
+  /** The tool's target until the next call; undefined: no tool is held. */
   hold(position: Vec3 | undefined): void {
     this.held = position && { position, sinceMs: clockMs() };
   }
@@ -77,7 +77,7 @@ export class Connection {
       this.listener.link(true, '');
     };
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
-      if (socket.readyState === WebSocket.OPEN) this.heard(event.data); // not what came after it was given up
+      if (socket.readyState === WebSocket.OPEN) this.heard(event.data); // ignores what comes after close()
     };
     socket.onclose = (event) => {
       this.held = undefined;
@@ -97,7 +97,7 @@ export class Connection {
     }
   }
 
-  /** What cannot be decoded is never acknowledged, and two such frames are the last that come: begins anew, not at once. */
+  /** A message that cannot be decoded is not acknowledged, and after two such frames none comes: closes, to reconnect later. */
   private giveUp(): void {
     this.waitMs = LONGEST_WAIT_MS;
     this.socket?.close(BAD_MESSAGE, 'palpate-viewer sent a bad message');
@@ -121,7 +121,7 @@ export class Connection {
   }
 }
 
-/** Where the viewer of this page listens; a token in the page's address goes along. */
+/** The WebSocket's address at this page's viewer, with the token of the page's address. */
 export function viewerAddress(page: { protocol: string; host: string; pathname: string; search: string }): string {
   const token = new URLSearchParams(page.search).get('token');
   const scheme = page.protocol === 'https:' ? 'wss:' : 'ws:';

@@ -5,7 +5,7 @@ import type { Surface } from './surface';
 
 const NOT_THE_ORGANS = FLAG_RAMPING | FLAG_FORCE_LIMITED | FLAG_FORCE_RATE_LIMITED;
 
-/** Stiffness as it was felt, spot by spot: a map that the palpating finger draws. */
+/** The stiffness felt at each spot: a map that the palpating finger draws. */
 export class FeltMap {
   readonly value: Float32Array; // N/m
   readonly weight: Float32Array; // 0: never felt .. 1: right under a tool
@@ -20,7 +20,7 @@ export class FeltMap {
     this.weight = new Float32Array(surface.mesh.nodes);
   }
 
-  /** @return whether something new was felt */
+  /** @return whether the map changed */
   learn(frame: Frame): boolean {
     let learnt = false;
     for (const tool of frame.tools) {
@@ -34,13 +34,13 @@ export class FeltMap {
     return learnt;
   }
 
-  /** Where node n lies between the softest and the stiffest that was felt, 0 to 1. */
+  /** Stiffness at node n on the scale from softest to stiffest, 0 to 1. */
   share(n: number): number {
     const range = this.high - this.low;
     return range > 0 ? (this.value[n] - this.low) / range : 0.5;
   }
 
-  /** How far round the anchor a touch is painted, m; what was painted before goes. */
+  /** Radius that a touch paints round its anchor, m. Clears the map. */
   setReach(reach: number): void {
     this.reach = reach;
     this.clear();
@@ -58,7 +58,7 @@ export class FeltMap {
       const r = Math.hypot(rest[3 * n] - tool.anchor[0], rest[3 * n + 1] - tool.anchor[1], rest[3 * n + 2] - tool.anchor[2]);
       if (r >= this.reach) continue;
       const w = (1 - (r / this.reach) ** 2) ** 2;
-      const share = w / (w + 0.5 * this.weight[n]); // what was felt nearer before counts more
+      const share = w / (w + 0.5 * this.weight[n]); // an earlier, nearer touch counts more
       this.value[n] += share * (stiffness - this.value[n]);
       this.weight[n] = Math.max(this.weight[n], w);
     }

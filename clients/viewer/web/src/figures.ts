@@ -3,10 +3,10 @@ import type { Received } from './connection';
 import type { Frame } from './protocol';
 import { Recent } from './recent';
 
-/** How fast pictures and frames come, and how old they are: what the panel prints and tests read. */
+/** Rates and ages of pictures and frames, for the panel and for tests. */
 export class Figures {
-  readonly drawn = new Recent(); // a value a picture: ms that drawing took
-  readonly received = new Recent(); // a value a frame: bytes
+  readonly drawn = new Recent(); // one value per picture: duration of drawing, ms
+  readonly received = new Recent(); // one value per frame: bytes
   readonly decodedMs = new Recent(); // DDS sample at the viewer -> frame decoded here
   readonly shownMs = new Recent(); // DDS sample at the viewer -> handed to the screen
   frames = 0;
@@ -23,7 +23,7 @@ export class Figures {
     if (frame.nodes > 0) this.newestSampleUs = frame.sampleUs;
   }
 
-  /** @param nowUs  viewer's clock when the picture was done; NaN while unknown @param moved  the organ or a tool in it changed */
+  /** @param nowUs  viewer's clock when the picture was done; NaN while unknown @param moved  the organ or a tool changed */
   picture(startMs: number, endMs: number, nowUs: number, moved: boolean): void {
     ++this.pictures;
     if (moved && Number.isNaN(this.organSeenMs)) this.organSeenMs = endMs;

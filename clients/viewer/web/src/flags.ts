@@ -2,19 +2,19 @@
 import { FLAG_IN_CONTACT, FLAG_STALE_POSE, FLAGS } from './flag_list';
 
 /**
- * What the server's status adds to the flags of tools and answers. A tool that was once held is stale until it is held
- * again; one whose force still fades is among the frames' tools.
+ * The flags that the server's status adds to those of tools and answers. Stale poses are left out: a tool that was once
+ * held stays stale until it is held again, and the frames show a tool whose force still fades.
  */
 export const flagsOfStatus = (flags: number): number => flags & ~FLAG_STALE_POSE;
 
-/** What is worth saying of these flags; contact alone is not, the state says it. */
+/** Words for these flags; none for contact, which the state shows. */
 export function flagWords(flags: number): { words: string; severe: boolean }[] {
   return FLAGS.filter((flag) => flag.bit !== FLAG_IN_CONTACT && (flags & flag.bit) !== 0).map(({ words, severe }) => ({ words, severe }));
 }
 
-const HELD_MS = 4000; // so long people can read what lasted a millisecond
+const HELD_MS = 4000; // a flag of one millisecond stays long enough to read
 
-/** Each flag that was raised in the last seconds, however short it was: ticks come 1000 times a second, eyes do not. */
+/** Each flag raised in the last HELD_MS, however briefly: a tick lasts a millisecond, too short to see. */
 export class RecentFlags {
   private readonly raisedMs = new Map<number, number>();
 

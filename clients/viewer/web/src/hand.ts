@@ -8,10 +8,10 @@ import type { Stage } from './stage';
 import type { Surface } from './surface';
 
 const TARGET_MS = 12; // between targets
-const ENDED = 'released'; // of the tool before
-const RETRY_MS = 400; // between grabs, when the tool was taken back while the finger is still down
+const ENDED = 'released'; // the previous tool's end
+const RETRY_MS = 400; // between grabs, after the tool was taken away while the finger is down
 
-/** Presses on the organ, from the first touch to the release: asks for a tool, sends its targets. */
+/** Presses on the organ, from touch to release: asks for a tool and sends its targets. */
 export class Hand implements Toucher {
   toolId: number | undefined; // granted
   private press_: Press | undefined;
@@ -78,20 +78,20 @@ export class Hand implements Toucher {
     return organ.surface.hit(ray.origin, ray.direction) !== undefined;
   }
 
-  /** The viewer's answer to a grab, or that the tool was taken back, or how the tool before this one ended. */
+  /** The viewer's answer to a grab, the loss of the tool, or the end of the previous tool. */
   said(message: Said): void {
     if (!this.press_) return;
     if (message['granted'] === true) {
       this.toolId = Number(message['tool_id']);
       if (message['message']) this.notice(String(message['message']));
     } else if (this.toolId !== undefined) {
-      this.toolId = undefined; // e.g. the page stood still too long; the finger is still down: asks again
+      this.toolId = undefined; // e.g. the page stalled; while the finger is down it asks again
     } else if (message['message'] !== ENDED) {
       this.notice(String(message['message'] || 'There is no free tool.'));
     }
   }
 
-  /** The line broke or another organ came: nothing is held any more. */
+  /** The line broke or another organ came: the hand holds nothing. */
   drop(): void {
     this.press_ = undefined;
     this.toolId = undefined;

@@ -10,8 +10,8 @@ export interface Parcel {
 }
 
 /**
- * One frame at a time from the worker to the page. What comes while the page is busy is put together: the newest
- * surface and tools, every answer. A slow page gets fewer pictures, never a queue, and its strip chart has no holes.
+ * Hands frames from the worker to the page, one at a time. Frames that come while the page is busy are merged: the newest
+ * surface and tools, every answer. A slow page gets fewer pictures, no queue, and no holes in its strip chart.
  */
 export class HandOver {
   private waiting: Parcel | undefined;
@@ -24,12 +24,12 @@ export class HandOver {
     this.next();
   }
 
-  /** What waits is of a server, an organ or a line that is not there any more. What the page has got it still deals with. */
+  /** Drops what waits: its server, organ or line is gone. The page still handles the frame that it has. */
   clear(): void {
     this.waiting = undefined;
   }
 
-  /** The page has dealt with the last one. */
+  /** The page has handled the last frame. */
   taken(): void {
     this.busy = false;
     this.next();
@@ -44,7 +44,7 @@ export class HandOver {
   }
 }
 
-/** A frame without a surface keeps that of the one before. */
+/** A frame without a surface keeps the previous frame's. */
 export function joined(old: Parcel, frame: Frame, received: Received): Parcel {
   const { nodes, meshRevision, sampleUs, surfaceSeq, scale, displacement } = frame.nodes === 0 ? old.frame : frame;
   const answers = [...old.frame.answers, ...frame.answers].slice(-MOST_ANSWERS);

@@ -3,7 +3,7 @@ import type { App } from './app';
 import { toolToShow } from './readout';
 import { norm } from './vec';
 
-/** What tests and the curious read at window.palpate: the panel's numbers, read-only. */
+/** window.palpate, for tests and the curious: the panel's numbers, read-only. */
 export function figuresOf(app: App): Record<string, unknown> {
   const now = performance.now();
   const { drawn, received, decodedMs, shownMs, frames, pictures } = app.figures;

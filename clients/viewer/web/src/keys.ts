@@ -2,11 +2,11 @@
 import type { Toucher } from './pointer';
 import type { Stage } from './stage';
 
-const TURN = 0.09; // rad a key press
+const TURN = 0.09; // rad per key press
 const SLIDE = 4; // pixels
 const DEPTH = 0.0005; // m
 
-/** The keyboard on the organ: turn, zoom, press at the centre and slide from there. */
+/** The keyboard on the organ: turns, zooms, presses at the centre and slides from there. */
 export class Keys {
   private presses = false;
   private at = { x: 0, y: 0 };

@@ -5,7 +5,7 @@ import type { Colouring } from './organ';
 import { brief, element, setText } from './page';
 import type { Stage } from './stage';
 
-/** What the colours mean, and how long a centimetre is. */
+/** The scale of the colours, and a ruler. */
 export class Legend {
   private readonly ramp = element('ramp', HTMLDivElement);
   private readonly bar = element('ramp-bar', HTMLElement);

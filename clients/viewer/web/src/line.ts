@@ -26,7 +26,7 @@ export interface LineListener {
   trouble(text: string): void;
 }
 
-/** The page's end of the worker that speaks with the viewer. */
+/** The page's end of the worker that talks to the viewer. */
 export class Line {
   private reading: ClockReading = { tripMs: NaN, offsetUs: NaN };
   private readonly worker = new Worker(new URL('./line_worker.ts', import.meta.url), { type: 'module' });
@@ -44,7 +44,7 @@ export class Line {
     this.tell({ kind: 'say', message });
   }
 
-  /** Where this page's tool is to be; undefined when it holds none. */
+  /** The target of this page's tool; undefined when it holds none. */
   hold(position: Vec3 | undefined): void {
     this.tell({ kind: 'hold', position });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worker that holds the line to the viewer.
+// The worker with the line to the viewer.
 import { Connection } from './connection';
 import { HandOver } from './hand_over';
 import type { FromPage, ToPage } from './line';

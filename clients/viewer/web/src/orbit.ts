@@ -10,7 +10,7 @@ export class Orbit {
   private home = { azimuth: this.azimuth, elevation: this.elevation, distance: 1, target: this.target };
   changed = true;
 
-  /** Sees the whole of a thing of that size. @param fov vertical opening, rad @param aspect width over height */
+  /** Frames a thing of that size. @param fov vertical opening, rad @param aspect width over height */
   frame(centre: Vec3, size: number, fov: number, aspect: number): void {
     const opening = 2 * Math.atan(Math.tan(fov / 2) * Math.min(1, aspect));
     this.home = { ...this.home, target: centre, distance: (0.41 * size) / Math.sin(opening / 2) };

@@ -9,7 +9,7 @@ export type Colouring = 'displacement' | 'stiffness' | 'plain';
 const LEAST_TOP = 0.002; // m
 const AT_REST = 1e-4; // m
 
-/** The organ as it is drawn: lit, shaded, coloured. */
+/** The drawn organ: lit, shaded, coloured. */
 export class OrganMesh {
   private readonly geometry = new BufferGeometry();
   private readonly colours: Float32Array;
@@ -43,7 +43,7 @@ export class OrganMesh {
     this.geometry.attributes['normal'].needsUpdate = true;
   }
 
-  /** End of the displacement scale, m: grows with what is shown, and starts anew at rest. */
+  /** End of the displacement scale, m: grows with the displacement, and is reset at rest. */
   get displacementTop(): number {
     return this.top;
   }

@@ -11,7 +11,7 @@ import { norm } from './vec';
 
 const REACH = 2; // of the felt map, in tip radii
 
-/** One organ and the tools on it, as drawn. */
+/** One drawn organ and the tools on it. */
 export class OrganView {
   readonly surface: Surface;
   readonly felt: FeltMap;
@@ -43,7 +43,7 @@ export class OrganView {
     this.removeTools();
   }
 
-  /** Another server, the same organ: what was felt with another tip is not what this one feels. */
+  /** Another server, the same organ. With another tip the felt map starts empty: each tip feels another stiffness. */
   setTip(radius: number): void {
     if (radius === this.tipRadius) return;
     this.tipRadius = radius;
@@ -74,14 +74,14 @@ export class OrganView {
     this.tools = frame.tools;
   }
 
-  /** Nobody says any more how the organ is: shows it at rest, without tools. */
+  /** No server describes the organ now: shows it at rest, without tools. */
   calm(): void {
     this.surface.calm();
     this.tools = [];
     this.dirty = this.moved = true;
   }
 
-  /** Brings what is drawn up to date. @return whether anything changed since the last time */
+  /** Updates what is drawn. @return whether anything changed since the last call */
   update(): boolean {
     if (!this.dirty) return false;
     if (this.moved) this.organ.moved();

@@ -10,7 +10,7 @@ export function setText(target: HTMLElement, text: string): void {
   if (target.textContent !== text) target.textContent = text;
 }
 
-/** Hands a file to whoever looks at the page. */
+/** Saves a file on the visitor's machine. */
 export function download(name: string, content: Blob): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(content);
@@ -34,13 +34,13 @@ export const numberIn = (object: Record<string, unknown>, field: string): number
   return typeof value === 'number' ? value : NaN;
 };
 
-/** 1000 -> "1000", 45.31 -> "45", 1.234 -> "1.2"; a dash for what is not known. */
+/** 1000 -> "1000", 45.31 -> "45", 1.234 -> "1.2"; a dash for an unknown number. */
 export function brief(value: number, digits = 1): string {
   if (!Number.isFinite(value)) return '–';
   return value.toFixed(Math.abs(value) >= 20 ? 0 : digits);
 }
 
-/** Notes at the root whether people type or point: the organ's focus ring is for those who type. */
+/** Marks the root element as typing or pointing: the organ shows its focus ring only while people type. */
 export function followInputKind(): void {
   const note = (kind: string) => (): void => void (document.documentElement.dataset['input'] = kind);
   document.addEventListener('keydown', note('keys'), { capture: true });

@@ -4,9 +4,9 @@ import type { Line } from './line';
 import { element, numberIn, setText } from './page';
 
 const ASK_MS = 150; // at most one request in this time
-const HELD_MS = 1500; // after a hand left a slider it follows the server again
+const HELD_MS = 1500; // after this time without a hand a slider follows the server again
 
-/** The sliders of what the hand feels: organ stiffness, friction. What is in force is what the server says. */
+/** The sliders of organ stiffness and friction. The server decides which values are in force. */
 export class Parameters {
   private readonly stiffness = element('stiffness', HTMLInputElement);
   private readonly stiffnessText = element('stiffness-text', HTMLOutputElement);
@@ -25,7 +25,7 @@ export class Parameters {
     setInterval(() => this.ask(), ASK_MS / 3);
   }
 
-  /** The viewer's status: values in force. */
+  /** The values in force, from the viewer's status. */
   status(status: Said): void {
     const youngsFactor = numberIn(status, 'youngs_modulus') / numberIn(status, 'model_youngs_modulus');
     const friction = 'friction' in status ? (status['friction'] === null ? Infinity : numberIn(status, 'friction')) : NaN;
@@ -41,10 +41,10 @@ export class Parameters {
   /** The server's answer to a request. */
   answered(answer: Said): void {
     setText(this.message, answer['accepted'] === false ? `Refused: ${String(answer['message'])}` : '');
-    if (answer['accepted'] === false) this.touchedMs = -Infinity; // back to what is in force
+    if (answer['accepted'] === false) this.touchedMs = -Infinity; // back to the value in force
   }
 
-  /** No server: nothing to set. */
+  /** Without a server there is nothing to set. */
   absent(): void {
     this.stiffness.disabled = this.friction.disabled = true;
     this.inForce = { youngsFactor: NaN, friction: NaN };

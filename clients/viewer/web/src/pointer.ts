@@ -2,7 +2,7 @@
 import type { Stage } from './stage';
 
 export interface Toucher {
-  /** @return whether there is organ to press; else the pointer turns the view */
+  /** @return whether the pointer is on the organ; else it turns the view */
   press(clientX: number, clientY: number): boolean;
   slide(clientX: number, clientY: number, pull: boolean): void;
   deeper(metres: number): void;
@@ -15,9 +15,9 @@ interface Place {
   y: number;
 }
 
-const TURN = 0.0075; // rad a pixel
+const TURN = 0.0075; // rad per pixel
 
-/** Mouse, pen and fingers: one on the organ presses, one beside it turns, two turn into zoom and move. */
+/** Mouse, pen and fingers: one on the organ presses, one beside it turns the view, two zoom and move it. */
 export class Pointers {
   private readonly down = new Map<number, Place>();
   private presser: number | undefined;

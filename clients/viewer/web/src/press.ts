@@ -3,8 +3,8 @@ import { restNormalAt, type Surface } from './surface';
 import { add, dot, scale, sub, type Vec3 } from './vec';
 
 export const DEEPEST = 0.015; // m; the server clamps beyond its domain and says so
-const ABOVE = 0.001; // m above the surface where a press begins
-const SPEED = 0.012; // m/s at which a press goes down or up
+const ABOVE = 0.001; // m; a press begins this far above the surface
+const SPEED = 0.012; // m/s of a press, down and up
 
 export interface Ray {
   readonly origin: Vec3;
@@ -12,8 +12,8 @@ export interface Ray {
 }
 
 /**
- * A finger on the organ: where, how deep, and the tool pose that this makes. The longer it presses the deeper, down to
- * the depth that was set. Depths count from the surface at rest, along its outward normal.
+ * A finger on the organ: its place, its depth, and the resulting tool pose. It sinks with time, down to the depth set.
+ * Depths count from the surface at rest, along its outward normal.
  */
 export class Press {
   private constructor(
@@ -25,14 +25,14 @@ export class Press {
     private timeMs: number,
   ) {}
 
-  /** @return undefined when the ray meets no accessible part of the organ as it is displayed */
+  /** @return undefined when the ray meets no accessible part of the displayed organ */
   static begin(surface: Surface, ray: Ray, tipRadius: number, nowMs: number): Press | undefined {
     const hit = surface.hit(ray.origin, ray.direction);
     if (!hit || !surface.accessibleAt(hit)) return undefined;
     return new Press(surface, surface.at(surface.rest, hit), restNormalAt(surface, hit), tipRadius, -ABOVE, nowMs);
   }
 
-  /** Over the surface at rest, to where the ray meets it; stays where it is when the ray misses. */
+  /** Slides over the surface at rest to where the ray meets it; stays when the ray misses. */
   slideTo(ray: Ray): boolean {
     const hit = this.surface.hit(ray.origin, ray.direction, this.surface.rest);
     if (!hit || !this.surface.accessibleAt(hit)) return false;
@@ -41,7 +41,7 @@ export class Press {
     return true;
   }
 
-  /** In the plane that touches the surface where the finger is: pulls instead of following the surface. */
+  /** Pulls in the plane that touches the surface at the finger, instead of following the surface. */
   pullTo(ray: Ray): boolean {
     const steep = dot(ray.direction, this.normal);
     if (Math.abs(steep) < 0.05) return false;
@@ -51,7 +51,7 @@ export class Press {
     return true;
   }
 
-  /** Goes on towards the depth that is wanted, m. @return the tip's centre, m */
+  /** Moves towards the wanted depth, m. @return the tip's centre, m */
   target(nowMs: number, wanted: number): Vec3 {
     const step = (SPEED * Math.min(100, Math.max(0, nowMs - this.timeMs))) / 1000;
     const goal = Math.min(DEEPEST, Math.max(-ABOVE, wanted));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protocol palpate.viewer.v1, as ../../PROTOCOL.md describes it: little-endian binary, JSON text.
+// Protocol palpate.viewer.v1 (../../PROTOCOL.md): little-endian binary, JSON text.
 import type { Vec3 } from './vec';
 
 export const SUBPROTOCOL = 'palpate.viewer.v1';
@@ -23,22 +23,22 @@ export interface Tool {
   readonly state: number;
   readonly flags: number;
   readonly mine: boolean; // this page drives it
-  readonly tip: Vec3; // tip centre of the pose that was answered, m
-  readonly proxy: Vec3; // where the touched point is now, m
+  readonly tip: Vec3; // tip centre of the answered pose, m
+  readonly proxy: Vec3; // current position of the touched point, m
   readonly anchor: Vec3; // the touched point at rest, m
   readonly force: Vec3; // on the tool, N
   readonly penetration: number; // m
   readonly domainRadius: number; // m
 }
 
-/** One answer of the server to one tool; the strip chart is made of them. */
+/** One answer of the server to one tool; the strip chart shows them. */
 export interface Answer {
   readonly toolId: number;
   readonly flags: number;
   readonly tUs: number; // viewer's clock, us
   readonly force: number; // N
   readonly penetration: number; // m
-  readonly wakeupUs: number; // how late the tick woke, us
+  readonly wakeupUs: number; // lateness of the tick's wake-up, us
   readonly stiffness: number; // felt along the normal, N/m; 0: free
 }
 
@@ -69,7 +69,7 @@ export function kindOf(data: ArrayBuffer): number {
   return new DataView(data).getUint32(0, true);
 }
 
-/** @throws Error naming the number that does not fit */
+/** @throws Error naming the wrong number */
 export function decodeMesh(data: ArrayBuffer): Mesh {
   expect(data.byteLength >= 16, `mesh of ${data.byteLength} bytes, expected at least 16`);
   const head = new DataView(data);
@@ -80,7 +80,7 @@ export function decodeMesh(data: ArrayBuffer): Mesh {
   const positions = new Float32Array(data, 16, 3 * nodes);
   const triangles = new Uint32Array(data, 16 + 12 * nodes, 3 * count);
   for (const node of triangles) expect(node < nodes, `triangle node ${node} of ${nodes}`);
-  expect(positions.every(Number.isFinite), 'a position is no number');
+  expect(positions.every(Number.isFinite), 'a position is not finite');
   const accessible = new Uint8Array(data, 16 + 12 * nodes + 12 * count, nodes);
   return { revision: head.getUint32(12, true), nodes, positions, triangles, accessible };
 }
@@ -116,7 +116,7 @@ function answerAt(view: DataView, at: number): Answer {
   };
 }
 
-/** The displacement is a view of `data`, not a copy. @throws Error naming the number that does not fit */
+/** The displacement is a view of `data`, not a copy. @throws Error naming the wrong number */
 export function decodeFrame(data: ArrayBuffer): Frame {
   expect(data.byteLength >= FRAME_HEAD, `frame of ${data.byteLength} bytes, expected at least ${FRAME_HEAD}`);
   const view = new DataView(data);

@@ -4,12 +4,11 @@ const SLOW_MS = 45;
 const FAST_MS = 14;
 const COUNT = 12;
 const REST_MS = 300;
-const SOFTWARE_MS = 38; // between pictures at least
+const SOFTWARE_MS = 38; // least time between pictures
 
 /**
- * How many pixels are drawn per CSS pixel: as many as the screen has, fewer where drawing is slow (software
- * rendering), so that the organ follows the hand; and one sharp picture when it has come to rest. Judged by a dozen
- * pictures that follow each other.
+ * Pixels drawn per CSS pixel: the screen's own, fewer where drawing is slow (software rendering), so that the organ
+ * follows the hand. One sharp picture follows when it rests. A dozen pictures in a row decide.
  */
 export class Quality {
   private intervals: number[] = [];
@@ -24,17 +23,17 @@ export class Quality {
     most: number,
     private readonly software: boolean,
   ) {
-    this.sharp = Math.min(2, software ? Math.max(1.5, most) : most); // in place of the smoothing that hardware does
+    this.sharp = Math.min(2, software ? Math.max(1.5, most) : most); // instead of the hardware's smoothing
     this.moving = Math.min(most, software ? 0.75 : 2);
     this.ratio = this.moving;
   }
 
-  /** Whether a picture may be drawn now: software leaves some of the processor to those who bring the forces. */
+  /** Whether to draw now: software rendering leaves processor time to the threads that bring the forces. */
   due(nowMs: number): boolean {
     return !this.software || !(nowMs - this.lastMs < SOFTWARE_MS);
   }
 
-  /** Whether it is time for the sharp picture: nothing has moved for a while. */
+  /** Whether it is time for the sharp picture: nothing moved for a while. */
   rested(nowMs: number): boolean {
     this.sharpen = this.ratio < this.sharp && nowMs - this.lastMs > REST_MS;
     return this.sharpen;
@@ -51,7 +50,7 @@ export class Quality {
   }
 
   private judge(interval: number): void {
-    if (!(interval < 800)) return; // at rest in between
+    if (!(interval < 800)) return; // a rest in between
     this.intervals.push(interval);
     if (this.intervals.length < COUNT) return;
     const median = this.intervals.sort((a, b) => a - b)[COUNT / 2];

@@ -6,7 +6,7 @@ import type { Stage } from './stage';
 import type { ToolMesh } from './tool_mesh';
 import { norm } from './vec';
 
-/** The tool that the numbers are of: this page's own, else one that touches, else the first. */
+/** The tool whose numbers are shown: this page's own, else one that touches, else the first. */
 export function toolToShow(tools: readonly Tool[]): Tool | undefined {
   return tools.find((tool) => tool.mine) ?? tools.find((tool) => tool.state !== STATE_FREE) ?? tools[0];
 }
@@ -32,7 +32,7 @@ export class Readout {
     this.label.hidden = !at;
     if (!at || !tool || !mesh) return;
     setText(this.label, `${norm(tool.force).toFixed(2)} N`);
-    // Beyond the arrow's tip, on the side to which it points, and within the picture.
+    // Beyond the arrow's tip, on the side it points to, within the picture.
     const from = stage.onScreen(mesh.centre) ?? at;
     const { offsetWidth: w, offsetHeight: h, parentElement: box } = this.label;
     const within = (v: number, size: number, room: number): number => Math.min(room - size - 4, Math.max(4, v));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The values of the last few seconds, and how they are distributed. */
+/** The values of the last few seconds, and their distribution. */
 export class Recent {
   private readonly times: number[] = [];
   private readonly values: number[] = [];
@@ -25,7 +25,7 @@ export class Recent {
     return this.count ? this.values.reduce((sum, v) => sum + v, 0) / this.count : NaN;
   }
 
-  /** Nearest-rank percentile, share in (0, 1]; NaN when nothing came. */
+  /** Nearest-rank percentile, share in (0, 1]; NaN without values. */
   percentile(share: number): number {
     if (!this.count) return NaN;
     const sorted = Float64Array.from(this.values).sort();

@@ -20,21 +20,21 @@ function trianglesNear(surface: Surface, point: Vec3, reach: number): [Vec3, Vec
 
 type Triangles = readonly [Vec3, Vec3, Vec3][];
 
-/** How much of a ball's radius is missing between its centre and the surface, m, along the steepest way out by n. */
+/** How far a ball at `at` must move along n to clear each triangle by its own estimate, m: the largest of them. */
 function missingAt(at: Vec3, n: Vec3, radius: number, triangles: Triangles): number {
   let missing = 0;
   for (const [a, b, c] of triangles) {
     const away = sub(at, nearestOnTriangle(at, a, b, c));
     const gap = norm(away);
     if (gap >= radius) continue;
-    // Along n the distance grows by cos(away, n) a metre; where that is slow, at a fifth of it.
+    // Along n the distance grows by cos(away, n) per metre; taken as at least 0.2.
     const along = gap > 1e-9 ? dot(away, n) / gap : 1;
     missing = Math.max(missing, (radius - gap) / Math.max(along, 0.2));
   }
   return missing;
 }
 
-/** How far a ball must be moved along `n` so that the surface is nowhere inside it: outward first, then back by halves. */
+/** How far to move a ball along n until no surface is inside it: outward first, then back by bisection. */
 function liftOff(centre: Vec3, n: Vec3, radius: number, triangles: Triangles): number {
   const missing = (lift: number): number => missingAt(add(centre, scale(n, lift)), n, radius, triangles);
   let [low, high] = [0, 0];
@@ -52,7 +52,7 @@ function liftOff(centre: Vec3, n: Vec3, radius: number, triangles: Triangles): n
   return high;
 }
 
-/** Distance from a point to the displayed surface near it, m; infinity when nothing is within reach. */
+/** Distance from a point to the displayed surface, m; infinity when none is within reach. */
 export function gapTo(surface: Surface, point: Vec3, reach: number): number {
   let least = Infinity;
   for (const [a, b, c] of trianglesNear(surface, point, reach))
@@ -61,8 +61,8 @@ export function gapTo(surface: Surface, point: Vec3, reach: number): number {
 }
 
 /**
- * Where to draw a tip's centre so that the ball rests on the displayed surface and is nowhere inside it.
- * @param touched  the point of the surface that is touched, as displayed: the proxy, m
+ * The centre at which a drawn tip rests on the displayed surface and is nowhere inside it.
+ * @param touched  the displayed position of the touched point, the proxy, m
  * @param n        outward normal there
  * @param radius   of the tip, m
  */

@@ -34,7 +34,7 @@ const FOV = (32 * Math.PI) / 180;
 export class Stage {
   readonly scene = new Scene();
   readonly orbit = new Orbit();
-  readonly software: boolean; // no graphics hardware: every pixel costs processor time
+  readonly software: boolean; // no graphics hardware: each pixel costs processor time
   private readonly camera = new PerspectiveCamera((FOV * 180) / Math.PI, 1, 0.01, 20);
   private readonly renderer: WebGLRenderer;
   private readonly sky = new HemisphereLight(0xffffff, 0x8a8078, 1.6);
@@ -56,7 +56,7 @@ export class Stage {
     return this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
   }
 
-  /** The renderer's name for what draws, e.g. SwiftShader: what its frame rate is worth. */
+  /** The renderer's own name, e.g. SwiftShader; its frame rate depends on it. */
   get drawnBy(): string {
     const gl = this.renderer.getContext();
     const ext = gl.getExtension('WEBGL_debug_renderer_info');
@@ -115,7 +115,7 @@ export class Stage {
     this.orbit.changed = false;
   }
 
-  /** The ray through a place of the picture, in CSS pixels of the page. */
+  /** The ray through a point of the picture, in CSS pixels of the page. */
   rayAt(clientX: number, clientY: number): Ray {
     const box = this.canvas.getBoundingClientRect();
     const x = (2 * (clientX - box.left)) / box.width - 1;
@@ -127,7 +127,7 @@ export class Stage {
     return { origin: this.orbit.position, direction: [through.x, through.y, through.z] };
   }
 
-  /** Where a point of the world lies in the picture, CSS pixels from the canvas's corner; undefined behind the camera. */
+  /** A world point's place in the picture, CSS pixels from the canvas's corner; undefined behind the camera. */
   onScreen(point: Vec3): { x: number; y: number } | undefined {
     const at = new Vector3(...point).project(this.camera);
     if (at.z > 1) return undefined;
@@ -152,7 +152,7 @@ function drawnInSoftware(): boolean {
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
 }
 
-/** Frees what the graphics card holds of it. */
+/** Frees its memory on the graphics card. */
 function dispose(part: ThreeMesh | LineSegments): void {
   part.geometry.dispose();
   for (const material of [part.material].flat()) {

@@ -15,7 +15,7 @@ export interface Sample {
 export class Strip {
   private samples: Sample[] = [];
 
-  /** What is not newer than the last one is dropped: answers never come twice, whatever a reconnect brings. */
+  /** Drops a sample that is not newer than the last: a reconnect brings no answer twice. */
   add(answer: Answer): void {
     const last = this.samples.at(-1);
     if (last && answer.tUs <= last.tUs) return;

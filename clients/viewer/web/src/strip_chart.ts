@@ -11,10 +11,10 @@ interface Plot {
   readonly title: string;
   readonly colour: string;
   readonly value: (sample: Sample) => number;
-  readonly least: number; // end of the scale at least
+  readonly least: number; // least end of the scale
 }
 
-/** Force above penetration, one time axis; the newest at the right. */
+/** Force above penetration on one time axis; the newest is at the right. */
 export class StripChart {
   private readonly draw2d: CanvasRenderingContext2D;
 

@@ -8,7 +8,7 @@ export interface Hit {
   readonly distance: number; // along the ray
 }
 
-/** The organ's surface, at rest and as it is now. No drawing here. */
+/** The organ's surface, at rest and displaced. No drawing here. */
 export class Surface {
   readonly rest: Float32Array;
   readonly now: Float32Array;
@@ -33,7 +33,7 @@ export class Surface {
     this.size = norm(sub(high, low));
   }
 
-  /** @return whether anything moved: a frame of another mesh, without a surface, or with the same field moves nothing */
+  /** @return whether anything moved; a frame of another mesh, without a surface, or with the same field moves nothing */
   show(frame: Frame): boolean {
     const { nodes, meshRevision, displacement: u, scale: unitM } = frame;
     if (nodes !== this.mesh.nodes || meshRevision !== this.mesh.revision) return false;
@@ -65,7 +65,7 @@ export class Surface {
     this.shownSeq = -1;
   }
 
-  /** Nearest place where a ray enters the surface from outside, at rest or as it is now. */
+  /** The nearest place where a ray enters the surface from outside, at rest or displaced. */
   hit(origin: Vec3, direction: Vec3, positions: Float32Array = this.now): Hit | undefined {
     const found = new Float64Array(3); // distance, u, v
     let best: Hit | undefined;
@@ -78,7 +78,7 @@ export class Surface {
     return best;
   }
 
-  /** A value given at the nodes (3 each), at a hit. */
+  /** Interpolates node values (3 each) at a hit. */
   at(values: Float32Array, hit: Hit): Vec3 {
     const corner = (k: number): Vec3 => pointOf(values, this.mesh.triangles[3 * hit.triangle + k]);
     return add(add(scale(corner(0), hit.weights[0]), scale(corner(1), hit.weights[1])), scale(corner(2), hit.weights[2]));
@@ -112,8 +112,8 @@ function boxOf(positions: Float32Array): { low: Vec3; high: Vec3 } {
 }
 
 /**
- * Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection" (1997), front faces only; in plain numbers,
- * since a pointer's every move asks thousands of triangles.
+ * Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection" (1997), front faces only. Plain numbers,
+ * because each move of a pointer tests thousands of triangles.
  */
 function enters(o: Vec3, d: Vec3, x: Float32Array, triangles: Uint32Array, t: number, out: Float64Array): boolean {
   const a = 3 * triangles[3 * t], b = 3 * triangles[3 * t + 1], c = 3 * triangles[3 * t + 2];
@@ -158,7 +158,7 @@ export function writeNormals(x: Float32Array, triangles: Uint32Array, out: Float
   }
 }
 
-/** Point of triangle abc nearest to p (Ericson, Real-Time Collision Detection, 2005, section 5.1.5). */
+/** The point of triangle abc nearest to p (Ericson, Real-Time Collision Detection, 2005, section 5.1.5). */
 export function nearestOnTriangle(p: Vec3, a: Vec3, b: Vec3, c: Vec3): Vec3 {
   const ab = sub(b, a), ac = sub(c, a), ap = sub(p, a);
   const d1 = dot(ab, ap), d2 = dot(ac, ap);

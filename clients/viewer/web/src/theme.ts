@@ -3,7 +3,7 @@ import { element, setText } from './page';
 
 const KEY = 'palpate-theme';
 
-/** Light or dark: as the system wants it, unless the button was used, which is remembered. */
+/** Light or dark: the system's choice, or the button's, which is remembered. */
 export class Theme {
   private readonly system = matchMedia('(prefers-color-scheme: dark)');
   private readonly button = element('theme', HTMLButtonElement);
@@ -28,7 +28,7 @@ export class Theme {
     this.changed(this.dark);
   }
 
-  // A browser may forbid storage: then the choice lasts as long as the page.
+  // A browser may forbid storage; then the choice lasts until the page closes.
   private memory: string | null = null;
 
   private chosen(): string | null {
@@ -44,7 +44,7 @@ export class Theme {
     try {
       localStorage.setItem(KEY, theme);
     } catch {
-      // said above
+      // storage is forbidden, see above
     }
   }
 }

@@ -21,7 +21,7 @@ const UP = new Vector3(0, 1, 0); // of three's cylinders
 export class ToolMesh {
   centre: Vec3 = [0, 0, 0];
   arrowTip: Vec3 = [0, 0, 0];
-  gap = NaN; // of the drawn tip's surface from the drawn organ's, m; below 0 it would be inside
+  gap = NaN; // from the drawn tip's surface to the drawn organ's, m; below 0: inside
   private readonly group = new Group();
   private readonly arrow = new Group();
   private readonly handle = new Group();
@@ -55,7 +55,7 @@ export class ToolMesh {
     const n = touching ? surface.normalNear(tool.proxy) : surface.normalNear(tool.tip);
     this.centre = touching ? restingCentre(surface, tool.proxy, n, this.radius) : tool.tip;
     this.group.position.set(...this.centre);
-    // The handle leans towards the zenith, so that it stays out of the arrow's way.
+    // The handle leans towards the zenith, out of the arrow's way.
     this.handle.quaternion.setFromUnitVectors(UP, new Vector3(...unit(add(n, [0.35, -0.2, 0.7]))));
     const reach = 4 * this.radius + surface.size / Math.sqrt(surface.mesh.nodes);
     this.gap = gapTo(surface, this.centre, reach) - this.radius;

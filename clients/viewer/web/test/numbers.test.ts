@@ -17,12 +17,12 @@ const answer = (tUs: number, toolId = 0, force = 1) => ({ toolId, flags: 0, tUs,
 test('the clock takes its offset from the shortest round trip', () => {
   const clock = new ViewerClock(4);
   assert.ok(Number.isNaN(viewerUs(clock.reading(), 0)));
-  clock.learn(0, 40, 5_000_000 + 35_000); // the way there took 35 of 40 ms
+  clock.learn(0, 40, 5_000_000 + 35_000); // 35 of the 40 ms were on the way there
   clock.learn(100, 102, 5_000_000 + 101_000);
   clock.learn(200, 260, 5_000_000 + 203_000);
   assert.equal(clock.reading().tripMs, 2);
   assert.equal(viewerUs(clock.reading(), 1000), 6_000_000);
-  for (const t of [1, 2, 3, 4]) clock.learn(1000 * t, 1000 * t + 8, 1e6 * t + 4000); // the viewer started anew
+  for (const t of [1, 2, 3, 4]) clock.learn(1000 * t, 1000 * t + 8, 1e6 * t + 4000); // the viewer was restarted
   assert.equal(viewerUs(clock.reading(), 1000), 1_000_000);
   clock.learn(10, 5, 0); // an answer before the question teaches nothing
   assert.equal(clock.reading().tripMs, 8);
@@ -106,7 +106,7 @@ const tellsApart = (map: ColourMap, see: (c: Vec3) => Vec3): number => {
   return Math.min(...labs.slice(1).map((lab, i) => Math.hypot(...lab.map((c, k) => c - labs[i][k]))));
 };
 
-// 0.02 in OKLab is about what people just tell apart side by side.
+// 0.02 in OKLab is about the least difference that people see side by side.
 test('colour-blind users tell every tenth of a scale from the next', () => {
   for (const [who, see] of Object.entries(SEEN))
     for (const [name, map] of Object.entries({ DISPLACEMENT, STIFFNESS }))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speaks palpate.viewer.v1 without a server behind it: a bean that gives way like clay under a spring. For work on
-// the page (`npm run dev` beside `node test/pretend_viewer.mjs`), never for tests of what people feel.
+// Speaks palpate.viewer.v1 without a server: a bean that gives way under a spring. For work on the page (`npm run dev`
+// beside `node test/pretend_viewer.mjs`), not for tests of what people feel.
 import { createServer } from 'node:http';
 import { readFile } from 'node:fs/promises';
 import { extname, join, normalize } from 'node:path';

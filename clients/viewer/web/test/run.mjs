@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the tests, which are TypeScript like what they test, and runs them with node's own runner.
+// Bundles the tests, which are TypeScript like the page, and runs them with node's own runner.
 import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { spawnSync } from 'node:child_process';
 import { dirname, join } from 'node:path';
