@@ -41,19 +41,6 @@ struct Wire {
   }
 };
 
-TEST(FieldPace, AdmitsItsRateInTheMeanAndNoBunchAfterAPause) {
-  FieldPace pace(60.0);
-  const auto admitted = [&](std::int64_t from_ms, std::int64_t to_ms) {
-    int count = 0;
-    for (std::int64_t ms = from_ms; ms < to_ms; ++ms) count += pace.admits(ms * 1'000'000) ? 1 : 0;
-    return count;
-  };
-  EXPECT_NEAR(admitted(5000, 7000), 120, 1);
-  EXPECT_NEAR(admitted(9000, 9100), 6, 1);
-  FieldPace all(0.0);
-  EXPECT_TRUE(all.admits(1) && all.admits(1));
-}
-
 TEST(FieldLog, KeepsTheLargestDisplacementAndWhereItWas) {
   Wire wire;
   ASSERT_TRUE(wire.writer.waitForReaders(1, 5s));

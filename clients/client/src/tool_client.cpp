@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "palpate/client/error.h"
+#include "palpate/client/in_range.h"
 #include "palpate/rt/clock.h"
 
 namespace palpate::client {
@@ -12,7 +13,7 @@ namespace {
 constexpr std::uint32_t kTools = 4;  // palpate.idl: tool_id 0 .. 3
 
 std::uint32_t checkedId(std::uint32_t tool_id) {
-  if (tool_id >= kTools) throw ClientError("tool id is " + std::to_string(tool_id) + ", expected 0 to 3");
+  inRange<ClientError>("tool id", tool_id, 0, kTools - 1);
   return tool_id;
 }
 

@@ -3,9 +3,9 @@
 
 #include <atomic>
 #include <cmath>
-#include <sstream>
 
 #include "force_renderer.h"
+#include "palpate/client/in_range.h"
 #include "palpate/client/tool_client.h"
 #include "palpate/idl/receive_threads.h"
 #include "palpate/rt/clock.h"
@@ -15,20 +15,13 @@
 namespace palpate::haptic {
 namespace {
 
-template <class Number>
-void inRange(const char* name, Number value, Number low, Number high) {
-  if (value >= low && value <= high) return;
-  std::ostringstream line;
-  line << name << " is " << value << ", expected " << low << " to " << high;
-  throw HapticError(line.str());
-}
-
 const Options& checked(const Options& options) {
-  inRange<std::uint32_t>("domain", options.domain, 0, dds::kMaxDomain);
-  inRange<std::uint32_t>("tool id", options.tool_id, 0, 3);
-  inRange("force limit (N)", options.force_limit, 0.01, 50.0);
-  inRange("max extrapolation (m)", options.max_extrapolation, 0.0, 0.05);
-  inRange("receive priority", options.receive_priority, 0, 99);
+  using client::inRange;
+  inRange<HapticError>("domain", options.domain, 0, dds::kMaxDomain);
+  inRange<HapticError>("tool id", options.tool_id, 0, 3);
+  inRange<HapticError>("force limit (N)", options.force_limit, 0.01, 50.0);
+  inRange<HapticError>("max extrapolation (m)", options.max_extrapolation, 0.0, 0.05);
+  inRange<HapticError>("receive priority", options.receive_priority, 0, 99);
   return options;
 }
 

@@ -38,8 +38,7 @@ bool Arrivals::admits(const dds::SurfaceDisplacement& field, void* context) noex
   if (keyOf(field.organ_id, field.model_id) != self.organ_.load(std::memory_order_relaxed)) return false;
   const std::int64_t now_ns = rt::monotonicNow();
   self.pace_.setRate(self.rate_hz_.load(std::memory_order_relaxed));
-  if (!self.pace_.due(now_ns)) return false;
-  self.pace_.went(now_ns);
+  if (!self.pace_.admits(now_ns)) return false;
   return true;
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pacing.h"
+#include "palpate/client/frame_pace.h"
 #include "palpate/idl/reader.h"
 
 namespace palpate::viewer {
@@ -67,7 +67,7 @@ class Arrivals {
   void* context_;
   std::atomic<double> rate_hz_;
   std::atomic<std::uint64_t> organ_{0};  // keyOf(); 0: none yet
-  FramePace pace_;                       // the filter's only
+  client::FramePace pace_;               // the filter's only
   std::mutex mutex_;
   ArrivedField field_;
   bool fresh_{false};

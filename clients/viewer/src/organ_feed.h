@@ -13,7 +13,6 @@
 #include "arrivals.h"
 #include "frame.h"
 #include "outward.h"
-#include "pacing.h"
 #include "palpate/idl/reader.h"
 #include "server_watch.h"
 #include "surfaces.h"

@@ -6,9 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "pacing.h"
 #include "page_message.h"
 #include "page_text.h"
+#include "palpate/client/frame_pace.h"
+#include "token_bucket.h"
 #include "viewer.h"
 
 namespace palpate::viewer {
@@ -62,7 +63,7 @@ class Page {
   std::uint64_t id_;
   Viewer& viewer_;
   double max_rate_hz_;
-  FramePace pace_;
+  client::FramePace pace_;
   TokenBucket messages_{kMessagesPerSecond, kMessagesPerSecond};
   TokenBucket parts_{kPartsPerSecond, kPartsPerSecond};
   std::string incoming_;

@@ -19,14 +19,6 @@ NodeDisplacement largestOf(const dds::SurfaceDisplacement& field) noexcept {
 
 }  // namespace
 
-bool FieldPace::admits(std::int64_t now_ns) noexcept {
-  if (now_ns < next_ns_) return false;
-  const bool behind =
-      now_ns - next_ns_ > period_ns_;  // at the start and after a pause: does not catch up in a bunch
-  next_ns_ = (behind ? now_ns : next_ns_) + period_ns_;
-  return true;
-}
-
 FieldLog::FieldLog(const client::Surface& surface)
     : surface_(surface), peak_field_(3 * surface.positions.size(), 0.0F) {}
 

@@ -13,21 +13,6 @@
 
 namespace palpate::watch {
 
-/// Thins fields evenly, to at most `rate_hz` in the mean. Threads: one.
-class FieldPace {
- public:
-  /// @param[in] rate_hz  above 0; 0: all of them
-  explicit FieldPace(double rate_hz) noexcept
-      : period_ns_(rate_hz > 0.0 ? static_cast<std::int64_t>(1e9 / rate_hz) : 0) {}
-
-  /// @param[in] now_ns  on any clock that does not go back
-  [[nodiscard]] bool admits(std::int64_t now_ns) noexcept;
-
- private:
-  std::int64_t period_ns_;
-  std::int64_t next_ns_{0};
-};
-
 /// The displacement of one node.
 struct NodeDisplacement {
   std::size_t node{0};

@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "field_log.h"
 #include "palpate/client/error.h"
+#include "palpate/client/frame_pace.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/report/program.h"
@@ -30,7 +32,7 @@ struct Options {
 // What the reader's callbacks work on.
 struct Watch {
   FieldLog& log;
-  FieldPace pace;
+  std::optional<client::FramePace> pace;  // nothing: takes all fields
 };
 
 void addOptions(CLI::App& app, Options& options) {
@@ -114,12 +116,14 @@ int body(int argc, char** argv) {
 
   // 3. Follow the field.
   FieldLog log(surface);
-  Watch watch{log, FieldPace(options.rate_hz)};
+  Watch watch{log, {}};
+  if (options.rate_hz > 0.0) watch.pace.emplace(options.rate_hz);
   const auto on_data = [](dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept {
     static_cast<Watch*>(context)->log.take(reader);
   };
   const auto admits = [](const dds::SurfaceDisplacement&, void* context) noexcept {
-    return static_cast<Watch*>(context)->pace.admits(rt::monotonicNow());
+    auto& pace = static_cast<Watch*>(context)->pace;
+    return !pace || pace->admits(rt::monotonicNow());
   };
   const dds::Reader<dds::SurfaceDisplacement> reader(participant, on_data, &watch, admits);
   const double seconds = follow(log, surface, options.seconds, options.json ? std::cerr : std::cout);

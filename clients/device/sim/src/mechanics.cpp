@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/device/mechanics.h"
 
-#include <sstream>
 #include <stdexcept>
+
+#include "palpate/client/in_range.h"
 
 namespace palpate::device {
 namespace {
 
-void inRange(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  std::ostringstream line;
-  line << name << " is " << value << ", expected " << low << " to " << high;
-  throw std::invalid_argument(line.str());
-}
+constexpr auto& inRange = client::inRange<std::invalid_argument, double>;
 
 }  // namespace
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/device/motion.h"
 
-#include <sstream>
 #include <stdexcept>
+
+#include "palpate/client/in_range.h"
 
 namespace palpate::device {
 namespace {
@@ -10,12 +11,7 @@ namespace {
 constexpr double kShortestHold = 0.8;  // s; the oscillation is judged from 0.5 s on
 constexpr double kRetreat = 0.2;       // s
 
-void inRange(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  std::ostringstream line;
-  line << name << " is " << value << ", expected " << low << " to " << high;
-  throw std::invalid_argument(line.str());
-}
+constexpr auto& inRange = client::inRange<std::invalid_argument, double>;
 
 void check(const MotionOptions& options) {
   constexpr double kLeast = 1e-6;  // m

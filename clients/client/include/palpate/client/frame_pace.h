@@ -4,29 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace palpate::viewer {
-
-/// Limits a sender's messages: `rate` per second in the long run, `burst` at once. Threads: one.
-class TokenBucket {
- public:
-  TokenBucket(double rate, double burst) noexcept : rate_(rate), burst_(burst), left_(burst) {}
-
-  /// @return whether one more message is allowed
-  [[nodiscard]] bool take(std::int64_t now_ns) noexcept {
-    if (last_ns_ != 0)
-      left_ = std::min(burst_, left_ + rate_ * 1e-9 * static_cast<double>(now_ns - last_ns_));
-    last_ns_ = now_ns;
-    if (left_ < 1.0) return false;
-    left_ -= 1.0;
-    return true;
-  }
-
- private:
-  double rate_;
-  double burst_;
-  double left_;
-  std::int64_t last_ns_{0};
-};
+namespace palpate::client {
 
 /// Times the frames: `rate` per second in the mean. A frame may go up to half a period early, so a source of the same rate
 /// with jitter passes whole. A new rate holds at once. Threads: one.
@@ -43,6 +21,7 @@ class FramePace {
     if (period_ns != period_ns_) planned_ns_ = std::min(planned_ns_, went_ns_);
     period_ns_ = period_ns;
   }
+  /// @return whether a frame may go now
   [[nodiscard]] bool due(std::int64_t now_ns) const noexcept {
     return period_ns_ > 0 && now_ns >= planned_ns_ + period_ns_ - period_ns_ / 2;
   }
@@ -51,6 +30,12 @@ class FramePace {
     planned_ns_ = std::max(planned_ns_ + period_ns_, now_ns - period_ns_ / 2);
     went_ns_ = now_ns;
   }
+  /// due(), and then went(). @param[in] now_ns  on any clock that does not go back
+  [[nodiscard]] bool admits(std::int64_t now_ns) noexcept {
+    const bool admitted = due(now_ns);
+    if (admitted) went(now_ns);
+    return admitted;
+  }
 
  private:
   std::int64_t period_ns_{0};
@@ -58,4 +43,4 @@ class FramePace {
   std::int64_t went_ns_{-kLongestNs};     // when it went
 };
 
-}  // namespace palpate::viewer
+}  // namespace palpate::client

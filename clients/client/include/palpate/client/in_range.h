@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sstream>
+#include <type_traits>
+
+namespace palpate::client {
+
+/// @throw Error  "NAME is 7, expected 0 to 3" when the value is outside [low, high] or not a number
+template <class Error, class Number>
+void inRange(const char* name, Number value, std::type_identity_t<Number> low,
+             std::type_identity_t<Number> high) {
+  if (value >= low && value <= high) return;
+  std::ostringstream line;
+  line << name << " is " << value << ", expected " << low << " to " << high;
+  throw Error(line.str());
+}
+
+}  // namespace palpate::client
