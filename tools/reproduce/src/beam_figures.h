@@ -8,7 +8,7 @@
 
 namespace palpate::reproduce {
 
-/// Everything that was solved for, unknowns of the free nodes.
+/// All solutions, unknowns of the free nodes.
 struct BeamSolutions {
   std::vector<Eigen::VectorXd> newton;  ///< full load, every position
   std::vector<Eigen::VectorXd> levels;  ///< Newton, load at the tip, levels 0.1 to 1

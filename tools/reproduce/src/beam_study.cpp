@@ -58,12 +58,12 @@ LevelSolution solveSeparated(const offline::BodyProblem& problem, LoadStepping s
   return offline::solveExplicit(problem, pgd);
 }
 
-/// Of unknowns. paper 4.2
+/// Relative L2 error of unknowns. paper 4.2
 double errorL2(const Beam& beam, const VectorXd& u, const VectorXd& reference) {
   return offline::relativeErrorL2(beam.model, beam.problem.toNodes(u), beam.problem.toNodes(reference));
 }
 
-/// The scheme without separation: the load at the tip alone, enriched until nothing is left out.
+/// The scheme without separation: the load at the tip alone, enriched down to a tiny residual.
 VectorXd solveAlone(const Beam& beam, LoadStepping scheme, const BeamOptions& options) {
   constexpr double kExact = 1e-6;
   const offline::SparseMatrix load = beam.problem.loads().col(beam.tip);
@@ -88,7 +88,7 @@ double axisStretch(const Beam& beam, const VectorXd& unknowns) {
   return length / rest - 1.0;
 }
 
-/// Of every position by itself.
+/// Error and tip displacement of each position.
 void addPositions(const Beam& beam, const BeamOptions& options, const BeamSolutions& solutions,
                   Json& results) {
   std::vector<double> errors;
@@ -145,7 +145,7 @@ void addTip(const Beam& beam, const BeamSolutions& solutions, Json& results) {
   const double off = out["forward_euler_error"];
   out["forward_euler_size"] = std::abs(off);
   out["forward_euler_word"] = off < 0.0 ? "short" : "long";
-  // What the axis, stretched by so much, pulls with.
+  // Tension of the stretched axis.
   results["forward_euler_tension_N"] = axis["forward_euler"].get<double>() * beam.axialStiffness();
   results["axial_stiffness_N"] = beam.axialStiffness();
   const double ratio = std::abs(volume["ten_term"].get<double>() / volume["linear"].get<double>());

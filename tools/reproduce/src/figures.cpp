@@ -12,7 +12,7 @@ namespace palpate::reproduce {
 
 namespace {
 
-/// Text in gnuplot's double quotes; subscripts stay, quotes and backslashes go.
+/// Text in gnuplot's double quotes; keeps subscripts, removes quotes and backslashes.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text)
@@ -44,7 +44,7 @@ bool run(const std::filesystem::path& image, const std::string& script) {
   return false;
 }
 
-/// A logarithmic x axis that ends a little beyond the points, not at the next power of ten.
+/// A logarithmic x axis that ends just beyond the points and not at the next power of ten.
 std::string logRange(const Chart& chart) {
   constexpr double kBeyond = 1.4;
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
@@ -66,7 +66,7 @@ void addPoints(std::ostringstream& out, const Chart& chart, const Curve& curve) 
   }
 }
 
-/// A triangle as a grid of two lines by two points, the last of them twice: what pm3d can colour by node.
+/// A triangle as a grid of two lines of two points, the last point twice, so that pm3d colours it by node.
 void addTriangle(std::ostringstream& out, const SurfacePanel& panel,
                  const std::array<std::int32_t, 3>& triangle) {
   const auto point = [&](std::size_t corner) {
@@ -124,7 +124,7 @@ void addPanel(std::ostringstream& out, const SurfaceFigure& figure, std::size_t 
 }  // namespace
 
 bool drawChart(const std::filesystem::path& image, const Chart& chart) {
-  // Okabe and Ito's colours, told apart by colour-blind readers too.
+  // Okabe and Ito's colours, which colour-blind readers can tell apart.
   static constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#000000"};
   std::ostringstream out;

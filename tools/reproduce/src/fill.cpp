@@ -36,7 +36,7 @@ std::string fill(std::string_view text, const Json& results) {
   try {
     return fmt::vformat(fmt::string_view(text.data(), text.size()), arguments);
   } catch (const fmt::format_error& error) {
-    throw ReproduceError("the report cannot be written, a result is missing or of another type: " +
+    throw ReproduceError("the report cannot be written: a result is missing or has another type: " +
                          std::string(error.what()));
   }
 }

@@ -21,14 +21,15 @@ Index greedyPairsFor(int pairs) {
   return static_cast<Index>(3 * pairs / 2);
 }
 
-/// Same span, X orthonormal in the energy, Y Galerkin: what the update step makes of any number of first pairs.
+/// The same span with X orthonormal in the energy and Y from Galerkin: the result of the update step for
+/// these pairs.
 offline::ScalarPairs galerkin(const offline::BodyProblem& problem, const MatrixXd& X) {
   MatrixXd Q = offline::orthonormalize(X, offline::energyProduct(problem.stiffness())).Q;
   MatrixXd Y = Q.transpose() * problem.loads();
   return {std::move(Q), std::move(Y)};
 }
 
-/// Sum over s of the squared amplitudes of each pair: what it holds of the energy.
+/// Sum over s of the squared amplitudes of each pair: its part of the energy.
 VectorXd energies(const offline::ScalarPairs& pairs, const VectorXd& weights) {
   return pairs.Y.cwiseAbs2() * weights;
 }
@@ -59,7 +60,8 @@ offline::SparseMatrix mixing(const offline::SolverSetup& setup, const std::vecto
   return B;
 }
 
-/// 95 % quantiles over the points: largest error on the surface and error of the contact displacement, of the latter.
+/// 95 % quantiles over the points: largest error on the surface and error of the contact displacement, both
+/// relative to the contact displacement.
 Json pointErrors(const offline::SolverSetup& setup, const std::vector<Touch>& points, const MatrixXd& u,
                  const MatrixXd& truth) {
   std::vector<TouchError> errors(points.size());
@@ -81,7 +83,7 @@ Json pointErrors(const offline::SolverSetup& setup, const std::vector<Touch>& po
           {"contact_error_p95", quantile(errors, &TouchError::contact, 0.95)}};
 }
 
-/// What is compared with: linear finite elements at the points, and the best that n pairs can be.
+/// The references: linear finite elements at the points, and the best n pairs.
 struct Truth {
   MatrixXd points;            ///< dofs x points
   offline::SparseMatrix mix;  ///< M x points
@@ -100,7 +102,7 @@ Truth solveForComparison(const offline::SolverSetup& setup, const offline::BodyP
   linear["svd_seconds"] = now() - start;
   const offline::Cholesky K0(problem.stiffness());
   truth.points = solvePoints(setup.model, K0, points, load);
-  // The exact solutions at the nodes around each point, mixed: what no number of pairs takes away.
+  // The exact solutions at the nodes around each point, interpolated: an error that more pairs do not reduce.
   const MatrixXd mixed = K0.solve(MatrixXd(problem.loads() * truth.mix));
   linear["interpolation"] = pointErrors(setup, points, mixed, truth.points);
   return truth;
@@ -125,7 +127,7 @@ offline::SeparatedSolution enrich(const offline::BodyProblem& problem, const Liv
   return greedy;
 }
 
-/// n pairs recompressed from at most 1.5 n greedy ones, held against the best n and the first n.
+/// n pairs recompressed from at most 1.5 n greedy ones, compared with the best n and the first n.
 Json rowOf(const offline::BodyProblem& problem, const Truth& truth, const offline::ScalarPairs& first,
            const offline::ScalarPairs& cut, int n) {
   const auto error = [&](double captured) { return std::sqrt(std::max(0.0, 1.0 - captured / truth.energy)); };

@@ -11,8 +11,8 @@
 
 namespace palpate::reproduce {
 
-/// Linear PGD of the whole boundary under a load of fixed direction, against the best possible and against linear
-/// finite elements at held-out points. Fills results["linear"].
+/// Linear PGD of the whole boundary under a load of fixed direction, against the best separation and against
+/// linear finite elements at held-out points. Fills results["linear"].
 /// @return the last of the tabulated solutions, pairs by energy
 offline::ScalarPairs studyLinear(const offline::SolverSetup& setup, const offline::BodyProblem& problem,
                                  const std::vector<Touch>& points, const LiverOptions& options, Output& out,

@@ -13,14 +13,14 @@ namespace palpate::reproduce {
 
 namespace {
 
-constexpr int kOversampling = 60;     // modes beyond those asked for, and
-constexpr int kConvergedSweeps = 12;  // sweeps after which the fit no longer moves: the SVD
+constexpr int kOversampling = 60;     // further modes of the best separation, and
+constexpr int kConvergedSweeps = 12;  // sweeps after which the fit has converged to the SVD
 
 offline::BuildOptions buildOptions(const LiverStudy& study, const Output& out) {
   return {study.options.workers, std::filesystem::absolute(out.file("")), out.quiet()};
 }
 
-/// u(X, s, f) in each of the numbers of pairs, fitted as palpate-solve does; last, the fit run to its end.
+/// u(X, s, f) for each number of pairs, fitted as palpate-solve does; last, the converged fit.
 std::vector<modelfile::ModelData> solveForce(const LiverStudy& study, const Output& out) {
   offline::Case c = study.solve;
   c.method = offline::Method::kSeriesForce;
@@ -36,7 +36,7 @@ modelfile::ModelData solveThreePart(const LiverStudy& study, const Output& out) 
   return offline::buildModel(study.solve, study.mesh, buildOptions(study, out), report);
 }
 
-/// The first n pairs of a "force" model, its contact displacement what they give.
+/// The first n pairs of a "force" model, with the contact displacement of these pairs.
 modelfile::ModelData cut(const offline::SolverSetup& setup, const modelfile::ModelData& data,
                          Eigen::Index n) {
   const auto rows = static_cast<Eigen::Index>(3 * setup.surface.nodes.size());
@@ -50,7 +50,7 @@ modelfile::ModelData cut(const offline::SolverSetup& setup, const modelfile::Mod
   return out;
 }
 
-/// @param id  what tells the file from the others of this run
+/// @param id names the model among those of this run
 MetaModel writeAndLoad(const std::filesystem::path& path, modelfile::ModelData data, const std::string& id) {
   data.attributes.model_id = "reproduce-" + id;
   data.attributes.provenance =
@@ -63,7 +63,7 @@ double MiB(const std::filesystem::path& path) {
   return double(std::filesystem::file_size(path)) / 1048576.0;
 }
 
-/// Median time of the whole surface from one touch.
+/// Median time to evaluate the whole surface for one touch.
 void timeEvaluation(const MetaModel& model, const Touch& touch, Json& results) {
   FieldScratch scratch(model);
   std::vector<float> u(3 * model.view().surfaceNodes());
@@ -91,14 +91,14 @@ Json quantiles(const std::vector<TouchError>& errors) {
           {"force_error_p95", quantile(errors, &TouchError::force, 0.95)}};
 }
 
-/// The one of the numbers of pairs that the paper has, or the nearest.
+/// The number of pairs nearest to the paper's.
 int papersPairs(const std::vector<int>& pairs) {
   constexpr int kPaper = 167;
   return *std::min_element(pairs.begin(), pairs.end(),
                            [](int a, int b) { return std::abs(a - kPaper) < std::abs(b - kPaper); });
 }
 
-/// How far the loads go, and how many were cut to the series' domain.
+/// Size of the loads, and how many were reduced to the series' domain.
 void addLoads(const std::vector<Touch>& touches, int limited, Json& results) {
   std::vector<double> moved;
   for (const Touch& touch : touches) moved.push_back(1e3 * touch.displacement.norm());

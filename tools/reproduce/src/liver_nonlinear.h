@@ -10,7 +10,7 @@
 
 namespace palpate::reproduce {
 
-/// The organ of the liver study in the hands of its parts.
+/// The organ of the liver study, as its parts share it.
 struct LiverStudy {
   const offline::Case& solve;  ///< mesh, material, whole boundary accessible
   const mesh::TetMesh& mesh;
@@ -18,9 +18,9 @@ struct LiverStudy {
   const LiverOptions& options;
 };
 
-/// u(X, s, f) in n pairs against full Newton, beside the best separation and the three-part model; then how fast the
-/// whole surface is evaluated. Fills results["modes_table"], ["three_part"], ["evaluation..."].
-/// @param touches  points with loads; the loads are limited to the series' domain, then solved by Newton
+/// u(X, s, f) in n pairs against full Newton, beside the best separation and the three-part model, and the
+/// time to evaluate the whole surface. Fills results["modes_table"], ["three_part"], ["evaluation..."].
+/// @param touches  points with loads; it reduces the loads to the series' domain, then solves them by Newton
 void studyNonlinear(const LiverStudy& study, std::vector<Touch>& touches, Output& out, Json& results);
 
 }  // namespace palpate::reproduce

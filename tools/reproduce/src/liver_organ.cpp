@@ -14,7 +14,7 @@ offline::Case wholeBoundary(const std::filesystem::path& mesh) {
 }
 
 offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double travel, double& load) {
-  constexpr std::size_t kMost = 64;  // positions that the median is taken over
+  constexpr std::size_t kMost = 64;  // largest number of positions for the median
   const offline::Vec3 down(0.0, 0.0, -1.0);
   const offline::SparseMatrix unit = offline::patchLoads(setup.model, setup.positions.patches, {&down, 1});
   const std::vector<double> areas = setup.positionAreas();

@@ -12,7 +12,8 @@ namespace palpate::reproduce {
 [[nodiscard]] offline::Case wholeBoundary(const std::filesystem::path& mesh);
 
 /// A load downward at every contact position, over its patch; weights are the nodes' areas.
-/// @param[in]  travel  m, median of |d| over the positions in linear theory  @param[out] load  N, that does it
+/// @param[in]  travel  m, median of |d| over the positions in linear theory  @param[out] load N, that gives
+/// this median
 [[nodiscard]] offline::BodyProblem downwardProblem(const offline::SolverSetup& setup, double travel,
                                                    double& load);
 

@@ -65,7 +65,7 @@ SurfaceFigure figureOf(const std::string& title, std::vector<SurfacePanel> panel
   return figure;
 }
 
-/// One row a surface node; functions that there are not are zero.
+/// One row per surface node; missing functions are zero.
 std::vector<std::vector<double>> functionRows(const std::vector<SurfacePanel>& X,
                                               const std::vector<SurfacePanel>& Y) {
   std::vector<std::vector<double>> rows;

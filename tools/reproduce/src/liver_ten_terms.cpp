@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kTravel = 8e-3;  // m, median of what the load moves its contact by in linear theory
+constexpr double kTravel = 8e-3;  // m, median displacement of the contact under the load in linear theory
 
-/// Every so many-th position, as touches under the study's load.
+/// Evenly chosen positions, as touches under the study's load.
 std::vector<Touch> someOf(const offline::SolverSetup& setup, const Vec3& load, int count,
                           std::vector<int>& positions) {
   const int M = static_cast<int>(setup.positions.nodes.size());
@@ -57,7 +57,7 @@ void studyTenTerms(const LiverOptions& options, Output& out, Json& results) {
   const offline::BodyProblem problem = downwardProblem(setup, kTravel, load);
   offline::ExplicitOptions pgd;
   pgd.steps = options.steps;
-  pgd.tolerance = 0.03;  // the dimples of an organ are a larger part of its displacement than those of a beam
+  pgd.tolerance = 0.03;  // dimples are a larger part of an organ's displacement than of a beam's
   pgd.workers = options.workers;
   pgd.quiet = out.quiet();
   const offline::LevelSolution solution = offline::solveExplicit(problem, pgd);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// palpate-reproduce: the paper's benchmarks, computed again and set beside the paper's figures.
+// palpate-reproduce: computes the paper's benchmarks and sets them beside the paper's figures.
 //
 // Sample runs:  palpate-reproduce rod -o rod
 //               palpate-reproduce liver -o liver --mesh organ.msh
@@ -35,7 +35,7 @@ struct Options {
   bool quick{false}, json{false}, quiet{false};
 };
 
-/// The same studies, figures and tables on cases that all together take less than three minutes on two cores.
+/// The same studies, figures and tables on smaller cases: less than three minutes in all on two cores.
 void chooseQuickCases(Options& options) {
   options.rod.elements = 20;
   options.beam.nodes = {17, 7, 7};
@@ -73,7 +73,8 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--beam-steps", options.beam.steps, "load steps of the beam")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  app.add_option("--beam-tolerance", options.beam.tolerance, "where a load step of the beam stops enriching")
+  app.add_option("--beam-tolerance", options.beam.tolerance,
+                 "relative residual at which a load step of the beam ends")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
   app.add_option("--beam-nodes", options.beam.nodes, "nodes of the beam along length, width, height")
@@ -86,7 +87,7 @@ void describe(CLI::App& app, Options& options) {
       ->check(CLI::Range(0.003, 0.02))
       ->capture_default_str();
   app.add_option("--coarse-element-size", options.liver.coarse_element_size,
-                 "of the liver-like organ that the ten terms are run on, m; 0 leaves them out")
+                 "of the liver-like organ for the ten terms, m; 0 leaves them out")
       ->check(CLI::Validator(CLI::Range(0.008, 0.02)) | CLI::IsMember({"0"}))
       ->capture_default_str();
   app.add_option("--samples", options.liver.samples, "held-out points of the liver")
@@ -96,7 +97,7 @@ void describe(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_flag("--json", options.json, "print results.json on standard output too");
+  app.add_flag("--json", options.json, "also print results.json on standard output");
   app.add_flag("-q,--quiet", options.quiet, "no progress");
 }
 
@@ -109,7 +110,7 @@ std::string today() {
   return text;
 }
 
-/// What the times were measured on.
+/// The machine of the measured times.
 std::string machine() {
   utsname system{};
   uname(&system);
@@ -146,11 +147,11 @@ void run(Options options) {
   for (const char* name : {"rod", "beam", "liver"}) {
     if (!all && options.what != name) continue;
     results[name] = runOne(name, options, all ? options.output / name : options.output, results["run"]);
-    // 2. The report, after each of them, so that an interrupted run leaves one of what was done.
+    // 2. The report after each benchmark, so that an interrupted run leaves one too.
     if (all) out.writeJson("results.json", results);
     out.writeText("report.md", reproduce::report(results, all));
   }
-  // 3. Where it is.
+  // 3. The path of the report.
   std::cerr << "report: " << out.file("report.md").string() << '\n';
   if (options.json) std::cout << (all ? results : results[options.what]).dump(2) << '\n';
 }
@@ -164,7 +165,7 @@ int main(int argc, char** argv) {
   describe(app, options);
   CLI11_PARSE(app, argc, argv);
   if (options.quick) {
-    // The smaller cases replace the defaults; what the command line names replaces them in turn.
+    // The smaller cases replace the defaults; options on the command line replace them in turn.
     chooseQuickCases(options);
     CLI11_PARSE(app, argc, argv);
   }

@@ -15,13 +15,13 @@ constexpr const char* kHead = R"(# The paper's benchmarks, reproduced
 S. Niroomandi, D. Gonzalez, I. Alfaro, F. Bordeu, A. Leygue, E. Cueto, F. Chinesta, "Real-time simulation of biological soft tissues: a PGD
 approach", Int. J. Numer. Meth. Biomed. Engng 29 (2013) 586-600, doi 10.1002/cnm.2544, called "the paper" below.
 
-Written by `palpate-reproduce` {version} on {date}, on {machine}. Every figure below was computed in that
-run and stands in results.json beside this file; times are of that machine.
+Written by `palpate-reproduce` {version} on {date}, on {machine}. That run computed every figure below; results.json beside this file holds
+them too. Times are of that machine.
 )";
 
 constexpr const char* kQuick = R"(
-**A quick run** (`--quick`): the studies are those of a full run, the meshes are coarser, the load steps and held-out points fewer. The errors
-below belong to these smaller cases.
+**A quick run** (`--quick`): the studies are those of a full run, the meshes are coarser, the load steps and held-out points fewer. The
+errors below belong to these smaller cases.
 )";
 
 constexpr const char* kSettled = R"(
@@ -31,12 +31,12 @@ constexpr const char* kSettled = R"(
 |---|---|---|
 | Eq. (14) | E = sym grad u + (grad u . grad u^T)/2 with F = grad u + I | with F = I + H, H_ij = du_i/dX_j, the quadratic term is H^T H / 2; the paper's formula holds when its gradient is the transpose |
 | Eqs. (18), (19) | integrals over Omega(t) | over the reference domain: S, E and the gradients are those of the reference configuration (total Lagrangian) |
-| Eq. (19) | ten terms | taken as what the text says they are, the constant and linear terms of Eq. (18): f_int(u) + K_T(u) D, one Newton iteration a load step |
+| Eq. (19) | ten terms | read as the text describes them, the constant and linear terms of Eq. (18): f_int(u) + K_T(u) D, one Newton iteration a load step |
 | Eq. (20) | a displacement without unit | times the length L |
 | Eq. (21) | K^2 - 1/27 under a root | for K below 1/sqrt(27) the real root of the cubic |
 | Figure 1 | error of order 1e-4 at a step of 1e-3 | three schemes side by side, with their orders |
 | 4.2 | no size of the load, no number of pairs | both are stated |
-| Figure 4 | forward Euler bends far too much | shown as it comes out |
+| Figure 4 | forward Euler bends far too much | shown as computed |
 | 4.3 | 8559 nodes with 10,519 tetrahedra | impossible for tetrahedra; sizes are stated |
 | 4.3 | a unit load at a point | a patch of stated width; the size of the load is stated |
 | 4.3 | 167 pairs agree well | errors over the number of pairs |

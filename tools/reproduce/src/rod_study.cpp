@@ -35,7 +35,7 @@ Json runScheme(const offline::RodProblem& rod, LoadStepping scheme, int steps, c
   offline::ExplicitOptions pgd;
   pgd.scheme = scheme;
   pgd.steps = steps;
-  pgd.tolerance = 1e-12;  // so that only the scheme's own error is left
+  pgd.tolerance = 1e-12;  // so only the scheme's own error remains
   pgd.max_pairs = rod.dofs();
   pgd.workers = options.workers;
   pgd.quiet = true;
@@ -82,7 +82,7 @@ Json problemOf(const offline::RodProblem& rod) {
           {"exact_tip_mm", 1e3 * offline::exactTip(K, data.length)}};
 }
 
-/// The displacement-driven series at the tip, order 1 to 5: given the force, how far off is the displacement?
+/// The displacement-driven series at the tip, order 1 to 5: error of the displacement for a given force.
 Json seriesErrors(const offline::RodProblem& rod) {
   const double tip = offline::exactTip(rod.data().loadNumber(), rod.data().length);
   Json rows = Json::array();

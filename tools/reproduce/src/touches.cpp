@@ -43,7 +43,7 @@ Mat3 compliance(const offline::FeModel& model, const offline::Cholesky& K0, cons
   return G.transpose() * K0.solve(G);
 }
 
-/// The d that the model's contact answers to f with.
+/// The model's contact displacement d under f.
 Vec3 displacementUnder(const MetaModel& model, const Touch& touch, Response& response) {
   if (model.attributes().parameters == Parameters::kForce) {
     if (respondToLoad(model, touch.s, touch.force, response) == ResponseStatus::kNoAnswer)
@@ -56,7 +56,7 @@ Vec3 displacementUnder(const MetaModel& model, const Touch& touch, Response& res
     if (respond(model, touch.s, d, response) == ResponseStatus::kNoAnswer)
       throw std::runtime_error("a held-out point has no answer");
     const Vec3 step = response.stiffness.partialPivLu().solve(touch.force - response.force);
-    if (!step.allFinite()) break;  // beyond the domain the force stands still
+    if (!step.allFinite()) break;  // beyond the domain the force is constant
     d += step;
     if (step.norm() <= 1e-12 * d.norm()) break;
   }

@@ -10,7 +10,7 @@
 
 namespace palpate::reproduce {
 
-/// A load at a point that no model was made from, and what full Newton says to it.
+/// A load at a point that no model was made from, and its full Newton solution.
 struct Touch {
   ContactPoint s;
   offline::Patch patch;              ///< centred at s itself
@@ -19,7 +19,7 @@ struct Touch {
   Eigen::VectorXd surface;           ///< Newton's u of the surface nodes, 3 Ns, m
 };
 
-/// What a model says is off by so much of the contact displacement (field, contact) or the force.
+/// Errors of a model relative to the contact displacement (field, contact) or to the force.
 struct TouchError {
   double field{0.0};    ///< largest |u - u_Newton| over the surface nodes / |d_Newton|, f prescribed
   double contact{0.0};  ///< |d - d_Newton| / |d_Newton|, f prescribed
@@ -32,7 +32,7 @@ struct TouchError {
 /// Loads of random directions whose linear contact displacement is evenly up to `travel`.
 void drawLoads(const offline::FeModel& model, const offline::Cholesky& K0, double travel, unsigned seed,
                std::vector<Touch>& touches);
-/// Scales each load down to what a "force" model is trusted with at its point. @return how many were
+/// Scales each load down to the domain of a "force" model at its point. @return number of scaled loads
 int limitLoads(const MetaModel& model, std::vector<Touch>& touches);
 
 /// Full Newton for every touch, on `workers` threads. @throw std::runtime_error when it does not converge

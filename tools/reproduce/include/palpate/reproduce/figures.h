@@ -20,7 +20,7 @@ struct Curve {
   bool lines{true};
 };
 
-/// A plot of curves; points that a logarithmic axis cannot show are left out.
+/// A plot of curves. A logarithmic axis leaves out points that are not positive.
 struct Chart {
   std::string title, x_label, y_label;
   bool log_x{false}, log_y{false};
@@ -41,12 +41,12 @@ struct SurfaceFigure {
   int columns{3};
   double elevation{60}, azimuth{30};  ///< of the view, degrees
   double zoom{1.6};
-  bool diverging{true};      ///< colours symmetric round zero; else from none to most
+  bool diverging{true};      ///< colours symmetric about zero; otherwise from the least value to the largest
   std::string colour_label;  ///< empty: no colour scale
 };
 
 /// Draws with gnuplot, an external program: .svg or .png by the extension.
-/// @return false, after one line on standard error, when gnuplot is not there or fails; nothing is left then
+/// @return false, after one line on standard error, when gnuplot is missing or fails; then there is no file
 bool drawChart(const std::filesystem::path& image, const Chart& chart);
 bool drawSurfaces(const std::filesystem::path& image, const SurfaceFigure& figure);
 

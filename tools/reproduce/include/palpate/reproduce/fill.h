@@ -9,9 +9,9 @@
 
 namespace palpate::reproduce {
 
-/// Puts results into a text: `{a_b_c:.3f}` stands for results["a"]["b"]["c"], array entries count from 0, and
-/// `{pct_a_b_c:.1f}` is a hundred times that. Numbers format as double, strings as they are.
-/// @throw ReproduceError naming what the results do not hold
+/// Fills results into a text: `{a_b_c:.3f}` stands for results["a"]["b"]["c"], array entries count from 0,
+/// and `{pct_a_b_c:.1f}` is a hundred times that. Numbers format as double, strings as they are.
+/// @throw ReproduceError naming a missing result
 [[nodiscard]] std::string fill(std::string_view text, const Json& results);
 
 /// A column of a Markdown table: its head, the key in each row, a format such as "{:.3g}", a factor.

@@ -12,13 +12,13 @@ namespace palpate::reproduce {
 
 using Json = nlohmann::ordered_json;
 
-/// A run that cannot go on: an option, a file or a folder. what() is one line that names it.
+/// An option, a file or a folder stops the run. what() is one line that names it.
 class ReproduceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The folder that one benchmark fills, and the steps that it says it takes.
+/// The folder of one benchmark, and its steps on standard error.
 class Output {
  public:
   /// Makes the folder. @throw ReproduceError when it cannot be made or written
@@ -29,7 +29,7 @@ class Output {
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }
 
-  /// Written beside the target and renamed. @throw ReproduceError naming the file
+  /// Writes a file beside the target and renames it. @throw ReproduceError naming the file
   void writeText(const std::string& name, const std::string& text) const;
   void writeJson(const std::string& name, const Json& json) const;
   /// One line of column names, then the rows. @param rows  each as long as columns

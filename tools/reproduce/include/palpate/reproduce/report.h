@@ -8,7 +8,7 @@
 namespace palpate::reproduce {
 
 /// The whole document. @param results  {"rod": ..., "beam": ..., "liver": ...}, each as in its results.json,
-/// those that were run; @param nested  whether figures lie in folders of those names
+/// those that ran; @param nested whether figures lie in folders of those names
 [[nodiscard]] std::string report(const Json& results, bool nested);
 
 }  // namespace palpate::reproduce

@@ -13,7 +13,7 @@ struct RodOptions {
   int workers{1};
 };
 
-/// Section 4.1 and Figure 1. Writes its figures and tables to `out`. @return what results.json is to hold
+/// Section 4.1 and Figure 1. Writes its figures and tables to `out`. @return the contents of results.json
 [[nodiscard]] Json reproduceRod(const RodOptions& options, Output& out);
 
 }  // namespace palpate::reproduce
