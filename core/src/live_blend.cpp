@@ -10,7 +10,8 @@ namespace palpate {
 
 namespace {
 
-constexpr double kMostFriction = 2.0;  // the end of StepConfig's range
+constexpr double kMostFriction = kLiveParameters[1].high;
+static_assert(kLiveFields<LiveParameters>[1] == &LiveParameters::friction);
 
 /// From a to b; at once when only one of them is a number.
 double mix(double a, double b, double weight) noexcept PALPATE_NONBLOCKING {
@@ -52,16 +53,13 @@ void LiveBlend::advance(const LiveParameters& target, double dt,
   if (left_ <= 0.0) return;
   left_ = std::max(0.0, left_ - dt);
   const double weight = 1.0 - left_ / kSeconds;
-  now_.youngs_modulus = mix(from_.youngs_modulus, target_.youngs_modulus, weight);
-  now_.friction = mix(from_.friction, target_.friction, weight);
+  for (double LiveParameters::*field : kLiveFields<LiveParameters>)
+    now_.*field = mix(from_.*field, target_.*field, weight);
   now_.coupling_stiffness =
       switched(from_.coupling_stiffness, target_.coupling_stiffness) || weight >= 1.0
           ? target_.coupling_stiffness
           : 1.0 / mix(1.0 / from_.coupling_stiffness, 1.0 / target_.coupling_stiffness, weight);
-  now_.coupling_damping = std::min(mix(from_.coupling_damping, target_.coupling_damping, weight),
-                                   kLongestCouplingTime * now_.coupling_stiffness);
-  now_.force_limit = mix(from_.force_limit, target_.force_limit, weight);
-  now_.force_rate_limit = mix(from_.force_rate_limit, target_.force_rate_limit, weight);
+  now_.coupling_damping = std::min(now_.coupling_damping, kLongestCouplingTime * now_.coupling_stiffness);
 }
 
 }  // namespace palpate

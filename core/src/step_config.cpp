@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/step_config.h"
 
+#include <cstddef>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -19,7 +20,7 @@ struct Range {
   double value;
   double low;
   double high;
-  const char* unit;
+  std::string unit;
   Infinity infinity{Infinity::kRefused};
 };
 
@@ -57,26 +58,24 @@ void range(const char* field, double value, double low, double high, const char*
 }  // namespace
 
 std::string firstComplaint(const LiveParameters& parameters) {
-  if (parameters.youngs_modulus != 0.0) {
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    const LiveParameterInfo& info = kLiveParameters[i];
+    const double value = parameters.*kLiveFields<LiveParameters>[i];
+    if (info.zero_is_models && value == 0.0) continue;
+    const std::string unit = *info.unit == '\0' ? "(no unit)" : info.unit;
     const std::string complaint =
-        complaintOf({"youngs_modulus", parameters.youngs_modulus, 100.0, 1e9, "Pa, or 0"});
+        complaintOf({info.name, value, info.low, info.high, info.zero_is_models ? unit + ", or 0" : unit,
+                     info.may_be_infinite ? Infinity::kMeansOff : Infinity::kRefused});
     if (!complaint.empty()) return complaint;
   }
-  const Range ranges[] = {
-      {"friction", parameters.friction, 0.0, 2.0, "(no unit)", Infinity::kMeansOff},
-      {"coupling_stiffness", parameters.coupling_stiffness, 1.0, 1e5, "N/m", Infinity::kMeansOff},
-      {"coupling_damping", parameters.coupling_damping, 0.0, 100.0, "N s/m"},
-      {"force_limit", parameters.force_limit, 0.01, 50.0, "N", Infinity::kMeansOff},
-      {"force_rate_limit", parameters.force_rate_limit, 10.0, 1e6, "N/s", Infinity::kMeansOff},
-  };
-  for (const Range& range : ranges)
-    if (std::string complaint = complaintOf(range); !complaint.empty()) return complaint;
   return dampingComplaint(parameters);
 }
 
 LiveParameters liveParameters(const StepConfig& config) noexcept {
-  return {config.youngs_modulus,   config.friction,    config.coupling_stiffness,
-          config.coupling_damping, config.force_limit, config.force_rate_limit};
+  LiveParameters live;
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    live.*kLiveFields<LiveParameters>[i] = config.*kLiveFields<StepConfig>[i];
+  return live;
 }
 
 void check(const StepConfig& config) {

@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <iostream>
+#include <sstream>
 #include <string>
 
 #include "palpate/server/config_file.h"
@@ -27,34 +29,43 @@ struct Given {
   std::optional<std::int64_t> tick_cpu;
   std::optional<bool> tick_cpu_alone;
   std::optional<double> tip_radius;
-  std::optional<double> friction;
-  std::optional<double> force_rate_limit;
   std::optional<double> speed_limit;
-  std::optional<double> youngs_modulus;
   std::optional<std::string> device;
-  DeviceOverrides over_device;
+  LiveOverrides live;
 };
 
+// "N, 0.01 to 50 or inf".
+std::string rangeOf(const LiveParameterInfo& info) {
+  std::ostringstream text;
+  if (*info.unit != '\0') text << info.unit << ", ";
+  text << info.low << " to " << info.high;
+  if (info.may_be_infinite) text << " or inf";
+  if (info.zero_is_models) text << ", or 0: the model's own";
+  return text.str();
+}
+
+// What holds where neither the file nor the command line names a value.
+std::string defaultOf(std::size_t parameter) {
+  StepConfig without;
+  std::ostringstream text;
+  const double value = without.*kLiveFields<StepConfig>[parameter];
+  apply(*findDevicePreset(kDefaultDevice), without);
+  if (without.*kLiveFields<StepConfig>[parameter] != value) return "the device's";
+  text << value;
+  return text.str();
+}
+
 void declareContact(CLI::App& app, Given& given) {
-  DeviceOverrides& over_device = given.over_device;
   app.add_option("--device", given.device,
                  "Whose limits hold: touch (default), omni, desktop, premium15, premium30 or custom")
       ->type_name("NAME");
-  app.add_option("--force-limit", over_device.force_limit,
-                 "Largest force rendered, N, 0.01 to 50 or inf, default the device's");
-  app.add_option("--coupling", over_device.coupling_stiffness,
-                 "Stiffness of the virtual coupling, N/m, 1 to 1e5 or inf (none), default the device's");
-  app.add_option("--coupling-damping", over_device.coupling_damping,
-                 "Damping of the virtual coupling, N s/m, 0 to 100 and at most 5 ms of its stiffness, "
-                 "default the device's");
-  app.add_option("--friction", given.friction,
-                 "Coulomb coefficient, 0 to 2 or inf (never slides), default 0.3");
-  app.add_option("--force-rate-limit", given.force_rate_limit,
-                 "Largest change of the force, N/s, 10 to 1e6 or inf (default)");
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    const LiveParameterInfo& info = kLiveParameters[i];
+    app.add_option(info.option, given.live.*kLiveFields<LiveOverrides>[i],
+                   std::string(info.help) + ", " + rangeOf(info) + ", default " + defaultOf(i));
+  }
   app.add_option("--speed-limit", given.speed_limit,
                  "A tool that is faster jumps, m/s, 0.01 to 100 or inf, default 2");
-  app.add_option("--youngs-modulus", given.youngs_modulus,
-                 "Organ stiffness E, Pa, 100 to 1e9; 0: the model's (default)");
   app.add_option("--tools", given.tools, "Tools that are answered, ids 0 to this less 1; 1 to 4, default 4");
 }
 
@@ -101,29 +112,25 @@ void overwrite(const std::optional<T>& given, T& value) {
 
 // "tool.tip_radius" is spelt --tip-radius here.
 std::string optionOf(const std::string& key) {
+  for (const LiveParameterInfo& info : kLiveParameters)
+    if (key == info.key) return info.option;
   std::string option = key.substr(key.find('.') == std::string::npos ? 0 : key.find('.') + 1);
   std::replace(option.begin(), option.end(), '_', '-');
-  if (option == "coupling-stiffness") option = "coupling";
   return "--" + option;
 }
 
 // What the device fills goes under what was said here or in the file.
 void combineDevice(const Given& given, ServerConfig& config) {
   overwrite(given.device, config.device);
-  const DeviceOverrides& over_device = given.over_device;
-  if (over_device.force_limit) config.said.force_limit = over_device.force_limit;
-  if (over_device.coupling_stiffness) config.said.coupling_stiffness = over_device.coupling_stiffness;
-  if (over_device.coupling_damping) config.said.coupling_damping = over_device.coupling_damping;
+  for (const auto field : kLiveFields<LiveOverrides>)
+    if (given.live.*field) config.said.*field = given.live.*field;
   config.step = withDevice(config.step, config.device, config.said);
 }
 
 void combineContact(const Given& given, StepConfig& step) {
   constexpr std::int64_t kFar = 1'000'000;  // fits an int, and is as far out of range as what was cut to it
   overwrite(given.tip_radius, step.tip_radius);
-  overwrite(given.friction, step.friction);
-  overwrite(given.force_rate_limit, step.force_rate_limit);
   overwrite(given.speed_limit, step.speed_limit);
-  overwrite(given.youngs_modulus, step.youngs_modulus);
   if (given.tools) step.tools = static_cast<int>(std::clamp(*given.tools, -kFar, kFar));
 }
 

@@ -29,7 +29,8 @@ std::string outOf(const Range& range) {
 
 // Where a field of the engine stands in the file.
 std::string keyOf(const std::string& field) {
-  if (field == "youngs_modulus") return "organ." + field;
+  for (const LiveParameterInfo& info : kLiveParameters)
+    if (field == info.name) return info.key;
   if (field == "tools") return field;
   return "tool." + field;
 }
@@ -78,16 +79,16 @@ std::string deviceNames() {
 
 }  // namespace
 
-StepConfig withDevice(StepConfig step, const std::string& device, const DeviceOverrides& said) {
+StepConfig withDevice(StepConfig step, const std::string& device, const LiveOverrides& said) {
   const StepConfig own;
   step.force_limit = own.force_limit;
   step.coupling_stiffness = own.coupling_stiffness;
   step.coupling_damping = own.coupling_damping;
   if (const auto preset = findDevicePreset(device)) apply(*preset, step);
-  step.force_limit = said.force_limit.value_or(step.force_limit);
-  step.coupling_stiffness = said.coupling_stiffness.value_or(step.coupling_stiffness);
-  step.coupling_damping = said.coupling_damping.value_or(
-      std::min(step.coupling_damping, kLongestCouplingTime * step.coupling_stiffness));
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    if (const auto& value = said.*kLiveFields<LiveOverrides>[i]) step.*kLiveFields<StepConfig>[i] = *value;
+  if (!said.coupling_damping)
+    step.coupling_damping = std::min(step.coupling_damping, kLongestCouplingTime * step.coupling_stiffness);
   return step;
 }
 

@@ -116,10 +116,7 @@ void readTool(KeyReader& keys, StepConfig& step) {
   keys.read("tool.zero_after", step.zero_after);
   keys.read("tool.ramp_time", step.ramp_time);
   keys.read("tool.quaternion_tolerance", step.quaternion_tolerance);
-  keys.read("tool.friction", step.friction);
-  keys.read("tool.force_rate_limit", step.force_rate_limit);
   keys.read("tool.speed_limit", step.speed_limit);
-  keys.read("organ.youngs_modulus", step.youngs_modulus);
 }
 
 void readTools(KeyReader& keys, StepConfig& step) {
@@ -131,9 +128,8 @@ void readTools(KeyReader& keys, StepConfig& step) {
 
 void readDevice(KeyReader& keys, ServerConfig& config) {
   keys.read("device", config.device);
-  keys.read("tool.force_limit", config.said.force_limit);
-  keys.read("tool.coupling_stiffness", config.said.coupling_stiffness);
-  keys.read("tool.coupling_damping", config.said.coupling_damping);
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    keys.read(kLiveParameters[i].key, config.said.*kLiveFields<LiveOverrides>[i]);
   config.step = withDevice(config.step, config.device, config.said);
 }
 

@@ -8,6 +8,7 @@
 
 #include "command_line.h"
 #include "log_sink.h"
+#include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
 
@@ -48,13 +49,8 @@ void logModel(const MetaModel& model, const ServerConfig& config) {
 }
 
 void logContact(const Facts& facts) {
-  const StepConfig& step = facts.step;
-  spdlog::info(
-      "device {}: force limit {} N, {} N/s, coupling {} N/m, {} N s/m; friction {}, E {} Pa{}; {} tools, "
-      "tips of {} m",
-      facts.device, step.force_limit, step.force_rate_limit, step.coupling_stiffness, step.coupling_damping,
-      step.friction, step.youngs_modulus == 0.0 ? facts.youngs_modulus : step.youngs_modulus,
-      step.youngs_modulus == 0.0 ? " (the model's)" : "", step.tools, step.tip_radius);
+  spdlog::info("device {}: {}; {} tools, tips of {} m", facts.device, ParameterBook(facts).describe(),
+               facts.step.tools, facts.step.tip_radius);
 }
 
 int serve(int argc, char** argv) {

@@ -2,6 +2,8 @@
 #include "palpate/server/parameter_book.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <sstream>
 
 #include "palpate/server/config.h"
@@ -11,7 +13,9 @@ namespace {
 
 // What the operator started the server with is the ceiling, and a device's own limits where they are higher.
 LiveParameters ceilings(const Facts& facts) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
   LiveParameters most = liveParameters(facts.step);
+  most.youngs_modulus = most.friction = most.coupling_damping = kNone;
   if (const auto preset = findDevicePreset(facts.device)) {
     most.force_limit = std::max(preset->force_limit, most.force_limit);
     most.coupling_stiffness = preset->stiffness_limit;
@@ -20,23 +24,23 @@ LiveParameters ceilings(const Facts& facts) {
 }
 
 LiveParameters overlaid(LiveParameters live, const dds::ParameterRequest& request) {
-  const auto take = [&](std::uint32_t bit, double from, double& to) {
-    if ((request.fields & bit) != 0) to = from;
-  };
-  take(dds::parameter::kYoungsModulus, request.youngs_modulus, live.youngs_modulus);
-  take(dds::parameter::kFriction, request.friction, live.friction);
-  take(dds::parameter::kCouplingStiffness, request.coupling_stiffness, live.coupling_stiffness);
-  take(dds::parameter::kCouplingDamping, request.coupling_damping, live.coupling_damping);
-  take(dds::parameter::kForceLimit, request.force_limit, live.force_limit);
-  take(dds::parameter::kForceRateLimit, request.force_rate_limit, live.force_rate_limit);
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    if ((request.fields & kLiveParameters[i].bit) != 0)
+      live.*kLiveFields<LiveParameters>[i] = request.*kLiveFields<dds::ParameterRequest>[i];
   return live;
 }
 
-std::string tooLarge(const char* field, double value, double limit, const std::string& why) {
-  if (value <= limit) return {};
-  std::ostringstream text;
-  text << field << " is " << value << ", expected at most " << limit << why;
-  return text.str();
+// What is above its ceiling; empty: nothing.
+std::string tooLarge(const LiveParameters& wanted, const LiveParameters& most, const std::string& why) {
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    const double value = wanted.*kLiveFields<LiveParameters>[i], limit = most.*kLiveFields<LiveParameters>[i];
+    if (value <= limit) continue;
+    std::ostringstream text;
+    text << kLiveParameters[i].name << " is " << value << ", expected at most " << limit << " "
+         << kLiveParameters[i].unit << ", " << why;
+    return text.str();
+  }
+  return {};
 }
 
 }  // namespace
@@ -53,14 +57,7 @@ std::string ParameterBook::complaintAbout(const dds::ParameterRequest& request,
   const std::uint32_t unknown = request.fields & ~dds::parameter::kAll;
   if (unknown != 0) return "fields has bits " + std::to_string(unknown) + " that this server does not know";
   if (std::string complaint = firstComplaint(wanted); !complaint.empty()) return complaint;
-  const std::string why = "what device " + device_ + " and the start of the server allow";
-  std::string complaint =
-      tooLarge("coupling_stiffness", wanted.coupling_stiffness, most_.coupling_stiffness, " N/m, " + why);
-  if (complaint.empty())
-    complaint = tooLarge("force_limit", wanted.force_limit, most_.force_limit, " N, " + why);
-  if (complaint.empty())
-    complaint = tooLarge("force_rate_limit", wanted.force_rate_limit, most_.force_rate_limit, " N/s, " + why);
-  return complaint;
+  return tooLarge(wanted, most_, "what device " + device_ + " and the start of the server allow");
 }
 
 dds::ServerParameters ParameterBook::decide(const dds::ParameterRequest& request) {
@@ -82,14 +79,24 @@ dds::ServerParameters ParameterBook::answer() const {
   result.server_id = server_id_;
   result.accepted = true;
   result.revision = revision_;
-  result.youngs_modulus = live_.youngs_modulus == 0.0 ? model_youngs_modulus_ : live_.youngs_modulus;
-  result.friction = live_.friction;
-  result.coupling_stiffness = live_.coupling_stiffness;
-  result.coupling_damping = live_.coupling_damping;
-  result.force_limit = live_.force_limit;
-  result.force_rate_limit = live_.force_rate_limit;
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    result.*kLiveFields<dds::ServerParameters>[i] = live_.*kLiveFields<LiveParameters>[i];
+  if (live_.youngs_modulus == 0.0) result.youngs_modulus = model_youngs_modulus_;
   result.model_youngs_modulus = model_youngs_modulus_;
   return result;
+}
+
+std::string ParameterBook::describe() const {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    const LiveParameterInfo& info = kLiveParameters[i];
+    const double value = live_.*kLiveFields<LiveParameters>[i];
+    const bool models = info.zero_is_models && value == 0.0;
+    text << (i == 0 ? "" : ", ") << info.name << " " << (models ? model_youngs_modulus_ : value);
+    if (*info.unit != '\0') text << " " << info.unit;
+    if (models) text << " (the model's)";
+  }
+  return text.str();
 }
 
 }  // namespace palpate::server

@@ -2,22 +2,10 @@
 #include "palpate/server/parameter_service.h"
 
 #include <array>
-#include <sstream>
 
 #include "palpate/idl/error.h"
 
 namespace palpate::server {
-namespace {
-
-std::string describe(const dds::ServerParameters& in_force) {
-  std::ostringstream text;
-  text << "E " << in_force.youngs_modulus << " Pa, friction " << in_force.friction << ", coupling "
-       << in_force.coupling_stiffness << " N/m, " << in_force.coupling_damping << " N s/m, force limit "
-       << in_force.force_limit << " N, " << in_force.force_rate_limit << " N/s";
-  return text.str();
-}
-
-}  // namespace
 
 ParameterService::ParameterService(const dds::Participant& participant, Channels& channels,
                                    const Facts& facts)
@@ -43,7 +31,7 @@ void ParameterService::serve(const dds::ParameterRequest& request, ParameterNews
   const dds::ServerParameters answer = book_.decide(request);
   if (book_.revision() != before) {
     channels_.parameters.write(book_.inForce());
-    news.changed = "parameters, revision " + std::to_string(answer.revision) + ": " + describe(answer);
+    news.changed = "parameters, revision " + std::to_string(answer.revision) + ": " + book_.describe();
   }
   if (!answer.accepted) news.refused = std::string("parameters refused: ") + answer.message;
   // A lost answer: the client asks again.

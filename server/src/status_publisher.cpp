@@ -21,12 +21,9 @@ void sayParameters(const Facts& facts, const Health& health, dds::ServerStatus& 
   status.tip_radius = facts.step.tip_radius;
   status.speed_limit = facts.step.speed_limit;
   status.tools = static_cast<std::uint32_t>(facts.step.tools);
-  status.force_limit = live.force_limit;
-  status.friction = live.friction;
-  status.coupling_stiffness = live.coupling_stiffness;
-  status.coupling_damping = live.coupling_damping;
-  status.youngs_modulus = live.youngs_modulus == 0.0 ? facts.youngs_modulus : live.youngs_modulus;
-  status.force_rate_limit = live.force_rate_limit;
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    status.*kLiveFields<dds::ServerStatus>[i] = live.*kLiveFields<LiveParameters>[i];
+  if (live.youngs_modulus == 0.0) status.youngs_modulus = facts.youngs_modulus;
   status.parameters_revision = health.parameters_revision;
 }
 

@@ -46,19 +46,15 @@ std::optional<PageMessage> parameters(const json& object) {
   if (!request) return std::nullopt;
   SetParameters result{};
   result.request = *request;
-  const std::pair<const char*, std::optional<double>*> fields[] = {
-      {"youngs_factor", &result.youngs_factor},
-      {"friction", &result.friction},
-      {"coupling_stiffness", &result.coupling_stiffness},
-      {"coupling_damping", &result.coupling_damping},
-      {"force_limit", &result.force_limit},
-      {"force_rate_limit", &result.force_rate_limit}};
-  for (const auto& [key, value] : fields) {
-    if (!object.contains(key)) continue;
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const bool factor =
-        value == &result.youngs_factor;  // 0 is refused: on the wire it means the model's own E
-    *value = number(object, key, factor ? 1e-6 : 0.0, kLargest);
-    if (!*value) return std::nullopt;
+        kLiveParameters[i]
+            .zero_is_models;  // times the model's E; 0 is refused: on the wire it means the model's own
+    const char* const key = factor ? "youngs_factor" : kLiveParameters[i].name;
+    if (!object.contains(key)) continue;
+    const auto value = number(object, key, factor ? 1e-6 : 0.0, kLargest);
+    if (!value) return std::nullopt;
+    result.*kLiveFields<SetParameters>[i] = value;
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "palpate/client/path.h"
+#include "palpate/live_parameter_list.h"
 
 namespace palpate::viewer {
 
@@ -26,14 +27,9 @@ struct Target {
   client::Point
       position;  ///< wanted position of the tip's centre, world W, m; |x|, |y|, |z| <= kMaxCoordinate
 };
-struct SetParameters {
-  std::uint64_t request;                ///< the page's number for it
-  std::optional<double> youngs_factor;  ///< times the model's E
-  std::optional<double> friction;
-  std::optional<double> coupling_stiffness;  ///< N/m
-  std::optional<double> coupling_damping;    ///< N s/m
-  std::optional<double> force_limit;         ///< N
-  std::optional<double> force_rate_limit;    ///< N/s
+/// Live parameters that the page wants; `youngs_modulus` is a multiple of the model's E.
+struct SetParameters : LiveFields<std::optional<double>> {
+  std::uint64_t request;  ///< the page's number for it
 };
 struct SetRate {
   double hz;  ///< frames wanted, in [0, 1000]

@@ -39,7 +39,6 @@ json serverOf(const dds::ServerStatus& s) {
           {"state", s.state},
           {"rate_hz", s.rate_hz},
           {"tip_radius", s.tip_radius},
-          {"force_limit", s.force_limit},
           {"memory_locked", s.memory_locked},
           {"realtime", s.realtime},
           {"realtime_detail", s.realtime_detail},
@@ -56,15 +55,17 @@ json serverOf(const dds::ServerStatus& s) {
           {"wakeup_us", toJson(s.wakeup_us)},
           {"message", s.message},
           {"device", s.device},
-          {"friction", s.friction},
-          {"coupling_stiffness", s.coupling_stiffness},
-          {"coupling_damping", s.coupling_damping},
-          {"youngs_modulus", s.youngs_modulus},
-          {"force_rate_limit", s.force_rate_limit},
           {"speed_limit", s.speed_limit},
           {"tools", s.tools},
           {"parameters_revision", s.parameters_revision},
           {"phase_lock", s.phase_lock}};
+}
+
+/// Live parameters by their names, from ServerStatus or ServerParameters.
+template <class Message>
+void addLive(const Message& message, json& object) {
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    object[kLiveParameters[i].name] = message.*kLiveFields<Message>[i];
 }
 
 json boxOf(const client::Surface& surface) {
@@ -107,14 +108,10 @@ std::string meshText(const client::Surface& surface, std::uint32_t revision, dou
 std::string statusText(const std::optional<dds::ServerStatus>& status,
                        const std::optional<dds::ServerParameters>& parameters, const ViewerFigures& figures) {
   json object = status ? serverOf(*status) : json::object();
+  if (status) addLive(*status, object);
   if (parameters) {  // newer than those in the status
-    object["youngs_modulus"] = parameters->youngs_modulus;
+    addLive(*parameters, object);
     object["model_youngs_modulus"] = parameters->model_youngs_modulus;
-    object["friction"] = parameters->friction;
-    object["coupling_stiffness"] = parameters->coupling_stiffness;
-    object["coupling_damping"] = parameters->coupling_damping;
-    object["force_limit"] = parameters->force_limit;
-    object["force_rate_limit"] = parameters->force_rate_limit;
     object["parameters_revision"] = parameters->revision;
   }
   object["type"] = "status";

@@ -17,32 +17,20 @@ std::uint64_t freshId() {
 SetParameters merged(const SetParameters& earlier, const SetParameters& later) {
   SetParameters result = earlier;
   result.request = later.request;
-  const auto take = [](std::optional<double>& into, const std::optional<double>& from) {
-    if (from) into = from;
-  };
-  take(result.youngs_factor, later.youngs_factor);
-  take(result.friction, later.friction);
-  take(result.coupling_stiffness, later.coupling_stiffness);
-  take(result.coupling_damping, later.coupling_damping);
-  take(result.force_limit, later.force_limit);
-  take(result.force_rate_limit, later.force_rate_limit);
+  for (const auto field : kLiveFields<SetParameters>)
+    if (later.*field) result.*field = later.*field;
   return result;
 }
 
 dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs_modulus) {
   dds::ParameterRequest request{};
-  const auto set = [&](std::uint32_t bit, const std::optional<double>& from, double& into,
-                       double unit = 1.0) {
-    if (!from) return;
-    request.fields |= bit;
-    into = *from * unit;
-  };
-  set(dds::parameter::kYoungsModulus, wanted.youngs_factor, request.youngs_modulus, model_youngs_modulus);
-  set(dds::parameter::kFriction, wanted.friction, request.friction);
-  set(dds::parameter::kCouplingStiffness, wanted.coupling_stiffness, request.coupling_stiffness);
-  set(dds::parameter::kCouplingDamping, wanted.coupling_damping, request.coupling_damping);
-  set(dds::parameter::kForceLimit, wanted.force_limit, request.force_limit);
-  set(dds::parameter::kForceRateLimit, wanted.force_rate_limit, request.force_rate_limit);
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    const std::optional<double>& value = wanted.*kLiveFields<SetParameters>[i];
+    if (!value) continue;
+    request.fields |= kLiveParameters[i].bit;
+    request.*kLiveFields<dds::ParameterRequest>[i] = *value;
+  }
+  request.youngs_modulus *= model_youngs_modulus;
   return request;
 }
 

@@ -28,7 +28,7 @@ TEST(PageMessage, EachTypeIsRead) {
   EXPECT_EQ(parsed<SetRate>(R"({"type":"rate","hz":0})").hz, 0.0);
   const auto wanted = parsed<SetParameters>(R"({"type":"set","request":3,"youngs_factor":0.5})");
   EXPECT_EQ(wanted.request, 3U);
-  EXPECT_EQ(wanted.youngs_factor, 0.5);
+  EXPECT_EQ(wanted.youngs_modulus, 0.5);
   EXPECT_FALSE(wanted.friction.has_value());
 }
 

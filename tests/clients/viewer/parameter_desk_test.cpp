@@ -19,14 +19,14 @@ TEST(ParameterDesk, LaterValuesGoOverEarlierOnes) {
   SetParameters first{};
   first.request = 1;
   first.friction = 0.2;
-  first.youngs_factor = 2.0;
+  first.youngs_modulus = 2.0;
   SetParameters second{};
   second.request = 2;
   second.friction = 0.4;
   const SetParameters both = merged(first, second);
   EXPECT_EQ(both.request, 2U);
   EXPECT_EQ(both.friction, 0.4);
-  EXPECT_EQ(both.youngs_factor, 2.0);
+  EXPECT_EQ(both.youngs_modulus, 2.0);
   const dds::ParameterRequest request = requestOf(both, 160e3);
   EXPECT_EQ(request.fields, dds::parameter::kFriction | dds::parameter::kYoungsModulus);
   EXPECT_EQ(request.youngs_modulus, 320e3);
@@ -104,7 +104,7 @@ TEST(ParameterDesk, AServerThatDoesNotAnswerIsSaidSo) {
 TEST(ParameterDesk, TheFactorIsOfTheModelOfTheServerThatIsAsked) {
   Asked asked;
   SetParameters wanted{};
-  wanted.youngs_factor = 2.0;
+  wanted.youngs_modulus = 2.0;
   asked.desk.set(7, wanted);
   asked.desk.saw(Asked::server(1, 100e3));
   const auto requests = asked.at(kStart, Asked::server(2, 300e3));

@@ -4,21 +4,14 @@
 #include <string>
 #include <type_traits>
 
+#include "palpate/live_parameter_list.h"  // made from palpate.idl, the only list of them
+
 namespace palpate {
 
 /// Parameters of the tick that may change while it runs; meaning and ranges as in StepConfig. Plain: it crosses
-/// threads. A change is never a step of the force: step() goes over to the new values within LiveBlend::kSeconds, and
-/// where there are no numbers on the way the force goes over (LiveBlend).
-struct LiveParameters {
-  double youngs_modulus{0.0};      ///< E, Pa; 0: the model's own
-  double friction{0.0};            ///< mu
-  double coupling_stiffness{0.0};  ///< K_vc, N/m
-  double coupling_damping{0.0};    ///< N s/m
-  double force_limit{0.0};         ///< N
-  double force_rate_limit{0.0};    ///< N/s
-
-  [[nodiscard]] bool operator==(const LiveParameters&) const = default;
-};
+/// threads. A change is never a step of the force: step() blends over to the new values within LiveBlend::kSeconds, and
+/// where no numbers lie between, it blends the force over (LiveBlend).
+using LiveParameters = LiveFields<double>;
 
 /// @return one sentence about the first field out of its range, "friction is 3, expected 0 to 2", or about a damping that is
 /// too much for the coupling (kLongestCouplingTime); empty: all good

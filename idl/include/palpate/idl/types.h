@@ -9,7 +9,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "palpate/idl/status_flag_list.h"  // generated likewise: dds::flag::kStalePose and the rest
+// Made from the lists in palpate.idl: dds::flag::kStalePose, dds::parameter::kFriction and the rest.
+#include "palpate/idl/status_flag_list.h"
+#include "palpate/live_parameter_list.h"
 
 namespace palpate::dds {
 
@@ -21,17 +23,6 @@ using Percentiles = palpate_Percentiles;
 using ServerStatus = palpate_ServerStatus;
 using ParameterRequest = palpate_ParameterRequest;
 using ServerParameters = palpate_ServerParameters;
-
-/// Bits of ParameterRequest::fields.
-namespace parameter {
-inline constexpr std::uint32_t kYoungsModulus = palpate_PARAMETER_YOUNGS_MODULUS;
-inline constexpr std::uint32_t kFriction = palpate_PARAMETER_FRICTION;
-inline constexpr std::uint32_t kCouplingStiffness = palpate_PARAMETER_COUPLING_STIFFNESS;
-inline constexpr std::uint32_t kCouplingDamping = palpate_PARAMETER_COUPLING_DAMPING;
-inline constexpr std::uint32_t kForceLimit = palpate_PARAMETER_FORCE_LIMIT;
-inline constexpr std::uint32_t kForceRateLimit = palpate_PARAMETER_FORCE_RATE_LIMIT;
-inline constexpr std::uint32_t kAll = 63;
-}  // namespace parameter
 
 /// Values of ToolForce::state.
 namespace tool_state {

@@ -20,17 +20,13 @@ inline constexpr std::string_view kDefaultDevice = "touch";
 /// No preset: the caller's own numbers, and no limit on the coupling.
 inline constexpr std::string_view kCustomDevice = "custom";
 
-/// What a device preset fills, where it was said explicitly: that wins, in whatever order it was said.
-struct DeviceOverrides {
-  std::optional<double> force_limit;
-  std::optional<double> coupling_stiffness;
-  std::optional<double> coupling_damping;
-};
+/// Live parameters that the file or the command line named. They win over the device preset, in whatever order they came.
+using LiveOverrides = LiveFields<std::optional<double>>;
 
-/// `step` with the force limit and the coupling of a device, and what was said explicitly over both.
-/// "custom" (or an unknown device) leaves StepConfig's own defaults under what was said. A device's damping is cut to
-/// what a softer coupling that was said allows (kLongestCouplingTime).
-[[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const DeviceOverrides& said);
+/// `step` with the force limit and the coupling of a device, and what was named over both.
+/// "custom" (or an unknown device) leaves StepConfig's own defaults under what was named. A device's damping is cut to
+/// what a softer coupling that was named allows (kLongestCouplingTime).
+[[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const LiveOverrides& said);
 
 /// A surface rate: with each tick.
 inline constexpr double kEveryTick = std::numeric_limits<double>::infinity();
@@ -52,7 +48,7 @@ struct ServerConfig {
   bool tick_cpu_alone{false};          ///< nothing else of this process runs there
   std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
   std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
-  DeviceOverrides said;                ///< of the file and the command line
+  LiveOverrides said;                  ///< of the file and the command line
   /// parameters of the engine, the device's included: withDevice() was applied. [tool] and [organ] in the file
   StepConfig step{withDevice({}, std::string(kDefaultDevice), {})};
 };

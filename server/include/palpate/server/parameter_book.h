@@ -25,6 +25,9 @@ class ParameterBook {
   /// The answer to a request that nobody made: what is in force.
   [[nodiscard]] dds::ServerParameters answer() const;
 
+  /// What is in force, as text: "youngs_modulus 160000 Pa (the model's), friction 0.3, ...".
+  [[nodiscard]] std::string describe() const;
+
   [[nodiscard]] const LiveParameters& inForce() const noexcept { return live_; }
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 

@@ -31,12 +31,8 @@ void forEachConfigField(Config& config, Visit&& visit) {
 
 template <class Live, class Visit>
 void forEachLiveField(Live& live, Visit&& visit) {
-  visit("youngs_modulus", live.youngs_modulus);
-  visit("friction", live.friction);
-  visit("coupling_stiffness", live.coupling_stiffness);
-  visit("coupling_damping", live.coupling_damping);
-  visit("force_limit", live.force_limit);
-  visit("force_rate_limit", live.force_rate_limit);
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    visit(kLiveParameters[i].name, live.*kLiveFields<LiveParameters>[i]);
 }
 
 template <class Result, class Visit>
