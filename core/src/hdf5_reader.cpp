@@ -248,10 +248,14 @@ const std::byte* Hdf5Reader::place(const std::string& path, hid_t dataset, std::
 }
 
 template <typename T>
-std::span<const T> Hdf5Reader::dataset(const std::string& path, std::initializer_list<Length*> shape) const {
+std::span<const T> Hdf5Reader::dataset(const Dataset<T>& what, Lengths& lengths) const {
+  const std::string path = what.path;
   const Hdf5Handle handle = openDataset(path);
+  std::vector<Length*> shape;
+  for (const char* symbol : what.shape)
+    if (symbol != nullptr) shape.push_back(&lengths[symbol]);
   checkType(path, handle.get(), fileType<T>());
-  checkShape(path, handle.get(), std::span(shape.begin(), shape.size()));
+  checkShape(path, handle.get(), shape);
   checkLayout(path, handle.get());
   const std::uint64_t limit = image_.bytes().size() / sizeof(T);
   std::uint64_t count = 1;
@@ -266,16 +270,22 @@ std::span<const T> Hdf5Reader::dataset(const std::string& path, std::initializer
           static_cast<std::size_t>(count)};
 }
 
-template std::span<const double> Hdf5Reader::dataset(const std::string&,
-                                                     std::initializer_list<Length*>) const;
-template std::span<const float> Hdf5Reader::dataset(const std::string&, std::initializer_list<Length*>) const;
-template std::span<const std::int32_t> Hdf5Reader::dataset(const std::string&,
-                                                           std::initializer_list<Length*>) const;
-template std::span<const std::int64_t> Hdf5Reader::dataset(const std::string&,
-                                                           std::initializer_list<Length*>) const;
-template std::span<const std::uint8_t> Hdf5Reader::dataset(const std::string&,
-                                                           std::initializer_list<Length*>) const;
-template std::span<const std::int16_t> Hdf5Reader::dataset(const std::string&,
-                                                           std::initializer_list<Length*>) const;
+template std::span<const double> Hdf5Reader::dataset(const Dataset<double>&, Lengths&) const;
+template std::span<const float> Hdf5Reader::dataset(const Dataset<float>&, Lengths&) const;
+template std::span<const std::int16_t> Hdf5Reader::dataset(const Dataset<std::int16_t>&, Lengths&) const;
+template std::span<const std::int32_t> Hdf5Reader::dataset(const Dataset<std::int32_t>&, Lengths&) const;
+template std::span<const std::int64_t> Hdf5Reader::dataset(const Dataset<std::int64_t>&, Lengths&) const;
+template std::span<const std::uint8_t> Hdf5Reader::dataset(const Dataset<std::uint8_t>&, Lengths&) const;
+
+Length& Lengths::operator[](const char* symbol) {
+  const bool number = std::string_view(symbol).find_first_not_of("0123456789") == std::string_view::npos;
+  const auto [entry, added] =
+      lengths_.try_emplace(symbol, number ? Length(std::stoull(symbol)) : Length(symbol));
+  return entry->second;
+}
+
+void Lengths::define(const char* symbol, std::uint64_t value) {
+  lengths_.insert_or_assign(symbol, Length(value));
+}
 
 }  // namespace palpate

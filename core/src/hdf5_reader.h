@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "palpate/core/datasets.h"
 #include "palpate/core/hdf5_handle.h"
 #include "palpate/core/sealed_image.h"
 
@@ -39,6 +41,18 @@ struct Length {
   }
 };
 
+/// The lengths of a file by their symbols: those of shapes in datasets.h.
+class Lengths {
+ public:
+  /// Of "3" the number; of a symbol what was defined before, or unknown.
+  [[nodiscard]] Length& operator[](const char* symbol);
+  void define(const char* symbol, std::uint64_t value);
+  [[nodiscard]] std::uint64_t value(const char* symbol) { return (*this)[symbol].value; }
+
+ private:
+  std::map<std::string, Length> lengths_;
+};
+
 /// Attributes and arrays of a file that may be hostile: type, shape, layout, filters and place of each are
 /// checked, the numbers are not. Every refusal is a LoadError: file, dataset, found, expected. Does not include
 /// HDF5 itself.
@@ -55,10 +69,9 @@ class Hdf5Reader {
   void numbers(const char* attribute, std::span<double> values) const;
   [[nodiscard]] int integer(const char* attribute) const;
   [[nodiscard]] std::string text(const char* attribute) const;
-  /// A dataset where it lies in the image: double, float, int16, int32, int64 or uint8. Unknown lengths are filled in.
+  /// A dataset where it lies in the image. Unknown lengths are filled in.
   template <typename T>
-  [[nodiscard]] std::span<const T> dataset(const std::string& path,
-                                           std::initializer_list<Length*> shape) const;
+  [[nodiscard]] std::span<const T> dataset(const Dataset<T>& what, Lengths& lengths) const;
 
  private:
   [[nodiscard]] Hdf5Handle openImage() const;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "level_search.h"
+#include "palpate/core/datasets.h"
 #include "palpate/core/load_error.h"
 #include "palpate/core/mode_selection.h"
 #include "palpate/core/multi_index.h"
@@ -37,13 +38,13 @@ class Checker {
   }
 
   template <typename T>
-  void finite(const char* dataset, std::span<const T> values) const {
+  void finite(const std::string& dataset, std::span<const T> values) const {
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!std::isfinite(values[i])) failAt(dataset, i, "is " + text(double(values[i])), "a finite number");
   }
 
   /// Each value is an index below `end`, and at least `begin` (0, or -1 where "none" is allowed).
-  void indices(const char* dataset, std::span<const std::int32_t> values, std::size_t end,
+  void indices(const std::string& dataset, std::span<const std::int32_t> values, std::size_t end,
                std::int32_t begin = 0) const {
     for (std::size_t i = 0; i < values.size(); ++i)
       if (values[i] < begin || (values[i] >= 0 && static_cast<std::size_t>(values[i]) >= end))
@@ -51,7 +52,7 @@ class Checker {
                std::to_string(begin) + " to " + std::to_string(end - 1));
   }
 
-  [[noreturn]] void failAt(const char* dataset, std::size_t i, const std::string& found,
+  [[noreturn]] void failAt(const std::string& dataset, std::size_t i, const std::string& found,
                            const std::string& expected) const {
     throw LoadError(name_ + ": " + dataset + " number " + std::to_string(i) + " " + found + ", expected " +
                     expected);
@@ -77,11 +78,11 @@ void checkDomain(Parameters parameters, std::span<const double> radius, const Ch
   for (std::size_t m = 0; m < radius.size(); ++m) {
     const std::string found = "is " + text(radius[m]);
     if (parameters == Parameters::kDisplacement && radius[m] < 0.0)
-      check.failAt("/contact/domain_radius", m, found, "at least 0");
+      check.failAt(dataset::kContactDomainRadius.name(), m, found, "at least 0");
     if (parameters == Parameters::kForce && !(radius[m] > 0.0))
-      check.failAt("/contact/domain_radius", m, found, "more than 0 N");
+      check.failAt(dataset::kContactDomainRadius.name(), m, found, "more than 0 N");
     if (parameters == Parameters::kLevel && !(radius[m] > 0.0 && radius[m] <= 1.0))
-      check.failAt("/contact/domain_radius", m, found, "more than 0, at most 1");
+      check.failAt(dataset::kContactDomainRadius.name(), m, found, "more than 0, at most 1");
   }
 }
 
@@ -89,15 +90,18 @@ void checkLevels(const ModelView& v, const Checker& check) {
   constexpr std::size_t kMaxSteps = 100'000;
   constexpr auto kMaxFunctions = static_cast<std::size_t>(MonomialBasis::kMaxCoefficients);
   const std::size_t C = v.level_functions;
-  check.require(C >= 1 && C <= kMaxFunctions, "/levels/Z has " + std::to_string(C) + " level functions",
+  check.require(C >= 1 && C <= kMaxFunctions,
+                dataset::kLevelsZ.name() + " has " + std::to_string(C) + " level functions",
                 "1 to " + std::to_string(kMaxFunctions));
   const std::size_t points = v.levels_Z.size() / C;
-  check.require(points >= 2 && points <= kMaxSteps + 1, "/levels/Z has " + std::to_string(points) + " levels",
+  check.require(points >= 2 && points <= kMaxSteps + 1,
+                dataset::kLevelsZ.name() + " has " + std::to_string(points) + " levels",
                 "2 to " + std::to_string(kMaxSteps + 1));
-  check.finite("/levels/Z", v.levels_Z);
+  check.finite(dataset::kLevelsZ.name(), v.levels_Z);
   for (std::size_t q = 0; q < C; ++q)
     if (v.levels_Z[q * points] != 0.0)
-      check.failAt("/levels/Z", q * points, "is " + text(v.levels_Z[q * points]), "0 at level 0");
+      check.failAt(dataset::kLevelsZ.name(), q * points, "is " + text(v.levels_Z[q * points]),
+                   "0 at level 0");
 }
 
 /// Displacement along the load, e . d(s, t), must rise up to t_max: a level is found by it.   docs/design.md, Reproduction
@@ -115,7 +119,7 @@ void checkRising(const ModelAttributes& a, const ModelView& v, const Checker& ch
     }
     for (std::size_t j = 0; j < last; ++j)
       if (!(along[j + 1] > along[j]))
-        check.failAt("/contact/displacement", m,
+        check.failAt(dataset::kContactDisplacement.name(), m,
                      "along the load goes from " + text(along[j]) + " m to " + text(along[j + 1]) +
                          " m between the levels " + text(double(j) / steps) + " and " +
                          text(double(j + 1) / steps),
@@ -128,43 +132,48 @@ void checkNoNear(const ModelAttributes& a, const ModelView& v, const Checker& ch
   const std::string should =
       "none: a model with parameters \"" + std::string(toString(a.parameters)) + "\" has no near field";
   check.require(a.near_radius == 0.0, "attribute near_radius is " + text(a.near_radius), should);
-  check.require(v.near_node.empty(), "/near/node has " + std::to_string(v.near_node.size()) + " numbers",
+  check.require(v.near_node.empty(),
+                dataset::kNearNode.name() + " has " + std::to_string(v.near_node.size()) + " numbers",
                 should);
 }
 
 void checkPositions(const ModelView& v, const Checker& check) {
-  check.require(v.positions() > 0, "/contact/node is empty", "contact positions");
-  check.indices("/contact/node", v.contact_node, v.surfaceNodes());
-  check.indices("/surface/position_of_node", v.position_of_node, v.positions(), -1);
+  check.require(v.positions() > 0, dataset::kContactNode.name() + " is empty", "contact positions");
+  check.indices(dataset::kContactNode.name(), v.contact_node, v.surfaceNodes());
+  check.indices(dataset::kPositionOfNode.name(), v.position_of_node, v.positions(), -1);
   for (std::size_t m = 0; m < v.positions(); ++m) {
     const std::int32_t back = v.position_of_node[static_cast<std::size_t>(v.contact_node[m])];
     if (back != static_cast<std::int32_t>(m))
-      check.failAt("/contact/node", m, "leads back to position " + std::to_string(back), std::to_string(m));
+      check.failAt(dataset::kContactNode.name(), m, "leads back to position " + std::to_string(back),
+                   std::to_string(m));
     if (v.contact_accessible[m] > 1)
-      check.failAt("/contact/accessible", m, "is " + std::to_string(v.contact_accessible[m]), "0 or 1");
+      check.failAt(dataset::kContactAccessible.name(), m, "is " + std::to_string(v.contact_accessible[m]),
+                   "0 or 1");
   }
   std::size_t used = 0;
   for (const std::int32_t position : v.position_of_node) used += position >= 0 ? 1 : 0;
-  check.require(used == v.positions(),
-                "/surface/position_of_node names " + std::to_string(used) + " positions",
-                "the " + std::to_string(v.positions()) + " of /contact/node, each once");
+  check.require(
+      used == v.positions(),
+      dataset::kPositionOfNode.name() + " names " + std::to_string(used) + " positions",
+      "the " + std::to_string(v.positions()) + " of " + dataset::kContactNode.name() + ", each once");
 }
 
 void checkNear(const ModelView& v, const Checker& check) {
   const auto end = static_cast<std::int64_t>(v.near_node.size());
   const auto Ns = static_cast<std::int64_t>(v.surfaceNodes());
   check.require(v.near_offset.front() == 0,
-                "/near/offset begins with " + std::to_string(v.near_offset.front()), "0");
+                dataset::kNearOffset.name() + " begins with " + std::to_string(v.near_offset.front()), "0");
   for (std::size_t m = 0; m + 1 < v.near_offset.size(); ++m) {
     const std::int64_t first = v.near_offset[m], last = v.near_offset[m + 1];
     if (last < first || last > end || last - first > Ns)
-      check.failAt("/near/offset", m + 1, "is " + std::to_string(last),
+      check.failAt(dataset::kNearOffset.name(), m + 1, "is " + std::to_string(last),
                    "at least " + std::to_string(first) + ", at most " + std::to_string(end) +
                        " and no more than one entry for each surface node");
   }
-  check.require(v.near_offset.back() == end, "/near/offset ends with " + std::to_string(v.near_offset.back()),
-                "the length of /near/node, " + std::to_string(end));
-  check.indices("/near/node", v.near_node, v.surfaceNodes());
+  check.require(v.near_offset.back() == end,
+                dataset::kNearOffset.name() + " ends with " + std::to_string(v.near_offset.back()),
+                "the length of " + dataset::kNearNode.name() + ", " + std::to_string(end));
+  check.indices(dataset::kNearNode.name(), v.near_node, v.surfaceNodes());
 }
 
 /// A block that had a node twice would move it twice, and say otherwise where that node is asked for by itself.
@@ -177,7 +186,7 @@ void checkNearOnce(const ModelView& v, const Checker& check) {
     for (std::size_t i = first; i < end; ++i) {
       const auto node = static_cast<std::size_t>(v.near_node[i]);
       if (std::exchange(last[node], m) == m)
-        check.failAt("/near/node", i, "is " + std::to_string(node) + " again",
+        check.failAt(dataset::kNearNode.name(), i, "is " + std::to_string(node) + " again",
                      "each node once at position " + std::to_string(m));
     }
   }
@@ -189,14 +198,15 @@ void checkScales(const ModelView& v, const ModeCounts& counts, const Checker& ch
   for (std::size_t k = 0; k < v.modes_packed.scale.size(); ++k) {
     const float scale = v.modes_packed.scale[k];
     if (!(std::isfinite(scale) && scale > 0.0F))
-      check.failAt("/modes/scale", k, "is " + text(scale), "more than 0");
+      check.failAt(dataset::kModesScale.name(), k, "is " + text(scale), "more than 0");
     float most = 0.0F;
     for (const float x : v.modes_X.subspan((counts.f32 + k) * numbers, numbers))
       most = std::max(most, std::abs(x));
     const float top = k < counts.i16 ? 32767.0F : 94.0F;  // a shared byte takes 33 of 127
     const float largest = 1.1F * std::max(most / top, kLeastScale);
     if (scale > largest)
-      check.failAt("/modes/scale", k, "is " + text(scale), "at most " + text(largest) + ", as /modes/X is");
+      check.failAt(dataset::kModesScale.name(), k, "is " + text(scale),
+                   "at most " + text(largest) + ", as " + dataset::kModesX.name() + " is");
   }
 }
 
@@ -207,7 +217,7 @@ void checkPacked(const ModelView& v, const Checker& check) {
   const ModeCounts counts = countModes(packed, v.modes());
   const std::size_t most = std::max(counts.i16, counts.inBytes());
   check.require(most <= ModeSelection::kMostModes,
-                "/modes/kinds has " + std::to_string(most) + " modes in int16 or in bytes",
+                dataset::kModesKinds.name() + " has " + std::to_string(most) + " modes in int16 or in bytes",
                 "at most " + std::to_string(ModeSelection::kMostModes));
   checkScales(v, counts, check);
   for (std::size_t mode = counts.f32; mode < v.modes(); ++mode) {
@@ -215,22 +225,23 @@ void checkPacked(const ModelView& v, const Checker& check) {
     for (std::size_t i = 0; i < numbers; ++i) {
       const float x = v.modes_X[mode * numbers + i], found = unpack(packed, counts, mode, i);
       if (!(std::abs(found - x) <= bound))
-        check.failAt(
-            mode < counts.f32 + counts.i16 ? "/modes/int16, of /modes/X" : "/modes/bytes, of /modes/X",
-            mode * numbers + i, "is " + text(found), text(x) + " within " + text(bound));
+        check.failAt(mode < counts.f32 + counts.i16
+                         ? dataset::kModesInt16.name() + ", of " + dataset::kModesX.name()
+                         : dataset::kModesBytes.name() + ", of " + dataset::kModesX.name(),
+                     mode * numbers + i, "is " + text(found), text(x) + " within " + text(bound));
     }
   }
 }
 
 void checkFinite(const ModelView& v, const Checker& check) {
-  check.finite("/surface/positions", v.surface_positions);
-  check.finite("/contact/force", v.contact_force);
-  check.finite("/contact/displacement", v.contact_displacement);
-  check.finite("/contact/domain_radius", v.contact_domain_radius);
-  check.finite("/modes/X", v.modes_X);
-  check.finite("/modes/Y", v.modes_Y);
-  check.finite("/near/field", v.near_field);
-  check.finite("/mesh/nodes", v.mesh_nodes);
+  check.finite(dataset::kSurfacePositions.name(), v.surface_positions);
+  check.finite(dataset::kContactForce.name(), v.contact_force);
+  check.finite(dataset::kContactDisplacement.name(), v.contact_displacement);
+  check.finite(dataset::kContactDomainRadius.name(), v.contact_domain_radius);
+  check.finite(dataset::kModesX.name(), v.modes_X);
+  check.finite(dataset::kModesY.name(), v.modes_Y);
+  check.finite(dataset::kNearField.name(), v.near_field);
+  check.finite(dataset::kMeshNodes.name(), v.mesh_nodes);
 }
 
 }  // namespace
@@ -260,7 +271,7 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   const Checker check(name);
   check.require(v.surfaceNodes() > 0 && v.triangles() > 0, "/surface is empty", "a closed surface");
   checkFinite(v, check);
-  check.indices("/surface/triangles", v.surface_triangles, v.surfaceNodes());
+  check.indices(dataset::kSurfaceTriangles.name(), v.surface_triangles, v.surfaceNodes());
   checkPacked(v, check);
   checkPositions(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
@@ -272,10 +283,10 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
     checkRising(a, v, check);
   }
   const std::size_t N = v.mesh_node_tag.size();
-  check.require(N > 0, "/mesh/nodes is empty", "the volume mesh");
-  check.indices("/mesh/tetrahedra", v.mesh_tetrahedra, N);
-  check.indices("/mesh/fixed", v.mesh_fixed, N);
-  check.indices("/mesh/surface_node", v.mesh_surface_node, N);
+  check.require(N > 0, dataset::kMeshNodes.name() + " is empty", "the volume mesh");
+  check.indices(dataset::kMeshTetrahedra.name(), v.mesh_tetrahedra, N);
+  check.indices(dataset::kMeshFixed.name(), v.mesh_fixed, N);
+  check.indices(dataset::kMeshSurfaceNode.name(), v.mesh_surface_node, N);
 }
 
 }  // namespace palpate

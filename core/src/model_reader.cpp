@@ -6,6 +6,7 @@
 
 #include "hdf5_reader.h"
 #include "model_checks.h"
+#include "palpate/core/datasets.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
 
@@ -54,98 +55,95 @@ ModelAttributes readAttributes(const Hdf5Reader& file) {
   return a;
 }
 
-/// Symbols that more than one dataset has in its shape.
-struct Lengths {
-  Length Ns{"Ns"}, M{"M"}, n{"n"}, C{"C"}, three{3};
-};
-
-Length sizeOf(int order) {
-  return {static_cast<std::uint64_t>(MonomialBasis::size(order))};
+std::uint64_t sizeOf(int order) {
+  return static_cast<std::uint64_t>(MonomialBasis::size(order));
 }
 
 void readSurface(const Hdf5Reader& file, Lengths& size, ModelView& v) {
-  Length T("T");
-  v.surface_positions = file.dataset<double>("surface/positions", {&size.Ns, &size.three});
-  v.surface_triangles = file.dataset<std::int32_t>("surface/triangles", {&T, &size.three});
-  v.surface_mesh_tag = file.dataset<std::int64_t>("surface/mesh_tag", {&size.Ns});
-  v.position_of_node = file.dataset<std::int32_t>("surface/position_of_node", {&size.Ns});
+  v.surface_positions = file.dataset(dataset::kSurfacePositions, size);
+  v.surface_triangles = file.dataset(dataset::kSurfaceTriangles, size);
+  v.surface_mesh_tag = file.dataset(dataset::kSurfaceMeshTag, size);
+  v.position_of_node = file.dataset(dataset::kPositionOfNode, size);
 }
 
 void readLevels(const Hdf5Reader& file, Lengths& size, ModelView& v) {
-  Length points("L + 1");
-  v.levels_Z = file.dataset<double>("levels/Z", {&size.C, &points});
-  v.level_functions = static_cast<std::size_t>(size.C.value);
+  v.levels_Z = file.dataset(dataset::kLevelsZ, size);
+  v.level_functions = static_cast<std::size_t>(size.value("C"));
 }
 
 void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size, ModelView& v) {
-  v.contact_node = file.dataset<std::int32_t>("contact/node", {&size.M});
-  v.contact_accessible = file.dataset<std::uint8_t>("contact/accessible", {&size.M});
+  v.contact_node = file.dataset(dataset::kContactNode, size);
+  v.contact_accessible = file.dataset(dataset::kContactAccessible, size);
   if (a.parameters == Parameters::kDisplacement) {
-    Length Cf = sizeOf(a.force_order);
-    v.contact_force = file.dataset<double>("contact/force", {&size.M, &Cf, &size.three});
+    size.define("Cf", sizeOf(a.force_order));
+    v.contact_force = file.dataset(dataset::kContactForce, size);
   } else {
-    v.contact_displacement = file.dataset<double>("contact/displacement", {&size.M, &size.C, &size.three});
+    v.contact_displacement = file.dataset(dataset::kContactDisplacement, size);
   }
-  v.contact_domain_radius = file.dataset<double>("contact/domain_radius", {&size.M});
+  v.contact_domain_radius = file.dataset(dataset::kContactDomainRadius, size);
 }
 
 /// How many modes are packed in each way, none of them more than there are.
-std::uint64_t readKinds(const Hdf5Reader& file, const Lengths& size, PackedModes& packed) {
-  Length kinds(kPackedKinds);
-  packed.kinds = file.dataset<std::int32_t>("modes/kinds", {&kinds});
+std::uint64_t readKinds(const Hdf5Reader& file, Lengths& size, PackedModes& packed) {
+  size.define("kinds", kPackedKinds);
+  packed.kinds = file.dataset(dataset::kModesKinds, size);
   std::int64_t sum = 0;
   for (std::size_t k = 0; k < kPackedKinds; ++k) {
     if (packed.kinds[k] < 0)
-      file.fail("/modes/kinds number " + std::to_string(k) + " is " + std::to_string(packed.kinds[k]) +
-                ", expected at least 0");
+      file.fail(dataset::kModesKinds.name() + " number " + std::to_string(k) + " is " +
+                std::to_string(packed.kinds[k]) + ", expected at least 0");
     sum += packed.kinds[k];
   }
-  if (static_cast<std::uint64_t>(sum) > size.n.value)
-    file.fail("/modes/kinds adds up to " + std::to_string(sum) + ", expected at most " + size.n.text());
+  if (static_cast<std::uint64_t>(sum) > size.value("n"))
+    file.fail(dataset::kModesKinds.name() + " adds up to " + std::to_string(sum) + ", expected at most " +
+              size["n"].text());
   return static_cast<std::uint64_t>(sum);
 }
 
 /// Modes in mixed precision, of files that have them.
-void readPacked(const Hdf5Reader& file, const Lengths& size, PackedModes& packed) {
-  const auto has = [&](const char* dataset) { return file.hasDataset(dataset); };
+void readPacked(const Hdf5Reader& file, Lengths& size, PackedModes& packed) {
+  const auto has = [&](const char* path) { return file.hasDataset(path); };
   for (const char* old : {"modes/X16", "modes/X8", "modes/scale16", "modes/scale8"})  // never released
     if (has(old))
-      file.fail(std::string("/") + old +
-                " is a storage of modes that is no longer read, expected /modes/int16, " +
-                "bytes, scale and kinds: solve the model again");
-  constexpr std::array kAll{"modes/kinds", "modes/scale", "modes/int16", "modes/bytes"};  // or none of them
+      file.fail(std::string("/") + old + " is a storage of modes that is no longer read, expected " +
+                dataset::kModesInt16.name() + ", bytes, scale and kinds: solve the model again");
+  constexpr std::array kAll{dataset::kModesKinds.path, dataset::kModesScale.path, dataset::kModesInt16.path,
+                            dataset::kModesBytes.path};  // or none of them
   if (std::none_of(kAll.begin(), kAll.end(), has)) return;
-  Length tiles("tiles"), tile(kTile), two(2), four(4), all(readKinds(file, size, packed));
-  packed.scale = file.dataset<float>("modes/scale", {&all});
-  const ModeCounts counts = countModes(packed, static_cast<std::size_t>(size.n.value));
-  Length pairs(counts.pairs()), quads(counts.quads());
-  packed.X16 = file.dataset<std::int16_t>("modes/int16", {&tiles, &pairs, &tile, &two});
-  packed.X8 = file.dataset<std::uint8_t>("modes/bytes", {&tiles, &quads, &tile, &four});
-  if (tiles.value > tilesOf(3 * size.Ns.value))
-    file.fail("/modes/int16 has " + tiles.text() + ", expected at most " +
-              std::to_string(tilesOf(3 * size.Ns.value)));
-  packed.tiles = static_cast<std::size_t>(tiles.value);
+  size.define("packed", readKinds(file, size, packed));
+  packed.scale = file.dataset(dataset::kModesScale, size);
+  const ModeCounts counts = countModes(packed, static_cast<std::size_t>(size.value("n")));
+  size.define("pairs", counts.pairs());
+  size.define("quads", counts.quads());
+  size.define("tile", kTile);
+  packed.X16 = file.dataset(dataset::kModesInt16, size);
+  packed.X8 = file.dataset(dataset::kModesBytes, size);
+  const std::size_t most = tilesOf(3 * size.value("Ns"));
+  if (size.value("tiles") > most)
+    file.fail(dataset::kModesInt16.name() + " has " + size["tiles"].text() + ", expected at most " +
+              std::to_string(most));
+  packed.tiles = static_cast<std::size_t>(size.value("tiles"));
 }
 
 void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {
-  Length components(3 * size.Ns.value), offsets(size.M.value + 1), near("sum K");
-  v.modes_X = file.dataset<float>("modes/X", {&size.n, &components});
-  v.modes_Y = file.dataset<float>("modes/Y", {&size.M, &size.C, &size.n});
+  size.define("3 Ns", 3 * size.value("Ns"));
+  v.modes_X = file.dataset(dataset::kModesX, size);
+  v.modes_Y = file.dataset(dataset::kModesY, size);
   readPacked(file, size, v.modes_packed);
-  v.near_offset = file.dataset<std::int64_t>("near/offset", {&offsets});
-  v.near_node = file.dataset<std::int32_t>("near/node", {&near});
-  Length field(3 * size.C.value * near.value);
-  v.near_field = file.dataset<float>("near/field", {&field});
+  size.define("M + 1", size.value("M") + 1);
+  v.near_offset = file.dataset(dataset::kNearOffset, size);
+  v.near_node = file.dataset(dataset::kNearNode, size);
+  size.define("3 C sum K", 3 * size.value("C") * size.value("sum K"));
+  v.near_field = file.dataset(dataset::kNearField, size);
 }
 
 void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
-  Length N("N"), V("V"), fixed("F"), four(4);
-  v.mesh_nodes = file.dataset<double>("mesh/nodes", {&N, &size.three});
-  v.mesh_tetrahedra = file.dataset<std::int32_t>("mesh/tetrahedra", {&V, &four});
-  v.mesh_node_tag = file.dataset<std::int64_t>("mesh/node_tag", {&N});
-  v.mesh_tetrahedron_tag = file.dataset<std::int64_t>("mesh/tetrahedron_tag", {&V});
-  v.mesh_fixed = file.dataset<std::int32_t>("mesh/fixed", {&fixed});
-  v.mesh_surface_node = file.dataset<std::int32_t>("mesh/surface_node", {&size.Ns});
+  v.mesh_nodes = file.dataset(dataset::kMeshNodes, size);
+  v.mesh_tetrahedra = file.dataset(dataset::kMeshTetrahedra, size);
+  v.mesh_node_tag = file.dataset(dataset::kMeshNodeTag, size);
+  v.mesh_tetrahedron_tag = file.dataset(dataset::kMeshTetrahedronTag, size);
+  v.mesh_fixed = file.dataset(dataset::kMeshFixed, size);
+  v.mesh_surface_node = file.dataset(dataset::kMeshSurfaceNode, size);
 }
 
 }  // namespace
@@ -161,7 +159,7 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
   if (a.parameters == Parameters::kLevel)
     readLevels(file, size, contents.view);
   else
-    size.C = sizeOf(a.order);
+    size.define("C", sizeOf(a.order));
   readContact(file, a, size, contents.view);
   readFields(file, size, contents.view);
   readMesh(file, size, contents.view);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "index.h"
+#include "palpate/core/datasets.h"
 
 namespace palpate {
 
@@ -23,7 +24,8 @@ struct Edge {
 };
 
 [[noreturn]] void refuse(std::int32_t triangle, const std::string& what) {
-  throw std::invalid_argument("/surface/triangles number " + std::to_string(triangle) + " " + what);
+  throw std::invalid_argument(dataset::kSurfaceTriangles.name() + " number " + std::to_string(triangle) +
+                              " " + what);
 }
 
 std::vector<Edge> sortedEdges(std::span<const std::int32_t> triangles) {
@@ -94,7 +96,7 @@ void SurfaceMesh::buildNodeNormals() {
   }
   for (std::size_t i = 0; i < node_normals_.size(); ++i) {
     if (triangle_at_node_[i] < 0)
-      throw std::invalid_argument("/surface/positions number " + std::to_string(i) +
+      throw std::invalid_argument(dataset::kSurfacePositions.name() + " number " + std::to_string(i) +
                                   " belongs to no triangle, expected a closed surface");
     if (!(node_normals_[i].norm() > 0.0)) refuse(triangle_at_node_[i], "has a node without a normal");
     node_normals_[i].normalize();

@@ -6,12 +6,16 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "check_sizes.h"
+#include "palpate/core/datasets.h"
 #include "palpate/core/hdf5_handle.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
@@ -74,18 +78,38 @@ Hdf5Handle createFile(const std::string& path) {
   return file;
 }
 
-void makeGroup(const Hdf5Handle& file, const char* name) {
-  const Hdf5Handle group(H5Gcreate2(file.get(), name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+std::string groupOf(const std::string& path) {
+  return path.substr(0, path.find('/'));
+}
+
+void makeGroup(const Hdf5Handle& file, const std::string& name) {
+  const Hdf5Handle group(H5Gcreate2(file.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Gclose);
   require(group.valid(), name);
 }
 
 void makeGroups(const Hdf5Handle& file) {
-  for (const char* name : {"surface", "contact", "modes", "near", "mesh"}) makeGroup(file, name);
+  for (const char* path : {dataset::kSurfacePositions.path, dataset::kContactNode.path, dataset::kModesX.path,
+                           dataset::kNearNode.path, dataset::kMeshNodes.path})
+    makeGroup(file, groupOf(path));
+}
+
+/// Lengths by the symbols of datasets.h.
+using Lengths = std::map<std::string_view, hsize_t>;
+
+hsize_t lengthOf(std::string_view symbol, const Lengths& lengths) {
+  hsize_t number = 0;
+  const auto [end, error] = std::from_chars(symbol.data(), symbol.data() + symbol.size(), number);
+  return error == std::errc() && end == symbol.data() + symbol.size() ? number : lengths.at(symbol);
 }
 
 template <typename T>
-void writeDataset(const Hdf5Handle& file, const char* name, const std::vector<T>& values,
-                  const Shape& shape) {
+void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, const std::vector<T>& values,
+                  const Lengths& lengths) {
+  const char* const name = what.path;
+  Shape shape;
+  for (const char* symbol : what.shape)
+    if (symbol != nullptr) shape.push_back(lengthOf(symbol, lengths));
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   require(space.valid() && creation.valid(), name);
@@ -157,52 +181,75 @@ void writeAttributes(const Hdf5Handle& file, const ModelAttributes& a) {
 }
 
 /// The contact's answer, of one kind or the other, and the level functions.
-void writeContact(const Hdf5Handle& file, const ModelData& d, hsize_t M, hsize_t C) {
-  writeDataset(file, "contact/node", d.contact_node, {M});
-  writeDataset(file, "contact/accessible", d.contact_accessible, {M});
-  writeDataset(file, "contact/domain_radius", d.contact_domain_radius, {M});
-  if (d.attributes.parameters == Parameters::kDisplacement) {
-    const hsize_t Cf = static_cast<hsize_t>(MonomialBasis::size(forceOrder(d.attributes)));
-    return writeDataset(file, "contact/force", d.contact_force, {M, Cf, 3});
-  }
-  writeDataset(file, "contact/displacement", d.contact_displacement, {M, C, 3});
+void writeContact(const Hdf5Handle& file, const ModelData& d, const Lengths& size) {
+  writeDataset(file, dataset::kContactNode, d.contact_node, size);
+  writeDataset(file, dataset::kContactAccessible, d.contact_accessible, size);
+  writeDataset(file, dataset::kContactDomainRadius, d.contact_domain_radius, size);
+  if (d.attributes.parameters == Parameters::kDisplacement)
+    return writeDataset(file, dataset::kContactForce, d.contact_force, size);
+  writeDataset(file, dataset::kContactDisplacement, d.contact_displacement, size);
   if (d.attributes.parameters != Parameters::kLevel) return;
-  makeGroup(file, "levels");
-  writeDataset(file, "levels/Z", d.levels_Z, {C, d.levels_Z.size() / C});
+  makeGroup(file, groupOf(dataset::kLevelsZ.path));
+  writeDataset(file, dataset::kLevelsZ, d.levels_Z, size);
 }
 
 /// Modes in mixed precision, where there are any.
-void writePacked(const Hdf5Handle& file, const ModelData& d) {
+void writePacked(const Hdf5Handle& file, const ModelData& d, const Lengths& size) {
   const PackedModesData& packed = d.modes_packed;
   if (packed.view().empty()) return;
-  const ModeCounts counts = countModes(packed.view(), modeCount(d));
-  writeDataset(file, "modes/int16", packed.X16, {packed.tiles, counts.pairs(), kTile, 2});
-  writeDataset(file, "modes/bytes", packed.X8, {packed.tiles, counts.quads(), kTile, 4});
-  writeDataset(file, "modes/scale", packed.scale, {counts.packed()});
-  writeDataset(file, "modes/kinds", packed.kinds, {kPackedKinds});
+  writeDataset(file, dataset::kModesInt16, packed.X16, size);
+  writeDataset(file, dataset::kModesBytes, packed.X8, size);
+  writeDataset(file, dataset::kModesScale, packed.scale, size);
+  writeDataset(file, dataset::kModesKinds, packed.kinds, size);
+}
+
+Lengths lengthsOf(const ModelData& d) {
+  const hsize_t Ns = d.surface_mesh_tag.size(), M = d.contact_node.size(), C = fieldCoefficients(d);
+  Lengths size{{"Ns", Ns},
+               {"3 Ns", 3 * Ns},
+               {"T", d.surface_triangles.size() / 3},
+               {"M", M},
+               {"M + 1", M + 1},
+               {"C", C},
+               {"L + 1", d.levels_Z.size() / C},
+               {"n", modeCount(d)},
+               {"kinds", kPackedKinds},
+               {"tile", kTile},
+               {"sum K", d.near_node.size()},
+               {"3 C sum K", d.near_field.size()},
+               {"N", d.mesh_node_tag.size()},
+               {"V", d.mesh_tetrahedron_tag.size()},
+               {"F", d.mesh_fixed.size()}};
+  if (d.attributes.parameters == Parameters::kDisplacement)
+    size["Cf"] = static_cast<hsize_t>(MonomialBasis::size(forceOrder(d.attributes)));
+  if (d.modes_packed.view().empty()) return size;
+  const ModeCounts counts = countModes(d.modes_packed.view(), modeCount(d));
+  size["tiles"] = d.modes_packed.tiles;
+  size["pairs"] = counts.pairs();
+  size["quads"] = counts.quads();
+  size["packed"] = counts.packed();
+  return size;
 }
 
 void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
-  const hsize_t Ns = d.surface_mesh_tag.size(), M = d.contact_node.size();
-  const hsize_t C = fieldCoefficients(d);
-  const hsize_t n = modeCount(d);
-  writeDataset(file, "surface/positions", d.surface_positions, {Ns, 3});
-  writeDataset(file, "surface/triangles", d.surface_triangles, {d.surface_triangles.size() / 3, 3});
-  writeDataset(file, "surface/mesh_tag", d.surface_mesh_tag, {Ns});
-  writeDataset(file, "surface/position_of_node", d.position_of_node, {Ns});
-  writeContact(file, d, M, C);
-  writeDataset(file, "modes/X", d.modes_X, {n, 3 * Ns});
-  writeDataset(file, "modes/Y", d.modes_Y, {M, C, n});
-  writePacked(file, d);
-  writeDataset(file, "near/offset", d.near_offset, {M + 1});
-  writeDataset(file, "near/node", d.near_node, {d.near_node.size()});
-  writeDataset(file, "near/field", d.near_field, {d.near_field.size()});
-  writeDataset(file, "mesh/nodes", d.mesh_nodes, {d.mesh_node_tag.size(), 3});
-  writeDataset(file, "mesh/tetrahedra", d.mesh_tetrahedra, {d.mesh_tetrahedron_tag.size(), 4});
-  writeDataset(file, "mesh/node_tag", d.mesh_node_tag, {d.mesh_node_tag.size()});
-  writeDataset(file, "mesh/tetrahedron_tag", d.mesh_tetrahedron_tag, {d.mesh_tetrahedron_tag.size()});
-  writeDataset(file, "mesh/fixed", d.mesh_fixed, {d.mesh_fixed.size()});
-  writeDataset(file, "mesh/surface_node", d.mesh_surface_node, {Ns});
+  const Lengths size = lengthsOf(d);
+  writeDataset(file, dataset::kSurfacePositions, d.surface_positions, size);
+  writeDataset(file, dataset::kSurfaceTriangles, d.surface_triangles, size);
+  writeDataset(file, dataset::kSurfaceMeshTag, d.surface_mesh_tag, size);
+  writeDataset(file, dataset::kPositionOfNode, d.position_of_node, size);
+  writeContact(file, d, size);
+  writeDataset(file, dataset::kModesX, d.modes_X, size);
+  writeDataset(file, dataset::kModesY, d.modes_Y, size);
+  writePacked(file, d, size);
+  writeDataset(file, dataset::kNearOffset, d.near_offset, size);
+  writeDataset(file, dataset::kNearNode, d.near_node, size);
+  writeDataset(file, dataset::kNearField, d.near_field, size);
+  writeDataset(file, dataset::kMeshNodes, d.mesh_nodes, size);
+  writeDataset(file, dataset::kMeshTetrahedra, d.mesh_tetrahedra, size);
+  writeDataset(file, dataset::kMeshNodeTag, d.mesh_node_tag, size);
+  writeDataset(file, dataset::kMeshTetrahedronTag, d.mesh_tetrahedron_tag, size);
+  writeDataset(file, dataset::kMeshFixed, d.mesh_fixed, size);
+  writeDataset(file, dataset::kMeshSurfaceNode, d.mesh_surface_node, size);
 }
 
 /// The data have to be on the disk before the name points to them: else a crash could leave a name without a

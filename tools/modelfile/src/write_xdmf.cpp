@@ -6,7 +6,9 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <type_traits>
 
+#include "palpate/core/datasets.h"
 #include "palpate/core/meta_model.h"
 #include "palpate/modelfile/model_data.h"
 
@@ -30,10 +32,11 @@ std::string escaped(const std::string& text) {
 }
 
 /// A reference to a whole dataset of the model file.
-std::string dataItem(const std::string& file, const char* dataset, const std::string& shape, const char* type,
-                     int bytes) {
-  return "<DataItem Format=\"HDF\" Dimensions=\"" + shape + "\" NumberType=\"" + type + "\" Precision=\"" +
-         std::to_string(bytes) + "\">" + file + ":/" + dataset + "</DataItem>";
+template <class T>
+std::string dataItem(const std::string& file, const Dataset<T>& dataset, const std::string& shape) {
+  return "<DataItem Format=\"HDF\" Dimensions=\"" + shape + "\" NumberType=\"" +
+         (std::is_floating_point_v<T> ? "Float" : "Int") + "\" Precision=\"" + std::to_string(sizeof(T)) +
+         "\">" + file + ":" + dataset.name() + "</DataItem>";
 }
 
 /// Mode k is row k of /modes/X, read as one vector for each surface node.
@@ -44,7 +47,7 @@ std::string mode(const std::string& file, std::size_t k, std::size_t modes, std:
       << "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"" << nodes << " 3\">\n"
       << "          <DataItem Format=\"XML\" Dimensions=\"3 2\">" << k << " 0  1 1  1 " << row
       << "</DataItem>\n"
-      << "          " << dataItem(file, "modes/X", std::to_string(modes) + " " + row, "Float", 4) << "\n"
+      << "          " << dataItem(file, dataset::kModesX, std::to_string(modes) + " " + row) << "\n"
       << "        </DataItem>\n"
       << "      </Attribute>\n";
   return out.str();
@@ -54,16 +57,14 @@ void writeGrid(std::ostream& out, const std::string& file, const ModelView& v) {
   const std::size_t nodes = v.surfaceNodes(), triangles = v.triangles();
   out << "    <Grid Name=\"rest surface\" GridType=\"Uniform\">\n"
       << "      <Topology TopologyType=\"Triangle\" NumberOfElements=\"" << triangles << "\">\n        "
-      << dataItem(file, "surface/triangles", std::to_string(triangles) + " 3", "Int", 4)
+      << dataItem(file, dataset::kSurfaceTriangles, std::to_string(triangles) + " 3")
       << "\n      </Topology>\n"
       << "      <Geometry GeometryType=\"XYZ\">\n        "
-      << dataItem(file, "surface/positions", std::to_string(nodes) + " 3", "Float", 8)
-      << "\n      </Geometry>\n"
+      << dataItem(file, dataset::kSurfacePositions, std::to_string(nodes) + " 3") << "\n      </Geometry>\n"
       << "      <Attribute Name=\"mesh tag\" AttributeType=\"Scalar\" Center=\"Node\">\n        "
-      << dataItem(file, "surface/mesh_tag", std::to_string(nodes), "Int", 8) << "\n      </Attribute>\n"
+      << dataItem(file, dataset::kSurfaceMeshTag, std::to_string(nodes)) << "\n      </Attribute>\n"
       << "      <Attribute Name=\"contact position\" AttributeType=\"Scalar\" Center=\"Node\">\n        "
-      << dataItem(file, "surface/position_of_node", std::to_string(nodes), "Int", 4)
-      << "\n      </Attribute>\n";
+      << dataItem(file, dataset::kPositionOfNode, std::to_string(nodes)) << "\n      </Attribute>\n";
   for (std::size_t k = 0; k < v.modes(); ++k) out << mode(file, k, v.modes(), nodes);
   out << "    </Grid>\n";
 }

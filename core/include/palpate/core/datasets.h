@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace palpate {
+
+/// One dataset of a model file (docs/model_file.md). T is the type of its numbers.
+/// Shape: a length is a number, a symbol that the first dataset with it defines, or one that reader and writer compute
+/// ("3 Ns", "Cf"). Row-major; empty entries end the shape.
+template <class T>
+struct Dataset {
+  using Number = T;
+  const char* path;  ///< "contact/force"
+  std::array<const char*, 4> shape;
+  const char* unit;  ///< empty: none
+
+  /// As messages name it: "/contact/force".
+  [[nodiscard]] std::string name() const { return std::string("/") + path; }
+};
+
+/// All datasets: the only place that spells their paths, types, shapes and units. Ns surface nodes, T triangles, M contact
+/// positions, C coefficients of the fields, Cf of the contact's force, n modes, K near nodes of a position, N volume
+/// nodes, V tetrahedra, F fixed nodes.
+namespace dataset {
+inline constexpr Dataset<double> kSurfacePositions{"surface/positions", {"Ns", "3"}, "m"};
+inline constexpr Dataset<std::int32_t> kSurfaceTriangles{"surface/triangles", {"T", "3"}, ""};
+inline constexpr Dataset<std::int64_t> kSurfaceMeshTag{"surface/mesh_tag", {"Ns"}, ""};
+inline constexpr Dataset<std::int32_t> kPositionOfNode{"surface/position_of_node", {"Ns"}, ""};
+
+inline constexpr Dataset<std::int32_t> kContactNode{"contact/node", {"M"}, ""};
+inline constexpr Dataset<std::uint8_t> kContactAccessible{"contact/accessible", {"M"}, ""};
+inline constexpr Dataset<double> kContactDomainRadius{"contact/domain_radius", {"M"}, "m, N or none"};
+/// "displacement" models only.
+inline constexpr Dataset<double> kContactForce{"contact/force", {"M", "Cf", "3"}, "N"};
+/// "force" and "level" models only.
+inline constexpr Dataset<double> kContactDisplacement{"contact/displacement", {"M", "C", "3"}, "m"};
+/// "level" models only.
+inline constexpr Dataset<double> kLevelsZ{"levels/Z", {"C", "L + 1"}, ""};
+
+inline constexpr Dataset<float> kModesX{"modes/X", {"n", "3 Ns"}, ""};
+inline constexpr Dataset<float> kModesY{"modes/Y", {"M", "C", "n"}, "m"};
+// Modes in mixed precision: all four, or none.
+inline constexpr Dataset<std::int16_t> kModesInt16{"modes/int16", {"tiles", "pairs", "tile", "2"}, ""};
+inline constexpr Dataset<std::uint8_t> kModesBytes{"modes/bytes", {"tiles", "quads", "tile", "4"}, ""};
+inline constexpr Dataset<float> kModesScale{"modes/scale", {"packed"}, ""};
+inline constexpr Dataset<std::int32_t> kModesKinds{"modes/kinds", {"kinds"}, ""};
+
+inline constexpr Dataset<std::int64_t> kNearOffset{"near/offset", {"M + 1"}, ""};
+inline constexpr Dataset<std::int32_t> kNearNode{"near/node", {"sum K"}, ""};
+inline constexpr Dataset<float> kNearField{"near/field", {"3 C sum K"}, "m"};
+
+inline constexpr Dataset<double> kMeshNodes{"mesh/nodes", {"N", "3"}, "m"};
+inline constexpr Dataset<std::int32_t> kMeshTetrahedra{"mesh/tetrahedra", {"V", "4"}, ""};
+inline constexpr Dataset<std::int64_t> kMeshNodeTag{"mesh/node_tag", {"N"}, ""};
+inline constexpr Dataset<std::int64_t> kMeshTetrahedronTag{"mesh/tetrahedron_tag", {"V"}, ""};
+inline constexpr Dataset<std::int32_t> kMeshFixed{"mesh/fixed", {"F"}, ""};
+inline constexpr Dataset<std::int32_t> kMeshSurfaceNode{"mesh/surface_node", {"Ns"}, ""};
+}  // namespace dataset
+
+}  // namespace palpate
