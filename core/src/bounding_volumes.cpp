@@ -138,12 +138,12 @@ BoundingVolumes::Hit BoundingVolumes::closest(const Vec3& p) const noexcept PALP
     const std::size_t bottom = depth;
     for (std::size_t k = 0; k < kChildren; ++k) {
       if (!(distances[k] < best.where.squared_distance)) continue;
-      std::size_t at = depth++;  // the nearest on top: looked at first, it often spares us the others
+      std::size_t at = depth++;  // the nearest on top: visited first, it often rules out the others
       for (; at > bottom && stack[at - 1].squared_distance < distances[k]; --at) stack[at] = stack[at - 1];
       stack[at] = {node.child[k], distances[k]};
     }
   }
-  return best.triangle < 0 ? Hit{0, hit(0, p)} : best;  // farther than a square can be told: any will do
+  return best.triangle < 0 ? Hit{0, hit(0, p)} : best;  // all squares overflow: any triangle will do
 }
 
 }  // namespace palpate

@@ -6,7 +6,7 @@
 namespace palpate {
 
 Vec3 clampToDomain(const Vec3& d, double radius) noexcept PALPATE_NONBLOCKING {
-  const double length = lengthOf(d);  // |d|^2 of a huge displacement overflows
+  const double length = lengthOf(d);  // |d|^2 of a huge d overflows
   return length > radius ? Vec3((radius / length) * d) : d;
 }
 

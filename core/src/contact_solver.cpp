@@ -11,23 +11,23 @@ namespace {
 
 constexpr double kSmallForce = 1e-3;  // N, less than a device shows
 
-/// Whether the organ would have to pull the tool, or gives no force to one that is withdrawn: a load that only
-/// pushes (Parameters::kLevel) cannot pull. What is no number does not pull: it is left for the tick to find.
+/// Whether the organ would pull the tool, or a load that can only push (Parameters::kLevel) gives a withdrawn tool no
+/// force. NaN does not count as pulling: the tick finds it.
 bool pulls(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   const Vec3& f = contact.coupled.response.force;
   if (f == Vec3::Zero() && contact.imposed.dot(contact.normal) > 0.0) return true;
   return f.dot(contact.normal) > 0.0;
 }
 
-/// Lets go. What is left of the force, along the surface, is a jump.
+/// Releases the contact. A remaining force, along the surface, is a jump.
 void letGo(Contact& contact) noexcept PALPATE_NONBLOCKING {
   const bool felt = !(contact.coupled.response.force.norm() < kSmallForce);
   ContactSolver::release(contact);
   contact.jumped = felt;
 }
 
-/// Whether the tip has come no deeper than it could in one tick, and what it feels is owed to that. In the dent of
-/// another tool the tangent there may give it some force at once.
+/// Whether the tip is no deeper than one tick can bring it, and its force is explained by that. In the dent of
+/// another tool the tangent may give it a force at once.
 bool beganSoftly(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   constexpr double kDeep = 1e-3;  // m; from outside a tool has to be faster than 1 m/s for that
   const double depth = (contact.imposed - contact.carried.constant).norm();

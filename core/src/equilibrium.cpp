@@ -86,7 +86,7 @@ Vec2 Equilibrium::stepOf(const Slip& slip) noexcept PALPATE_NONBLOCKING {
   return step * std::min(1.0, kLongestStep / std::max(step.norm(), kLongestStep));
 }
 
-/// Moves the anchor. @return false when it stays where it was, or has no answer where it came to
+/// Moves the anchor. @return false when it did not move, or the model has no answer at the new place
 bool Equilibrium::slideBy(const Vec2& step) noexcept PALPATE_NONBLOCKING {
   constexpr double kShortestStep = 1e-9;  // m
   if (!step.allFinite()) return false;
@@ -107,7 +107,7 @@ bool Equilibrium::slideBy(const Vec2& step) noexcept PALPATE_NONBLOCKING {
   return false;
 }
 
-/// A load of one direction is no force that friction could be judged by: its anchor sticks.
+/// Friction cannot be judged by a load of fixed direction: its anchor sticks.
 bool Equilibrium::slides() const noexcept PALPATE_NONBLOCKING {
   return std::isfinite(law_.friction) && model_.attributes().parameters != Parameters::kLevel;
 }
@@ -120,7 +120,8 @@ bool Equilibrium::slide() noexcept PALPATE_NONBLOCKING {
   if (!balance()) return false;
   const Response& response = contact_.coupled.response;
   if (!slides() || !response.force.allFinite()) return true;
-  if (contact_.coupled.stiffness == Mat3::Zero()) return true;  // beyond a fold: where to slide, nothing says
+  if (contact_.coupled.stiffness == Mat3::Zero())
+    return true;  // beyond a fold no direction to slide is known
   int stopped = 0;
   Slip now = slip();
   for (int i = 0; i < kMaxSlides && now.excess > kTolerance * response.force.norm() + kLeastForce; ++i) {
@@ -137,7 +138,7 @@ bool Equilibrium::slide() noexcept PALPATE_NONBLOCKING {
   return true;
 }
 
-/// J does not know how dW/ds changes along the way; the step that was made shows it (Broyden's update, C. G. Broyden,
+/// J does not know how dW/ds changes along the way; the last step shows it (Broyden's update, C. G. Broyden,
 /// Math. Comp. 19 (1965) 577-593).
 Equilibrium::Slip Equilibrium::learned(Slip next, const Start& start,
                                        const Slip& from) const noexcept PALPATE_NONBLOCKING {

@@ -13,7 +13,7 @@ namespace palpate {
 
 namespace {
 
-/// Of the symmetric part, by its leading minors; false for what is no number.
+/// Of the symmetric part, by its leading minors; false for NaN.
 bool isPositiveDefinite(const Mat3& A) noexcept PALPATE_NONBLOCKING {
   const Mat3 S = 0.5 * (A + A.transpose());
   return S(0, 0) > 0.0 && S.topLeftCorner<2, 2>().determinant() > 0.0 && S.determinant() > 0.0;

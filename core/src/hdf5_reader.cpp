@@ -147,7 +147,7 @@ double Hdf5Reader::number(const char* attribute) const {
 int Hdf5Reader::integer(const char* attribute) const {
   const Hdf5Handle handle = openAttribute(attribute, 1);
   const Hdf5Handle type(H5Aget_type(handle.get()), H5Tclose);
-  int value = 0;  // HDF5 saturates larger integers, so that a wild one stays out of range
+  int value = 0;  // HDF5 saturates larger integers, so that a huge one stays out of range
   if (H5Tget_class(type.get()) != H5T_INTEGER || H5Aread(handle.get(), H5T_NATIVE_INT, &value) < 0)
     fail(std::string("attribute ") + attribute + " is " + describeType(type.get()) + ", expected an integer");
   return value;

@@ -84,7 +84,7 @@ class Hdf5Reader {
   [[nodiscard]] const std::byte* place(const std::string& path, std::int64_t dataset,
                                        std::uint64_t bytes) const;
 
-  Hdf5Silence silence_;  // first: HDF5 says nothing from the opening to the end
+  Hdf5Silence silence_;  // first: silences HDF5 from opening to closing
   const SealedImage& image_;
   std::string name_;
   Hdf5Handle file_;

@@ -81,7 +81,7 @@ int lastStep(double limit, int steps) noexcept PALPATE_NONBLOCKING {
 
 ResponseStatus answerToLevel(const ContactSeries& series, const ModelAttributes& attributes, double t,
                              Response& out) noexcept PALPATE_NONBLOCKING {
-  const double used = t > 0.0 ? std::min(t, series.limit()) : 0.0;  // what is no number is at rest
+  const double used = t > 0.0 ? std::min(t, series.limit()) : 0.0;  // NaN is at rest
   const double slope = directionOf(attributes).dot(series.gradient({used, 0.0, 0.0}).col(0));
   const ResponseStatus status = used == t ? ResponseStatus::kOk : ResponseStatus::kClamped;
   return settle(series, attributes, used, slope, status, out);

@@ -10,13 +10,13 @@ namespace palpate {
 /// The step that a level range [0, limit] of `steps` steps per unit ends in; at least 1.
 [[nodiscard]] int lastStep(double limit, int steps) noexcept PALPATE_NONBLOCKING;
 
-/// d(s, t) and f = t load e, t clamped to [0, t_max], 0 if it is no number; stiffness load e e^T / (e . dd/dt).
+/// d(s, t) and f = t load e, t clamped to [0, t_max], NaN as 0; stiffness load e e^T / (e . dd/dt).
 [[nodiscard]] ResponseStatus answerToLevel(const ContactSeries& series, const ModelAttributes& attributes,
                                            double t, Response& out) noexcept PALPATE_NONBLOCKING;
 
 /// The level with e . d(s, t) = e . d, e the load's direction: only one number is free. Bisection over the
 /// steps, then exact within one; the loader saw to it that e . d(s, t) rises at each position up to its t_max.
-/// e . d <= 0, or no number, gives t = 0. Cost at most 18 evaluations.
+/// e . d <= 0 or NaN gives t = 0. Cost at most 18 evaluations.
 [[nodiscard]] ResponseStatus findLevel(const ContactSeries& series, const ModelAttributes& attributes,
                                        const Vec3& d, Response& out) noexcept PALPATE_NONBLOCKING;
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostFriction = kLiveParameters[1].high;
 static_assert(kLiveFields<LiveParameters>[1] == &LiveParameters::friction);
 
-/// From a to b; at once when only one of them is a number.
+/// From a to b; at once when one of them is infinite.
 double mix(double a, double b, double weight) noexcept PALPATE_NONBLOCKING {
   if (a == b || weight >= 1.0 || std::isinf(a) || std::isinf(b)) return b;
   return (1.0 - weight) * a + weight * b;

@@ -10,8 +10,7 @@
 namespace palpate {
 
 MetaModel MetaModel::load(const std::filesystem::path& path) {
-  SealedImage image(
-      path);  // first: whatever happens to the file from here on, the copy stays what was checked
+  SealedImage image(path);  // first: later changes of the file do not reach the copy that was checked
   ModelContents contents = readModel(image, path.string());
   checkContents(contents.attributes, contents.view, path.string());
   try {

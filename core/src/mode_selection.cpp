@@ -13,10 +13,10 @@ namespace palpate {
 
 namespace {
 
-/// Sizes by half octaves below the tolerance: what lies more than 16 octaves below is in the first one.
+/// Sizes by half octaves below the tolerance: what lies more than 16 octaves below falls in the first.
 constexpr int kBuckets = 32;
 
-/// 0 to kBuckets - 1 for share < 1, kBuckets for more or what is no number.
+/// 0 to kBuckets - 1 for share < 1, kBuckets for more or NaN.
 int bucketOf(float share) noexcept {
   if (!(share < 1.0F)) return kBuckets;
   constexpr int kOne = 127 * 2;  // of 1.0F: exponent and first bit of the mantissa
@@ -28,8 +28,8 @@ int rounded(float x) noexcept {
   return static_cast<int>(x + std::copysign(0.5F, x));
 }
 
-/// Whole numbers leave up to 1 / 113 of a pair's larger amplitude, 1 / 2200 on average. A quad of which more than this
-/// is left, in units, is added once more, with what is left: its bytes are at hand. A unit is the sum of all amplitudes
+/// Whole-number weights leave up to 1 / 113 of a pair's larger amplitude, 1 / 2200 on average. If a quad's residual is
+/// larger than this, in units, a second pass adds it while its bytes are in the cache. A unit is the sum of all amplitudes
 /// over 2^24, or somewhat more; weights are rounded by up to 64.
 constexpr float kLeft = 512.0F;
 
@@ -79,7 +79,7 @@ bool ModeSelection::seen(std::size_t group) const noexcept PALPATE_NONBLOCKING {
   return first_seen_ == 0 || bucketOf(group_[group]) >= first_seen_;
 }
 
-/// Weights in units of what is returned; 0: all of them are none, or no numbers.
+/// Weights in units of what is returned; 0: all are zero, or not finite.
 float ModeSelection::findWeights(std::span<const float> y,
                                  std::span<const float> scale) noexcept PALPATE_NONBLOCKING {
   float sum = 0.0F, most = 0.0F;
@@ -166,7 +166,7 @@ void ModeSelection::chooseBytes(std::span<const float> y,
     again_[again] = static_cast<std::uint32_t>(quad);
     again += std::max(left_[2 * quad], left_[2 * quad + 1]) > kLeft * unit8_ ? 1 : 0;
   }
-  for (std::size_t k = 0; k < 2 * again; ++k) {  // to the front, which nobody needs any more
+  for (std::size_t k = 0; k < 2 * again; ++k) {  // to the front, whose entries are used up
     const std::size_t pair = 2 * std::size_t{again_[k / 2]} + k % 2;
     even_[k] = even_[pair];
     odd_[k] = odd_[pair];

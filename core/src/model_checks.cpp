@@ -21,7 +21,7 @@ namespace palpate {
 
 namespace {
 
-/// 12 digits: what is wrong with a number may be in its last ones.
+/// 12 digits: the last ones may be what is wrong.
 std::string text(double value) {
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), "%.12g", value);
@@ -176,7 +176,7 @@ void checkNear(const ModelView& v, const Checker& check) {
   check.indices(dataset::kNearNode.name(), v.near_node, v.surfaceNodes());
 }
 
-/// A block that had a node twice would move it twice, and say otherwise where that node is asked for by itself.
+/// A block that lists a node twice would move it twice in the field and once in a query of that node.
 void checkNearOnce(const ModelView& v, const Checker& check) {
   std::vector<std::size_t> last(v.surfaceNodes(),
                                 v.positions());  // position that had the node last; none yet
@@ -192,7 +192,7 @@ void checkNearOnce(const ModelView& v, const Checker& check) {
   }
 }
 
-/// No scale so large that a mode would be rounded to nothing, or that its weight would leave none to the others.
+/// A larger scale would round a mode to nothing, or its weight would leave no range to the others.
 void checkScales(const ModelView& v, const ModeCounts& counts, const Checker& check) {
   const std::size_t numbers = 3 * v.surfaceNodes();
   for (std::size_t k = 0; k < v.modes_packed.scale.size(); ++k) {
@@ -210,7 +210,7 @@ void checkScales(const ModelView& v, const ModeCounts& counts, const Checker& ch
   }
 }
 
-/// What the tick reads is what X says, rounded.
+/// The packed modes are those of X, rounded.
 void checkPacked(const ModelView& v, const Checker& check) {
   const PackedModes& packed = v.modes_packed;
   const std::size_t numbers = 3 * v.surfaceNodes();

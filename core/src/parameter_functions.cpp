@@ -33,7 +33,7 @@ ParameterFunctions::ParameterFunctions(const ModelView& view, const ModelAttribu
 }
 
 ParameterFunctions::Place ParameterFunctions::place(double t) const noexcept PALPATE_NONBLOCKING {
-  const double at = (t > 0.0 ? std::min(t, 1.0) : 0.0) * level_steps_;  // what is no number is at rest
+  const double at = (t > 0.0 ? std::min(t, 1.0) : 0.0) * level_steps_;  // NaN is at rest
   const int step = std::min(static_cast<int>(at), level_steps_ - 1);
   return {static_cast<std::size_t>(step), at - step};
 }

@@ -24,7 +24,7 @@ class SmallSquare {
   [[nodiscard]] const double* row(std::size_t i) const noexcept PALPATE_NONBLOCKING {
     return number_.data() + i * kMost;
   }
-  /// The 3 x 3 part that stands for tools a (rows) and b (columns).
+  /// The 3 x 3 block of tools a (rows) and b (columns).
   [[nodiscard]] Mat3 part(std::size_t a, std::size_t b) const noexcept PALPATE_NONBLOCKING;
   void setPart(std::size_t a, std::size_t b, const Mat3& part) noexcept PALPATE_NONBLOCKING;
 

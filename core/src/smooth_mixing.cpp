@@ -108,7 +108,7 @@ void SmoothMixing::addTriangle(const ModelView& view, std::size_t triangle,
 
 Stencil SmoothMixing::at(const SurfaceMesh& surface,
                          const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
-  Stencil stencil;  // the one that is returned on every way out, so that it is not copied
+  Stencil stencil;  // returned on every path, so that it is not copied
   if (s.triangle < 0 || s.triangle >= surface.triangles() || !surface.complete(s.triangle)) {
     mixLinearly(surface.mix(s), stencil);
     return stencil;

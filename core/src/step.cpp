@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-/// One tick over one workspace.
+/// One step() over one workspace.
 class Stepper {
  public:
   Stepper(const MetaModel& model, Workspace& work, const StepInput& input) noexcept PALPATE_NONBLOCKING
@@ -42,17 +42,17 @@ class Stepper {
   [[nodiscard]] bool showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING;
   void report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING;
 
-  static constexpr double kStall = 0.01;  // s; in a faster loop, ten periods are no time that a hand notices
+  static constexpr double kStall = 0.01;  // s; in a faster loop, a hand does not notice ten periods
 
   const MetaModel& model_;
   Workspace& work_;
   const StepInput& input_;
   double dt_;
-  double period_;   // s; 1 ms when the caller's is none
-  double ramp_dt_;  // s that ramps go on by: what a loop that stood still missed is no time to ramp in
+  double period_;   // s; the caller's, or 1 ms
+  double ramp_dt_;  // s that ramps advance: without the time that the loop stood still
   bool disturbed_;  // the loop stood still, or a parameter changed at once: no force follows from the last
-  bool jumped_{false};  // some tool's contact did, in this tick
-  bool shaken_;         // some tool's contact did in the tick before: what the others feel of it jumps now
+  bool jumped_{false};  // a contact jumped in this tick
+  bool shaken_;         // a contact jumped in the last tick: what other tools feel of it jumps now
   std::array<Vec3, kMaxTools> shown_;  // u at each tool's anchor, m
 };
 
@@ -65,10 +65,9 @@ void store(const Vector& from, std::array<double, N>& to) noexcept PALPATE_NONBL
 
 }  // namespace
 
-/// Flags of the pose itself; 0 when it can be followed.
+/// Flags of the pose itself; 0 when it is usable.
 std::uint32_t Stepper::judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING {
-  constexpr double kFarthest =
-      1000.0;  // m; an organ and its tools are not that far apart, and squares stay finite
+  constexpr double kFarthest = 1000.0;  // m; larger than any scene, and squares stay finite
   for (const double x : tool.position)
     if (!(std::abs(x) <= kFarthest)) return kNonFinitePose;
   double square = 0.0;
@@ -79,8 +78,8 @@ std::uint32_t Stepper::judge(const ToolInput& tool) const noexcept PALPATE_NONBL
   return std::abs(std::sqrt(square) - 1.0) <= work_.config_.quaternion_tolerance ? 0 : kNonUnitQuaternion;
 }
 
-/// Whether a good pose is farther from the last one than a tool may get in the time between: by the poses' own arrival,
-/// and a little more, because they arrive unevenly.
+/// Whether a good pose is farther from the last one than a tool may move in the time between their arrivals,
+/// and a margin, because poses arrive unevenly.
 bool Stepper::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   constexpr double kUneven = 2e-3;  // s
   if (!memory.known) return false;
@@ -94,7 +93,7 @@ ContactLaw Stepper::law() const noexcept PALPATE_NONBLOCKING {
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
 }
 
-/// Live parameters go on; a change at once disturbs the contacts.
+/// Advances the live parameters; one that changes at once disturbs the contacts.
 void Stepper::changeLive() noexcept PALPATE_NONBLOCKING {
   double largest = 0.0;
   for (const ToolMemory& memory : work_.tools_) largest = std::max(largest, memory.rendering.rendered.norm());
@@ -103,7 +102,7 @@ void Stepper::changeLive() noexcept PALPATE_NONBLOCKING {
   disturbed_ = disturbed_ || live.jumped();
 }
 
-/// Moves the contact to a pose. @return false when the model's answer is no number; then nothing has moved
+/// Moves the contact to a pose. @return false when the model's answer is not finite; then nothing has moved
 bool Stepper::follow(const ToolInput& tool, ToolMemory& memory,
                      ToolResult& out) noexcept PALPATE_NONBLOCKING {
   const Contact before = memory.contact;
@@ -111,7 +110,7 @@ bool Stepper::follow(const ToolInput& tool, ToolMemory& memory,
   if (leapt(tool, memory)) {
     out.flags |= kPoseJump;
     ContactSolver::release(memory.contact);
-    memory.contact.overlapping = true;  // whatever it meets, it does not come to it from outside
+    memory.contact.overlapping = true;  // so a capture counts as a jump
     memory.leapt = true;
   }
   work_.solver_.update(model_, law(), c, memory.contact);
@@ -152,7 +151,7 @@ void Stepper::advance(const ToolInput& tool, ToolMemory& memory,
   render(memory, !good, jumped, out);
 }
 
-/// Limits and fades the force. A contact whose force has faded to nothing is given up.
+/// Limits and fades the force. Releases a contact whose force has faded to zero.
 void Stepper::render(ToolMemory& memory, bool held, bool jumped,
                      ToolResult& out) noexcept PALPATE_NONBLOCKING {
   LimiterInput in;
@@ -182,8 +181,8 @@ void Stepper::render(ToolMemory& memory, bool held, bool jumped,
     out.stiffness[i] = limited.stiffness(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
 }
 
-/// The surface as shown. Where a contact jumps, the field moves over like the force does: the weight of the
-/// field before falls from 1 to 0 within ramp_time. One weight for the whole field, so that a second jump
+/// The surface as shown. Where a contact jumps, the field blends over like the force: the weight of the
+/// old field falls from 1 to 0 within ramp_time. One weight for the whole field, so that a second jump
 /// starts from what is shown.
 void Stepper::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
   double& blend = work_.displacement_blend_;
@@ -195,7 +194,7 @@ void Stepper::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
   blend = ramp_time > 0.0 ? std::max(0.0, blend - ramp_dt_ / ramp_time) : 0.0;
   const ToolSurface surface(model_, work_.tools_, work_.scratch_);
   work_.sources_.keep(surface.sources());
-  const bool overflowed = std::exchange(work_.overflowed_, false);  // it is found again as long as it lasts
+  const bool overflowed = std::exchange(work_.overflowed_, false);  // found again while it lasts
   const bool finite = showAnchors(surface) && !overflowed;
   if (finite) return;
   for (ToolResult& out : result.tools)

@@ -38,7 +38,7 @@ std::string complaintOf(const Range& range) {
 std::string dampingComplaint(const LiveParameters& parameters) {
   const double most = kLongestCouplingTime * parameters.coupling_stiffness;
   if (parameters.coupling_damping <= most * (1.0 + 1e-9))
-    return {};  // 1.5 of 300 is 5 ms, whatever is rounded
+    return {};  // so that 1.5 of 300 counts as 5 ms despite rounding
   std::ostringstream text;
   text << "coupling_damping is " << parameters.coupling_damping << ", expected at most " << most
        << " N s/m with coupling_stiffness " << parameters.coupling_stiffness

@@ -31,7 +31,7 @@ void ToolGroup::approach() noexcept PALPATE_NONBLOCKING {
       for (const FieldSource& source : ownField(model_, s_[i], d_[i], own_[i]))
         contact.carried.constant += patchDisplacement(model_, source, contact.s, scratch_);
     if (!contact.carried.constant.allFinite())
-      contact.carried = {};  // else it would be sought nowhere, for good
+      contact.carried = {};  // otherwise no point would be searched again
   }
 }
 

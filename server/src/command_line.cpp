@@ -13,7 +13,7 @@
 namespace palpate::server {
 namespace {
 
-// What was given, apart from what the file says.
+// What the command line names.
 struct Given {
   std::optional<std::string> model;
   std::optional<std::string> config;
@@ -57,7 +57,7 @@ std::string defaultOf(std::size_t parameter) {
 
 void declareContact(CLI::App& app, Given& given) {
   app.add_option("--device", given.device,
-                 "Whose limits hold: touch (default), omni, desktop, premium15, premium30 or custom")
+                 "Device whose limits hold: touch (default), omni, desktop, premium15, premium30 or custom")
       ->type_name("NAME");
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
@@ -65,8 +65,8 @@ void declareContact(CLI::App& app, Given& given) {
                    std::string(info.help) + ", " + rangeOf(info) + ", default " + defaultOf(i));
   }
   app.add_option("--speed-limit", given.speed_limit,
-                 "A tool that is faster jumps, m/s, 0.01 to 100 or inf, default 2");
-  app.add_option("--tools", given.tools, "Tools that are answered, ids 0 to this less 1; 1 to 4, default 4");
+                 "A pose that moves faster counts as a jump, m/s, 0.01 to 100 or inf, default 2");
+  app.add_option("--tools", given.tools, "Number of tools that are answered, ids from 0; 1 to 4, default 4");
 }
 
 // CLI11 2.1.2 writes false into an optional<bool> whose flag is absent, which would overrule the file.
@@ -80,7 +80,8 @@ void declare(CLI::App& app, Given& given) {
   app.set_version_flag("--version", std::string("palpate-server ") + PALPATE_VERSION);
   app.add_option("--model", given.model, "Model file made by palpate-solve")->type_name("FILE");
   app.add_option("--config", given.config, "Options as TOML, see server/server.toml")->type_name("FILE");
-  app.add_option("--record", given.record, "Write every tick's input and answer here, for palpate-replay")
+  app.add_option("--record", given.record,
+                 "Record every tick's input and answer in this file, for palpate-replay")
       ->type_name("FILE");
   app.add_option("--domain", given.domain, "DDS domain, 0 to 230, default 0");
   app.add_option("--rate", given.rate,
@@ -119,7 +120,7 @@ std::string optionOf(const std::string& key) {
   return "--" + option;
 }
 
-// What the device fills goes under what was said here or in the file.
+// What the command line or the file names wins over the device preset.
 void combineDevice(const Given& given, ServerConfig& config) {
   overwrite(given.device, config.device);
   for (const auto field : kLiveFields<LiveOverrides>)
@@ -128,7 +129,7 @@ void combineDevice(const Given& given, ServerConfig& config) {
 }
 
 void combineContact(const Given& given, StepConfig& step) {
-  constexpr std::int64_t kFar = 1'000'000;  // fits an int, and is as far out of range as what was cut to it
+  constexpr std::int64_t kFar = 1'000'000;  // fits an int and is out of range, like all values cut to it
   overwrite(given.tip_radius, step.tip_radius);
   overwrite(given.speed_limit, step.speed_limit);
   if (given.tools) step.tools = static_cast<int>(std::clamp(*given.tools, -kFar, kFar));
@@ -143,7 +144,7 @@ void takeWord(const char* option, Take take) {
   }
 }
 
-// A value out of range that stands here; what a file says was checked as it was read.
+// A value out of range on the command line; the file was checked when it was read.
 void refuse(const Complaint& complaint) {
   throw ConfigError(optionOf(complaint.key) + " " + complaint.text);
 }

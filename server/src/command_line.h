@@ -8,7 +8,7 @@
 namespace palpate::server {
 
 /// Options of palpate-server: defaults, then --config, then what stands on the command line.
-/// @return nothing when --help or --version was asked for and answered
+/// @return nothing after --help or --version
 /// @throw ConfigError with one line naming the option or the file and line
 [[nodiscard]] std::optional<ServerConfig> parseCommandLine(int argc, char** argv);
 

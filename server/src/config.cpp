@@ -27,7 +27,7 @@ std::string outOf(const Range& range) {
   return text.str();
 }
 
-// Where a field of the engine stands in the file.
+// The key of an engine's field in the file.
 std::string keyOf(const std::string& field) {
   for (const LiveParameterInfo& info : kLiveParameters)
     if (field == info.name) return info.key;
@@ -51,7 +51,7 @@ std::optional<Complaint> firstToolComplaint(const StepConfig& step) {
   }
 }
 
-// A force stands for a period: with a longer one even the answer to a fresh pose would count as stale.
+// A force is held for a period. If the period exceeds stale_timeout, the answer to a fresh pose goes stale.
 std::optional<Complaint> rateComplaint(const ServerConfig& config) {
   constexpr double kRounding = 1e-9;
   const double slowest = 1.0 / config.step.stale_timeout;

@@ -12,7 +12,7 @@
 namespace palpate::server {
 namespace {
 
-// Asks a parsed file for keys, remembers which, and can then name those that nobody asked for.
+// Reads keys of a parsed file, remembers them, and refuses keys that were never read.
 class KeyReader {
  public:
   KeyReader(const toml::table& root, std::string file) : root_(root), file_(std::move(file)) {}
@@ -66,7 +66,7 @@ class KeyReader {
     return true;
   }
 
-  // A key that was asked for, or a table that holds one.
+  // A key that was read, or a table that holds one.
   bool leadsToAnAskedKey(const std::string& key) const {
     const auto next = asked_.lower_bound(key + ".");
     return next != asked_.end() && next->rfind(key + ".", 0) == 0;
@@ -120,7 +120,7 @@ void readTool(KeyReader& keys, StepConfig& step) {
 }
 
 void readTools(KeyReader& keys, StepConfig& step) {
-  constexpr std::int64_t kFar = 1'000'000;  // fits an int, and is as far out of range as what was cut to it
+  constexpr std::int64_t kFar = 1'000'000;  // fits an int and is out of range, like all values cut to it
   std::int64_t tools = step.tools;
   keys.read("tools", tools);
   step.tools = static_cast<int>(std::clamp(tools, -kFar, kFar));
@@ -133,7 +133,7 @@ void readDevice(KeyReader& keys, ServerConfig& config) {
   config.step = withDevice(config.step, config.device, config.said);
 }
 
-// A word that only we can judge.
+// A word out of a fixed list.
 template <class Take>
 void takeWord(const KeyReader& keys, const char* key, Take take) {
   try {

@@ -15,10 +15,10 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kPoll = 20 * kMs;
 constexpr std::int64_t kStatusPeriod = 1000 * kMs;
-constexpr std::int64_t kChangePeriod = 100 * kMs;  // a change is told at once, but not more often than this
+constexpr std::int64_t kChangePeriod = 100 * kMs;  // the shortest time between two status samples
 constexpr std::int64_t kWarnPeriod = 1000 * kMs;
 
-// Kinds of warning, beyond one for each tool and flag (tool << 32 | flag).
+// Kinds of warning, in addition to one per tool and flag (tool << 32 | flag).
 constexpr std::uint64_t kOverrunKind = 1ULL << 63;
 constexpr std::uint64_t kDropKind = kOverrunKind + 1;
 constexpr std::uint64_t kUnknownToolKind = kOverrunKind + 2;
@@ -121,7 +121,7 @@ void Events::raiseLateThreads(std::int64_t now_ns) {
   if (late > 0) spdlog::info("real time: {} more receive threads of DDS raised", late);
 }
 
-// On the way to a phase there is nothing to tell; what it comes to is told, the newest if there is much of it.
+// Logs the end of a search for a phase, not the search. If several came within a second, the newest.
 void Events::notePhase(std::uint32_t phase, std::int64_t now_ns) {
   const auto state = static_cast<rt::PhaseState>(phase);
   if (phase == told_phase_ || phase == 0 || state == rt::PhaseState::kSeeking) return;

@@ -26,7 +26,7 @@ sigset_t stopSignals() {
 void prepareProcess() {
   const sigset_t signals = stopSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // whoever reads our log may leave; the organ stays
+  std::signal(SIGPIPE, SIG_IGN);  // the reader of our log may close its end; the server goes on
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("palpate-server", std::make_shared<LogSink>()));
 }
 
@@ -54,7 +54,7 @@ void logContact(const Facts& facts) {
 }
 
 int serve(int argc, char** argv) {
-  // 1. What we are told.
+  // 1. Options.
   const std::optional<ServerConfig> config = parseCommandLine(argc, argv);
   if (!config) return 0;
   // 2. Signals wait for us, before any thread exists.
@@ -68,7 +68,7 @@ int serve(int argc, char** argv) {
   Server server(model, *config);
   logContact(server.facts());
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
-  // 5. Until somebody says stop,
+  // 5. Until a signal says stop,
   const int signal = waitForSignal();
   // 6. zero force first, then everything else, the log too.
   server.stop();

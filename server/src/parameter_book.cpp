@@ -11,7 +11,7 @@
 namespace palpate::server {
 namespace {
 
-// What the operator started the server with is the ceiling, and a device's own limits where they are higher.
+// The start's values are the ceilings; a device's own limits where they are higher.
 LiveParameters ceilings(const Facts& facts) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   LiveParameters most = liveParameters(facts.step);

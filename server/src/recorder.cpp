@@ -8,7 +8,7 @@ namespace palpate::server {
 namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
-constexpr int kPollsPerFlush = 100;  // about once a second: what a killed server leaves behind
+constexpr int kPollsPerFlush = 100;  // about once per second; a killed server loses no more
 
 }  // namespace
 

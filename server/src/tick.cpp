@@ -6,10 +6,10 @@
 namespace palpate::server {
 namespace {
 
-// So many answers with zero force before the server goes: best effort may lose some of them.
+// Answers with zero force before the server ends; several, because best effort may lose some.
 constexpr int kZeroTicks = 10;
 
-// A second publisher is flagged for so long after its last pose, and a stranger is answered.
+// How long after its last pose a second publisher is flagged and a stranger answered.
 constexpr std::int64_t kRecent = 50'000'000;  // ns
 
 bool isZero(const std::array<double, 3>& force) noexcept PALPATE_NONBLOCKING {
@@ -24,18 +24,18 @@ std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   // 2. What the tools feel.
   (void)stepForces(model_, work_, input_, result_);
   countRejectedPoses();
-  // 3. Forces, one to each tool that was ever seen, and the thread that sends them wakes.
+  // 3. One force for each tool seen so far; wake the thread that sends them.
   writeForces(cycle);
   channels_.force_ready.post();
-  // 4. What the organ looks like, likewise.
+  // 4. The surface, and wake the thread that sends it.
   writeSurface(cycle);
   // 5. What went in and came out, for a session that is recorded.
   writeRecording(cycle);
-  // 6. When the next tick is to be.
+  // 6. The phase of the next tick.
   followPoses(cycle);
-  // 7. How it went, for whoever watches.
+  // 7. How it went, for log and status.
   reportTick(cycle);
-  // 8. At the end of the server: tell when nothing pushes any more.
+  // 8. While the server stops: report when all forces are zero.
   reportZeroForce();
   return shift_ns_;
 }
@@ -45,8 +45,7 @@ void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   last_overruns_ = cycle.overruns;
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) readPose(tool, cycle.woke_ns);
   input_.dt_ns = last_woke_ns_ == 0 ? 0 : cycle.woke_ns - last_woke_ns_;
-  input_.has_live =
-      channels_.parameters.read(input_.live) ? 1 : 0;  // told once, the engine goes over by itself
+  input_.has_live = channels_.parameters.read(input_.live) ? 1 : 0;  // passed once; the engine blends over
   input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
   input_.skip_surface = surfaceIsDue(cycle) ? 0 : 1;
   last_woke_ns_ = cycle.woke_ns;
@@ -57,7 +56,7 @@ void Tick::readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONB
   const std::uint64_t known = ledger.pose.received;
   const std::uint64_t unordered = ledger.pose.unordered;
   (void)channels_.poses[tool].read(ledger.pose);
-  ledger.came = ledger.pose.received - known;  // what is read may tell of a second publisher only
+  ledger.came = ledger.pose.received - known;  // 0 if only a second publisher sent
   if (ledger.came > 0) ledger.superseded += ledger.came - 1;
   ToolInput& input = input_.tools[tool];
   input.present = seen(tool) ? 1 : 0;
@@ -103,7 +102,7 @@ void Tick::writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   answerStranger(cycle);
 }
 
-// One a tick, in turn: however many there are, a tick costs the same.
+// One per tick, in turn, so that a tick's cost does not depend on their number.
 void Tick::answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   (void)channels_.strangers.read(strangers_);
   for (std::size_t tried = 0; tried < strangers_.size(); ++tried) {
@@ -132,7 +131,7 @@ void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NO
   if (!channels_.forces.push(record)) ++dropped_;
 }
 
-// In the tick that is nearest to a grid of its own, so that any rate is kept in the mean.
+// The tick nearest to the surface's own grid, so that any rate holds on average.
 bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (plan_.surface_period_ns <= plan_.period_ns) return true;
   if (next_surface_ns_ == 0) next_surface_ns_ = cycle.deadline_ns;
@@ -160,8 +159,8 @@ void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 
-// The tool that first had a phase sets that of the ticks until it has none; then the first of those that have one.
-// A pose that the engine rejected is none.
+// The first tool with a phase sets the ticks' phase until it loses its own; then the first tool that has one follows.
+// Rejected poses do not count.
 void Tick::followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (!plan_.phase_lock) return;
   std::array<std::int64_t, kMaxTools> shifts{};

@@ -78,7 +78,7 @@ void compare(const record::RecordedTick& tick, const StepResult& replayed, Findi
   findings.differing += differs ? 1 : 0;
 }
 
-// @return false at the end, also at one that is missing when that is allowed
+// @return false at the end, or where the file ends early if that is allowed
 bool nextTick(record::RecordReader& recording, Demand demand, record::RecordedTick& tick,
               Findings& findings) {
   try {
@@ -101,7 +101,7 @@ void noteGap(std::uint64_t expected, std::uint64_t found, Demand demand, Finding
 }  // namespace
 
 Findings replay(record::RecordReader& recording, const MetaModel& model, Demand demand) {
-  // 1. The same model and parameters, and a state as new as the session's.
+  // 1. The same model and parameters, and a new state.
   const record::SessionFacts& facts = recording.facts();
   if (facts.model_id != model.attributes().model_id)
     throw RecordError("recorded with model " + facts.model_id + ", replayed with model " +

@@ -29,13 +29,13 @@ class BoundingVolumes {
 
  private:
   static constexpr std::size_t kChildren = 4;
-  /// The boxes of its children side by side, so that all four are compared with a point at once; as floats, rounded
-  /// outwards: half the memory to wait for.
+  /// The boxes of its children side by side, so that one comparison serves all four; floats, rounded outwards,
+  /// take half the memory.
   struct Node {
     std::array<std::array<float, kChildren>, 3> low;
     std::array<std::array<float, kChildren>, 3> high;
     std::array<std::int32_t, kChildren>
-        child;  ///< >= 0: a node; else ~triangle. Of none: an infinitely far box
+        child;  ///< >= 0: a node; else ~triangle. An empty child has an infinitely far box
   };
   using Distances = std::array<double, kChildren>;
 

@@ -60,7 +60,7 @@ class ContactResponse {
   /// The series at s, mixed as the stencil says. @param limit  of |p|. Real-time: yes.
   [[nodiscard]] ContactSeries at(const Stencil& stencil, double limit) const noexcept PALPATE_NONBLOCKING;
   /// dW/dlambda at fixed d of a "displacement" model, J: sum_b d omega_b/dlambda W_b(d); only its part along changes
-  /// that keep the sum of the weights means something. Beyond `limit` W goes on with degree 2. Cost about 1.4 C for
+  /// that keep the sum of the weights has a meaning. Beyond `limit` W continues with degree 2. Cost about 1.4 C for
   /// each position of the stencil. Real-time: yes.
   [[nodiscard]] Vec3 energySlope(const Stencil& stencil, const Vec3& d,
                                  double limit) const noexcept PALPATE_NONBLOCKING;

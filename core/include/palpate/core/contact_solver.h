@@ -19,7 +19,7 @@ struct Contact {
   Vec3 anchor = Vec3::Zero();  ///< X(s) of the rest surface, m
   Vec3 normal = Vec3::Zero();  ///< n(s), outward unit normal of the contact surface
   Vec3 imposed =
-      Vec3::Zero();  ///< g = c - X - R n(s), X of the contact surface: where the tool would have the patch, m
+      Vec3::Zero();  ///< g = c - X - R n(s), X of the contact surface: where the tool wants the patch, m
   CoupledResponse coupled;        ///< d, the organ's answer to it and df/dg; zero when free
   Mat3 stiffness = Mat3::Zero();  ///< df/dc of the force on the organ, sliding included, N/m; zero when free
   Carried carried;                ///< e, displacement of the patch that the other tools cause; the caller's
@@ -33,12 +33,12 @@ struct Contact {
 ///   free -> stick:  the tip's centre lies less than R above an accessible point of the contact surface, in the
 ///                   direction of the interpolated normal: c = X(s) + h n(s), h < R. That s is the anchor, so
 ///                   that the force begins at zero
-///   stick, slide:   the anchor's force balance and Coulomb's law (Equilibrium). Beyond the border of the accessible
-///                   part no anchor goes: it waits there, flagged kNotAccessible
+///   stick, slide:   the anchor's force balance and Coulomb's law (Equilibrium). At the border of the accessible part
+///                   the anchor stops, flagged kNotAccessible
 ///   -> free:        f . n > 0, the tool would pull; or the tip's sphere, grown by 0.5 mm, has left the contact
 ///                   surface, as other tools displaced it: a tool drawn off sideways is not held from afar
-/// The direction from anchor to tip is n(s) itself, not the one at capture. So g depends on where the anchor is and not on
-/// how it came there, and the surface that a tip of radius R slides on, X(s) + R n(s), has no edges.
+/// The direction from anchor to tip is n(s) itself, not the one at capture. So g depends on where the anchor is, not on its
+/// path, and the surface that a tip of radius R slides on, X(s) + R n(s), has no edges.
 class ContactSolver {
  public:
   explicit ContactSolver(double tip_radius) noexcept : tip_radius_(tip_radius) {}

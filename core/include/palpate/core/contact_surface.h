@@ -14,7 +14,7 @@ namespace palpate {
 
 /// The surface that tools slide on: the rest surface, rounded.                        docs/design.md, Contact
 /// A tip on flat triangles is pushed along the interpolated normal while it moves along the triangle: the two are not
-/// normal to each other, and energy comes from nowhere. So each triangle is divided into 4, a few times over; the new
+/// normal to each other, so the contact creates energy. Therefore each triangle is divided into 4, a few times; the new
 /// node on an edge a-b is the middle of the cubic that has the edge's ends and, there, its direction laid into the
 /// planes normal to n_a and n_b:  (a + b) / 2 + (P_a - P_b) (b - a) / 8  (on a curve the 4-point scheme of
 /// N. Dyn, D. Levin, J. Gregory, Comput. Aided Geom. Des. 4 (1987) 257-268). The mesh's own nodes stay.
@@ -29,16 +29,16 @@ class ContactSurface {
   /// The rounded surface; its contact points are "fine" ones.
   [[nodiscard]] const SurfaceMesh& mesh() const noexcept { return *mesh_; }
   [[nodiscard]] int levels() const noexcept { return levels_; }
-  /// Farthest that any of its points lies from the point of the rest surface that it stands for, m.
+  /// Farthest that any of its points lies from its point of the rest surface, m.
   [[nodiscard]] double bulge() const noexcept { return bulge_; }
-  /// The point of the rest surface that a fine one stands for. Real-time: yes.
+  /// The point of the rest surface that belongs to a fine one. Real-time: yes.
   [[nodiscard]] ContactPoint rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
   /// SurfaceMesh::frame() of a fine point, but continuous over edges: `turning` and `rates` are the triangles' averaged at
   /// their nodes and mixed barycentrically, `rates` those of the rest point's weights.
   /// @param rest  the surface that this one was made from. Real-time: yes.
   [[nodiscard]] TangentFrame frame(const SurfaceMesh& rest,
                                    const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
-  /// The fine point that stands for one of the rest surface. Real-time: yes.
+  /// The fine point that belongs to one of the rest surface. Real-time: yes.
   [[nodiscard]] ContactPoint fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING;
 
  private:

@@ -10,7 +10,7 @@ namespace palpate {
 struct ContactLaw {
   double friction{0.0};         ///< mu; infinity: the anchor never slides
   double compliance{0.0};       ///< 1 / K_vc of the virtual coupling, m/N; 0: the tool holds the patch itself
-  double stiffness_scale{1.0};  ///< E over the model's own: forces are so many times the model's
+  double stiffness_scale{1.0};  ///< E over the model's own: the factor on the model's forces
 };
 
 /// e, the part of a patch's displacement that other tools cause, as it changes with the patch's own: a tool pushes the

@@ -31,8 +31,8 @@ class SeparatedField {
   /// @param phi  [C] ParameterFunctions at p, @param y  [n]. Cost O(C n). Real-time: yes.
   void addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
-  /// u = X^T y, m; packed modes that together cannot move a node by more than `unseen` are left out. NaN where y is
-  /// too large for numbers. @param unseen  m, 0 for none  @param use  scratch  @param u  [Ns][3]
+  /// u = X^T y, m; packed modes that together cannot move a node by more than `unseen` are left out. NaN where y
+  /// overflows. @param unseen  m, 0 for none  @param use  scratch  @param u  [Ns][3]
   /// Cost O(n Ns). Real-time: yes.
   void expand(std::span<const float> y, float unseen, ModeSelection& use,
               std::span<float> u) const noexcept PALPATE_NONBLOCKING;
@@ -62,7 +62,7 @@ class NearField {
 
   /// Surface nodes that a position's block moves. Real-time: yes.
   [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t position) const noexcept PALPATE_NONBLOCKING;
-  /// Numbers of scratch: 3 * the largest K_m for a block, then Ns for whoever weighs its nodes.
+  /// Numbers of scratch: 3 * the largest K_m for a block, then Ns for weights of its nodes.
   [[nodiscard]] int scratchSize() const noexcept { return scratch_size_; }
   /// sum_alpha phi_alpha U_alpha of one position times `factor`. @param phi  [C] ParameterFunctions at p
   /// @param scratch  scratchSize(), its beginning overwritten. Real-time: yes.

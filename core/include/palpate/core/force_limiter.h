@@ -21,17 +21,17 @@ struct Rendering {
   double fade{1.0};              ///< 1, falling to 0 at shutdown
 };
 
-/// What the limiter is told in one tick.
+/// Input of the limiter in one tick.
 struct LimiterInput {
   Vec3 force = Vec3::Zero();      ///< of the organ on the tool, W, N (not looked at when held)
   Mat3 stiffness = Mat3::Zero();  ///< d force / d pose, N/m (not looked at when held)
   double age{0.0};                ///< s since the last good pose
   double dt{
-      0.0};  ///< s that ramps and rate go on by: since the last tick, but not while the loop stood still
+      0.0};  ///< s that ramps and rate advance: since the last tick, without the time that the loop stood still
   double period{0.0};       ///< s until the next force replaces this one
   double force_limit{3.3};  ///< F, N
   double force_rate_limit{std::numeric_limits<double>::infinity()};  ///< N/s
-  bool held{false};           ///< no good pose in this tick: the last good force stands in
+  bool held{false};           ///< no good pose in this tick: the last good force is used
   bool jumped{false};         ///< the model's force is not continuous in this tick: blend over
   bool shutting_down{false};  ///< fade to zero, for good
 };
@@ -45,11 +45,11 @@ struct LimitedForce {
 
 /// Keeps what a device gets safe and continuous (docs/design.md, Safety).
 ///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
-///   what stands behind the gain changes no faster than the rate limit allows; letting go is not held up by it, and a
-///   force limit that falls is kept at once
+///   what the gain multiplies changes no faster than the rate limit allows; release is not delayed by it, and a
+///   lower force limit holds at once
 ///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
-///   that the force will have when the next one replaces it, so that none but zero stands after zero_after,
-///   whatever the rate of the loop. A jump keeps the force of the tick before as `from`
+///   that the force will have when the next one replaces it, so that after zero_after the force is zero
+///   at any rate of the loop. A jump keeps the force of the tick before as `from`
 ///   and lets its weight fall from 1 to 0 within ramp_time. A convex mix, so that two forces that push never
 ///   add to one that pulls, and two within the limit never to one beyond it.
 class ForceLimiter {

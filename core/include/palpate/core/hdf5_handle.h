@@ -7,7 +7,7 @@
 namespace palpate {
 
 /// Owns one HDF5 identifier (hid_t, which is an int64_t; herr_t is an int). A negative one is "none", so that
-/// a failed call can be tested after it is wrapped. Does not include HDF5 itself: who uses it does.
+/// a failed call can be tested after it is wrapped. Does not include HDF5 itself; its users do.
 class Hdf5Handle {
  public:
   using Close = int (*)(std::int64_t);

@@ -5,15 +5,15 @@
 
 namespace palpate {
 
-/// The live parameters on their way to where they were told to go: linear in time, K_vc by its inverse, from what is
-/// in force at the moment of the change. On the way too the damping is at most kLongestCouplingTime K_vc.
-/// Infinity means off as in StepConfig, and there are no numbers between it and others: such a change takes place at
-/// once, and jumped() says so, so that the force is blended over instead. But friction that was infinite goes on from 2,
-/// and a force limit from the largest force there is: no force is ever longer than the limit. A rate limit that rises lets go of a force
-/// that lags behind: a jump as well.
+/// The live parameters on their way from the values in force to a target: linear in time, K_vc by its inverse. On the way,
+/// too, the damping is at most kLongestCouplingTime K_vc.
+/// Infinity means off as in StepConfig. No numbers lie between it and others, so such a change happens at once; jumped()
+/// reports it, and the force is blended over instead. Two exceptions: infinite friction falls from 2, and an infinite force
+/// limit from the largest force rendered, so that no force exceeds the limit. A rate limit that rises releases a force that
+/// lags behind: also a jump.
 class LiveBlend {
  public:
-  static constexpr double kSeconds = 0.1;  ///< that a change takes
+  static constexpr double kSeconds = 0.1;  ///< duration of a change
 
   /// @param model_modulus  E of the model, Pa, that youngs_modulus = 0 means
   LiveBlend(const LiveParameters& parameters, double model_modulus) noexcept;
@@ -25,9 +25,9 @@ class LiveBlend {
   [[nodiscard]] bool jumped() const noexcept { return jumped_; }
   /// What is in force; youngs_modulus is never 0.
   [[nodiscard]] const LiveParameters& now() const noexcept { return now_; }
-  /// Where it goes to.
+  /// The values that the change ends at.
   [[nodiscard]] const LiveParameters& target() const noexcept { return target_; }
-  /// True while on the way.
+  /// True during a change.
   [[nodiscard]] bool moving() const noexcept { return left_ > 0.0; }
 
  private:

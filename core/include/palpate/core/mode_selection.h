@@ -22,7 +22,7 @@ struct QuadWeights {
   WeightPair pair{};
 };
 
-/// Which packed modes a field needs at its amplitudes y, and with what weights: whole numbers, small enough that a sum
+/// The packed modes that a field needs at its amplitudes y, and their weights: whole numbers, small enough that a sum
 /// of products fits 32 bits. A quad may come twice. Scratch of one thread, allocated before the loop.
 class ModeSelection {
  public:
@@ -35,13 +35,13 @@ class ModeSelection {
   void choose(std::span<const float> y, std::span<const float> peak, const PackedModes& packed,
               float unseen) noexcept PALPATE_NONBLOCKING;
 
-  /// False when the amplitudes are too large for numbers; then there are no weights.
+  /// False when the amplitudes overflow; then there are no weights.
   [[nodiscard]] bool finite() const noexcept { return finite_; }
   /// Pairs of int16 modes, the weights of each, and what a product of 1 is worth.
   [[nodiscard]] std::span<const std::uint32_t> pairs16() const noexcept { return {pair16_.data(), count16_}; }
   [[nodiscard]] const WeightPair* weights16() const noexcept { return weight16_.data(); }
   [[nodiscard]] float unit16() const noexcept { return unit16_; }
-  /// Quads of bytes likewise; the sums begin with start8, as bytes count from 128.
+  /// The same for quads of bytes; the sums begin with start8, as bytes count from 128.
   [[nodiscard]] std::span<const std::uint32_t> quads8() const noexcept { return {quad8_.data(), count8_}; }
   [[nodiscard]] const QuadWeights* weights8() const noexcept { return weight8_.data(); }
   [[nodiscard]] float unit8() const noexcept { return unit8_; }

@@ -14,7 +14,7 @@ inline constexpr std::size_t kTile = 64;
 enum class ModePrecision : std::uint8_t { kFloat32, kInt16, kBits10, kBits8 };
 inline constexpr std::size_t kPackedKinds = 3;  ///< all but float32
 
-/// Of a mode without a number to speak of.
+/// Scale of a mode that moves nothing.
 inline constexpr float kLeastScale = 1e-30F;
 
 /// How many modes of each kind there are, in the order of the file. All but the first two kinds are kept in bytes.
@@ -40,8 +40,8 @@ struct ModeCounts {
 /// not zero in all modes: clamped nodes at the end of the surface need none.
 /// An int16 mode's number is scale * what is stored. Bytes count from 128. A number of a mode in bytes is
 /// scale * (own + share / 256 * shared): four modes of 10 bits share a byte, with shares 1, 4, 16 and 64. Modulo 1 the
-/// shared byte then says two bits more of each, and what it adds beyond that the own byte takes back: nothing has to be
-/// taken apart, a field is a weighted sum of bytes.
+/// shared byte adds two bits to each mode; the mode's own byte cancels the rest. So a field is a weighted sum of bytes, and
+/// nothing is unpacked.
 struct PackedModes {
   std::span<const std::int16_t> X16;    ///< [tiles][ceil(i16 / 2)][kTile][2]
   std::span<const std::uint8_t> X8;     ///< [tiles][quads][kTile][4]

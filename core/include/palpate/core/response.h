@@ -45,9 +45,9 @@ class PatchResponse {
 };
 
 /// Reaction of the organ to a tool that displaced its contact patch at s by d   docs/design.md, Series, Contact
-/// |d| beyond the domain is scaled to it, d_c = d_max d / |d|, and the force goes on along the symmetrized,
-/// positive part of the stiffness there: f = f(s, d_c) + (df/dd)+ (d - d_c). It is continuous, and never less stiff
-/// than nothing; stiffness is its derivative.
+/// |d| beyond the domain is scaled to it, d_c = d_max d / |d|, and the force continues along the symmetrized,
+/// positive part of the stiffness there: f = f(s, d_c) + (df/dd)+ (d - d_c). It is continuous, and its stiffness, the
+/// derivative, is never negative.
 /// A "force" model is searched for the f with d(s, f) = d (bounded Newton), a "level" model for the t with
 /// e . d(s, t) = e . d, e the load's direction. Where no f gives d, kClamped: beyond f_max the f_max in its
 /// direction; where the model turns back before that, the f at which |d(s, f) - d| is smallest, as found downhill
@@ -62,11 +62,11 @@ class PatchResponse {
 [[nodiscard]] ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                      Response& out) noexcept PALPATE_NONBLOCKING;
 
-/// What a load-driven model says when its load is given.                         docs/design.md, Reproduction
+/// Answer of a load-driven model to a given load.                         docs/design.md, Reproduction
 /// @param[in]  load  f in W, N, of a "force" model, clamped to f_max(s); (t, 0, 0) of a "level" model, t clamped
 ///             to [0, t_max(s)]
-/// @param[out] out  always written; stiffness is (dd/df)^-1, zero where dd/df is not positive definite; what is no
-///             number as in respond(); a t that is none is 0, kClamped
+/// @param[out] out  always written; stiffness is (dd/df)^-1, zero where dd/df is not positive definite; numbers
+///             that overflow as in respond(); a t of NaN is 0, kClamped
 /// @return kOk, kClamped, or kNoAnswer (no answer at s, or a "displacement" model). Cost O(C). Real-time: yes.
 [[nodiscard]] ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, const Vec3& load,
                                            Response& out) noexcept PALPATE_NONBLOCKING;
@@ -79,7 +79,7 @@ struct FieldScratch {
   ModeSelection selection;        ///< of SeparatedField::expand()
 };
 
-/// What modes that are left out of a field may move a node by, as a share of the largest displacement imposed.
+/// Modes left out of a field may together move a node by this share of the largest displacement imposed.
 inline constexpr double kUnseenShare = 2e-4;
 
 /// One tool's part in a field.

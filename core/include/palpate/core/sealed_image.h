@@ -7,12 +7,12 @@
 
 namespace palpate {
 
-/// A copy of a file in anonymous memory that nobody can write, grow or shrink any more, mapped read-only.
+/// A copy of a file in anonymous memory that cannot be written, grown or shrunk, mapped read-only.
 /// Nothing can change between a check and a use, and truncating the file cannot kill the reader with SIGBUS
 /// docs/model_file.md
 class SealedImage {
  public:
-  /// @throw LoadError when the file is no regular file, empty, changes while it is read, or memory is short
+  /// @throw LoadError when the file is not a regular file, is empty, changes while it is read, or memory is short
   explicit SealedImage(const std::filesystem::path& path);
   SealedImage(SealedImage&& other) noexcept;
   SealedImage& operator=(SealedImage&& other) noexcept;

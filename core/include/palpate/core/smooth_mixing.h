@@ -23,14 +23,14 @@ struct Stencil {
   std::array<Vec3, kMost> slope;             ///< d omega_b / d lambda, the triangle's barycentric weights, 1
 };
 
-/// Interpolation between contact positions that has no kinks worth feeling.             docs/design.md, Parts
+/// Interpolation between contact positions, smooth enough to feel no kinks.             docs/design.md, Parts
 ///   c(s) = sum_b omega_b(s) c_b:  over each triangle the cubic that has the nodes' values and gradients, the gradient
 ///   at a node being the mean, by area, of those of the linear interpolation in the triangles round it. The Bezier
 ///   form and its middle coefficient are those of A. Vlachos, J. Peters, C. Boyd, J. Mitchell, Curved PN triangles,
 ///   I3D 2001, for a scalar.
 /// So force f = sum omega_b f_b and the force on the anchor, dW/ds = sum d omega_b/ds W_b, are derivatives of one energy
-/// W(s, d) = sum omega_b W_b: whatever way a tool goes, none comes from nowhere.
-/// Where a node has no contact position the linear mix of SurfaceMesh::mix() stays.
+/// W(s, d) = sum omega_b W_b: no path of a tool gains energy.
+/// Where a node has no contact position, the linear mix of SurfaceMesh::mix() stays.
 /// Borrows the model's arrays; built before the loop, then const.
 class SmoothMixing {
  public:

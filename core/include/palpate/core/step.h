@@ -13,7 +13,7 @@ namespace palpate {
 
 /// What is known about one tool at the start of a tick. Plain: it crosses threads.
 struct ToolInput {
-  std::uint32_t present{0};          ///< 0: nothing was ever heard of this tool, or it is gone
+  std::uint32_t present{0};          ///< 0: no pose of this tool has come, or the tool is gone
   std::array<double, 3> position{};  ///< p_WT, tip centre in world frame W, m
   std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< q_WT, x y z w
   std::int64_t age_ns{0};  ///< since the pose arrived, by the server's clock, ns
@@ -23,17 +23,16 @@ struct ToolInput {
 /// Input of one tick. Plain: it crosses threads.
 struct StepInput {
   std::array<ToolInput, kMaxTools> tools{};
-  /// since the last tick, ns; taken as 0 to 0.1 s. Ramps go on by two periods at most, and after ten the contacts' forces
-  /// are blended over: no ramp is over when a loop that stood still goes on
+  /// since the last tick, ns; taken as 0 to 0.1 s. A tick advances ramps by at most two periods; after ten periods the contacts'
+  /// forces are blended over. So a loop that stood still does not skip a ramp
   std::int64_t dt_ns{1'000'000};
-  /// of the loop: what is sent now stands until it is replaced, ns; not above 0: 1 ms, at most 0.1 s
+  /// of the loop: how long a force holds until the next one, ns; 0 or less: 1 ms; at most 0.1 s
   std::int64_t period_ns{1'000'000};
   std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
-  /// not 0: go over to `live`, within LiveBlend::kSeconds. 0: the parameters stay as they are (at first StepConfig's)
+  /// not 0: blend to `live` within LiveBlend::kSeconds. 0: the parameters stay as they are (at first StepConfig's)
   std::uint32_t has_live{0};
-  /// not 0: nobody takes the surface of this tick. Workspace::displacement() stays the last one that was taken. Forces,
-  /// anchors and proxies are the same, but for proxies within ramp_time after a jump, which begins at the last surface
-  /// that was taken
+  /// not 0: skip the surface in this tick; Workspace::displacement() stays the last one evaluated. Forces, anchors and
+  /// proxies are the same, with one exception: for ramp_time after a jump, proxies blend from the last surface evaluated
   std::uint32_t skip_surface{0};
   LiveParameters live;  ///< checked by the caller: firstComplaint() is empty
 };
@@ -69,7 +68,7 @@ enum class StepStatus { kOk, kFlagged };
 [[nodiscard]] StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                               StepResult& result) noexcept PALPATE_NONBLOCKING;
 
-/// All of a tick but the surface: whoever waits for a force need not wait for what is shown. Cost O(C n + tools^2 (C + K_m)). Real-time: yes.
+/// A tick without the surface, so that forces do not wait for the picture. Cost O(C n + tools^2 (C + K_m)). Real-time: yes.
 [[nodiscard]] StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& input,
                                     StepResult& result) noexcept PALPATE_NONBLOCKING;
 

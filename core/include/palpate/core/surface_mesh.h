@@ -76,7 +76,7 @@ class SurfaceMesh {
 
   /// Position, normal and how they change at s. Real-time: yes.
   [[nodiscard]] TangentFrame frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
-  /// Goes from s over the surface, straight within triangles and turned over at their edges.
+  /// Goes from s over the surface, straight within triangles, unfolded at their edges.
   /// @param v  m, normal to n(s): what the way looks like from there. At most kMaxCrossings edges are crossed.
   /// @return false when the way ended earlier, at the border of what may be reached; s is there. Real-time: yes.
   [[nodiscard]] bool move(ContactPoint& s, const Vec3& v, Reach reach) const noexcept PALPATE_NONBLOCKING;

@@ -76,7 +76,7 @@ class Workspace {
   KeptSources sources_;      // of this tick's field,
   KeptSources shown_;        // and of the one that displacement_ shows,
   bool shown_known_{false};  // if that is the field of just these
-  bool overflowed_{false};   // the last field that was evaluated was no number somewhere
+  bool overflowed_{false};   // the last field evaluated was not finite everywhere
   std::vector<float> displacement_;
   std::vector<float> displacement_from_;  // the field at the last jump,
   double displacement_blend_{0.0};        // and its weight, 1 at the jump, then falling to 0

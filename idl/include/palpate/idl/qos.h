@@ -11,9 +11,9 @@ namespace palpate::dds {
 enum class QosProfile {
   kServo,    ///< 1 kHz: best effort, keep last 1, deadline 5 ms, liveliness automatic 50 ms
   kField,    ///< best effort, keep last 1
-  kLatched,  ///< reliable, transient local, keep last 1: whoever comes later gets the newest
+  kLatched,  ///< reliable, transient local, keep last 1: late readers get the newest
   kRequest,  ///< reliable, keep last 16
-  kAnswer    ///< reliable, keep last 16, transient local: whoever comes later gets the newest one
+  kAnswer    ///< reliable, keep last 16, transient local: late readers get the newest
 };
 
 /// Requests and answers of one server that are kept until they are taken.

@@ -14,7 +14,7 @@
 
 namespace palpate::dds {
 
-/// Names the writer of a sample, within this process: a sender that starts anew has another one.
+/// Names the writer of a sample, within this process: a sender that restarts gets a new one.
 using WriterId = dds_instance_handle_t;
 
 /// What a data callback gets: the reader, without owning it.

@@ -15,12 +15,12 @@
 
 namespace palpate::server {
 
-/// The device whose limits hold unless another is named.
+/// The default device: its limits hold.
 inline constexpr std::string_view kDefaultDevice = "touch";
 /// No preset: the caller's own numbers, and no limit on the coupling.
 inline constexpr std::string_view kCustomDevice = "custom";
 
-/// Live parameters that the file or the command line named. They win over the device preset, in whatever order they came.
+/// Live parameters that the file or the command line named. They win over the device preset, in any order.
 using LiveOverrides = LiveFields<std::optional<double>>;
 
 /// `step` with the force limit and the coupling of a device, and what was named over both.
@@ -34,7 +34,7 @@ inline constexpr double kEveryTick = std::numeric_limits<double>::infinity();
 /// The tick runs where the scheduler puts it.
 inline constexpr std::int64_t kAnyCpu = -1;
 
-/// What the server is told, by defaults, a file and the command line, in this order.
+/// The options of the server: defaults, then the file, then the command line.
 struct ServerConfig {
   std::filesystem::path model;                               ///< model file; no default
   std::int64_t domain{0};                                    ///< DDS domain, in [0, 230]
@@ -53,7 +53,7 @@ struct ServerConfig {
   StepConfig step{withDevice({}, std::string(kDefaultDevice), {})};
 };
 
-/// An option that cannot be used. what() is one line: where it stands, what was found, what was expected.
+/// An unusable option. what() is one line: the place, the value found, what was expected.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -65,8 +65,8 @@ struct Complaint {
   std::string text;  ///< e.g. "is 7, expected 10 to 10000 Hz"
 };
 
-/// @return the first value out of its range, if any. The model's existence is the loader's business.
-/// Whether the device stands the coupling is deviceComplaint()'s: a file and a command line complete each other.
+/// @return the first value out of its range, if any. The loader checks the model file.
+/// deviceComplaint() checks the coupling against the device, once file and command line are both read.
 [[nodiscard]] std::optional<Complaint> firstComplaint(const ServerConfig& config);
 
 /// @throw ConfigError naming the devices that are known

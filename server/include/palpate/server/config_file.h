@@ -8,7 +8,7 @@
 namespace palpate::server {
 
 /// Overwrites in `config` what the file (TOML) names; a relative model path is taken from the file's folder.
-/// What names a device preset is applied; whether the device stands the coupling is left to deviceComplaint().
+/// Applies the device preset; deviceComplaint() checks the coupling against it later.
 /// @throw ConfigError "file:line: ..." for a syntax error, an unknown key, a wrong type or a value out of
 /// range
 void readConfigFile(const std::filesystem::path& path, ServerConfig& config);

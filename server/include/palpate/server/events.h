@@ -14,10 +14,9 @@
 
 namespace palpate::server {
 
-/// Turns what the other threads leave in their rings into log lines and ServerStatus, and has requests for other
-/// parameters answered. The only thread that
-/// logs while the server runs. What a client can cause is logged at most once a second each, so that it
-/// cannot fill a disk.
+/// Turns the records of the other threads into log lines and ServerStatus, and answers parameter requests. The only
+/// thread that logs while the server runs. Each kind of line that a client can cause is logged at most once per second,
+/// so that no client can fill a disk.
 class Events {
  public:
   Events(Channels& channels, StatusPublisher& status, ParameterService& parameters)
@@ -28,7 +27,7 @@ class Events {
   /// Also raise receive threads that DDS makes later. Before run().
   void raiseReceiveThreads() noexcept { raise_receive_threads_ = true; }
 
-  /// Body of the events thread. Publishes that the server is stopping, and returns, once it stops.
+  /// Body of the events thread. Returns when the server stops, after it has published that.
   void run() noexcept;
 
   /// Takes what lies in the rings. @param[in] now_ns  our monotonic clock

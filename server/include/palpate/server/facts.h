@@ -8,7 +8,7 @@
 
 namespace palpate::server {
 
-/// What is settled once the server has started, as ServerStatus tells it.
+/// What no longer changes once the server has started, as ServerStatus reports it.
 struct Facts {
   std::string model_id;
   std::uint32_t server_id{0};
@@ -19,7 +19,7 @@ struct Facts {
   double youngs_modulus{0.0};  ///< the model's own, Pa
   bool memory_locked{false};
   bool realtime{false};
-  std::string realtime_detail;  ///< what was had, or how to get it
+  std::string realtime_detail;  ///< what was obtained, or how to get it
 };
 
 }  // namespace palpate::server

@@ -6,7 +6,7 @@
 
 namespace palpate::server {
 
-/// The record as it goes over the wire. Real-time: yes.
+/// The record as a DDS sample. Real-time: yes.
 [[nodiscard]] dds::ToolForce toWire(const ForceRecord& record) noexcept;
 
 /// Sends every force that the tick wrote.

@@ -9,7 +9,7 @@
 
 namespace palpate::server {
 
-/// How the server has been doing, gathered by the events thread, which alone reads and writes it.
+/// State and statistics of the server. Only the events thread reads and writes it.
 struct Health {
   TickRecord last;        ///< newest record, with the totals
   rt::CycleStats tick;    ///< compute time of ticks

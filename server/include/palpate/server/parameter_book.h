@@ -13,16 +13,16 @@ namespace palpate::server {
 /// entity. Threads: one. Real-time: no.
 class ParameterBook {
  public:
-  /// What is in force at the start, and the ceilings that stay: what coupling stiffness, force limit and rate limit were at
-  /// the start, but the device's stiffness limit for the coupling of a device that has one, and the device's force limit
-  /// where it is higher. So nobody switches off what the operator switched on; "custom" allows no more than its start.
+  /// Starts from the values of the start, and keeps ceilings. Coupling stiffness: what the device renders stably. Force
+  /// limit: the start's or the device's, the larger. Rate limit: the start's. A "custom" device has the start's values as
+  /// ceilings of all three.
   explicit ParameterBook(const Facts& facts);
 
   /// Takes a request whole or not at all.
   /// @return the answer: accepted, or why not in one sentence with field, number and range; and what is in force now
   [[nodiscard]] dds::ServerParameters decide(const dds::ParameterRequest& request);
 
-  /// The answer to a request that nobody made: what is in force.
+  /// The values in force, as an answer without a request.
   [[nodiscard]] dds::ServerParameters answer() const;
 
   /// What is in force, as text: "youngs_modulus 160000 Pa (the model's), friction 0.3, ...".

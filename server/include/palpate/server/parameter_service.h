@@ -11,14 +11,14 @@
 
 namespace palpate::server {
 
-/// What happened to parameters; the newest counts. Nobody hears of requests that only ask.
+/// The newest event about parameters, for the log. Requests that only ask are not logged.
 struct ParameterNews {
   std::optional<std::string> changed;  ///< what is in force now
   std::optional<std::string> refused;  ///< why
 };
 
 /// Takes parameter requests from DDS, answers each, and hands what was accepted to the tick. Threads: one, the events
-/// thread; nobody is in a hurry here. Real-time: no.
+/// thread; not urgent. Real-time: no.
 class ParameterService {
  public:
   /// Publishes what is in force. @throw dds::DdsError

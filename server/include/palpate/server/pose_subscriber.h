@@ -11,8 +11,8 @@
 
 namespace palpate::server {
 
-/// The first distinct tool ids above 3 that ever came, at most kMaxUnknownTools: a client that invents ids fills
-/// nothing. Threads: one.
+/// The first distinct tool ids above 3, at most kMaxUnknownTools: a client that invents ids cannot fill memory.
+/// Threads: one.
 class UnknownIds {
  public:
   /// @return the id's place, the same ever after; nothing when it is new and there is no room
@@ -24,7 +24,7 @@ class UnknownIds {
 };
 
 /// Books poses as they arrive: who sends a tool's poses, whether they come in order, which tools get no force; and
-/// hands each tool's newest pose to the tick. What a pose says is the engine's business.
+/// hands each tool's newest pose to the tick. The engine judges the pose itself.
 /// A tool belongs to the publisher of its first pose for as long as its poses come, that is until none came for
 /// zero_after, when the force is zero anyway; until then the poses of others are counted and not used.
 /// Threads: one at a time (Cyclone's callback of one reader). Real-time: yes, no allocation of ours.

@@ -65,8 +65,8 @@ struct SurfaceSample {
 /// Tick to events: how one tick went. Counters are totals since the start.
 struct TickRecord {
   std::int64_t wakeup_ns{0};
-  std::int64_t previous_tick_ns{0};  ///< 0 in the first tick, which has none before it
-  std::uint32_t phase{0};            ///< rt::PhaseState; 0: the ticks' phase follows nobody
+  std::int64_t previous_tick_ns{0};  ///< 0 in the first tick
+  std::uint32_t phase{0};            ///< rt::PhaseState; 0: phase lock is off
   std::uint64_t ticks{0};            ///< this one included
   std::uint64_t overruns{0};
   std::uint64_t superseded{0};

@@ -20,7 +20,7 @@ inline constexpr int kSurfacePriority = 40;
 
 using dds::kReceiveThreads;
 
-/// What the system gave us, once all threads run.
+/// What the system granted, once all threads run.
 struct Startup {
   rt::RealtimePolicy policy{rt::RealtimePolicy::kPrefer};
   rt::MemoryLock memory;
@@ -32,10 +32,10 @@ struct Startup {
 /// SCHED_FIFO priority that a thread is to have, by its name; 0: none.
 [[nodiscard]] int wantedPriority(std::string_view thread) noexcept;
 
-/// What was wanted beside what was had, one line for each thread and each other thing.
+/// What was wanted and what was obtained, one line for each thread and setting.
 [[nodiscard]] std::vector<std::string> startupTable(const Startup& startup);
 
-/// How to get what could not be had; empty when all was.
+/// How to get what was not obtained; empty when nothing is missing.
 [[nodiscard]] std::vector<std::string> remedies(const Startup& startup);
 
 /// Keeps the whole process off the tick's CPU, but for the tick: call it before any other thread is made.

@@ -8,7 +8,7 @@
 
 namespace palpate::server {
 
-/// Sends the rest surface once, for whoever comes later too, and then its displacement as the tick finds it.
+/// Sends the rest surface once, kept for late readers, then each displacement that the tick publishes.
 class SurfacePublisher {
  public:
   /// Publishes the rest surface. Both references must outlive the publisher.

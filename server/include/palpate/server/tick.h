@@ -12,7 +12,7 @@
 
 namespace palpate::server {
 
-/// How often what happens.
+/// Periods of the loop and of the surface.
 struct TickPlan {
   std::int64_t period_ns{1'000'000};  ///< of the loop
   std::int64_t surface_period_ns{
@@ -33,7 +33,7 @@ class Tick {
     input_.period_ns = plan.period_ns;
   }
 
-  /// @return by how much the ticks' grid is to move, ns
+  /// @return shift of the ticks' grid, ns
   [[nodiscard]] std::int64_t run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
 
   /// run() for a PeriodicThread; context is the Tick.
@@ -42,7 +42,7 @@ class Tick {
   }
 
  private:
-  // Books about one tool.
+  // What the tick counts and keeps for one tool.
   struct Ledger {
     PoseSample pose;              // newest that a tick knew
     std::uint64_t force_seq{0};   // forces sent
@@ -83,7 +83,7 @@ class Tick {
   std::int64_t last_woke_ns_{0};
   std::uint64_t last_overruns_{0};
   bool overrun_{false};                          // ticks were missed before this one
-  std::array<rt::PhaseLock, kMaxTools> phases_;  // one a tool: none resets what another earned
+  std::array<rt::PhaseLock, kMaxTools> phases_;  // one per tool, so that no tool resets another's
   std::size_t followed_{0};                      // the tool whose poses set the phase
   std::int64_t shift_ns_{0};
   std::uint64_t surface_seq_{0};

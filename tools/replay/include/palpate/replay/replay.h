@@ -32,8 +32,8 @@ struct Findings {
 
 /// What a recording must be.
 enum class Demand {
-  kWhole,  ///< every tick from the first on, and an end
-  kPartial  ///< whatever is there; after a hole the engine's state may be another, and differences are no surprise
+  kWhole,   ///< every tick from the first on, and an end
+  kPartial  ///< any part of it; after a gap the engine's state may differ, so differences are expected
 };
 
 /// Runs a session's inputs through step() again, from a new Workspace, without threads or clocks, and compares each
