@@ -46,9 +46,9 @@ TEST(ClosedLoop, ASoftSpringIsStable) {
   EXPECT_NEAR(verdict.max_force, 300.0 * verdict.depth, 0.01);
 }
 
-// A spring k that is sampled and held each T and answered after td takes up negative damping of k (T/2 + td): the limit
-// is where it eats what hand and device have (Diolaiti et al. 2006, without Coulomb friction). The spring pulls too,
-// so that contact is never lost and the loop is linear.
+// A spring k, sampled and held each T and answered after td, has a negative damping of k (T/2 + td). The limit is where that
+// equals the damping of hand and device (Diolaiti et al. 2006, without Coulomb friction). The spring pulls too, so that
+// contact is never lost and the loop is linear.
 bool grows(double k, std::size_t delay) {
   const Motion motion = makeMotion("press", kSurface, kUp, {});
   HeldDevice held({0.045, 0.005, 0.0}, {}, motion.path);
@@ -115,7 +115,7 @@ TEST(ClosedLoop, ARunThatFliesAwayIsUnstable) {
   EXPECT_FALSE(verdict.settle_s);
 }
 
-// The judgement on traces that are known in closed form.
+// Judgement of traces known in closed form.
 Trace swinging(const Motion& motion, double amplitude, double rate) {
   Trace trace{1e-3, {}, {}};
   for (int i = 0; i <= 4000; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What extrapolation saves a device that runs at 4 kHz beside a server at 1 kHz. No wall clock: time is counted.
+// The gain of extrapolation for a device at 4 kHz beside a server at 1 kHz. No wall clock: time is counted.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +65,7 @@ Errors play() {
   Errors errors;
   for (int i = 0; i < 40 * kRate + 400; ++i) {
     const std::int64_t now = i * kPeriod + 1'000'000;
-    // 40 ms at rest above the organ first, so that the watchdog has let go.
+    // 40 ms at rest above the organ first, so that the watchdog passes the full force.
     const Point p = pressAt(std::max(0.0, 1e-9 * static_cast<double>(now) - 0.041));
     const Vec3 true_force = truth.at(palpate::Vec3(p[0], p[1], p[2])).force;
     const auto seq = static_cast<std::uint64_t>(i + 1);

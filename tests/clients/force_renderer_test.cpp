@@ -17,7 +17,7 @@ double sizeOf(const Vec3& v) {
   return std::hypot(v[0], v[1], v[2]);
 }
 
-// A tool 1 mm deep in a plane z = 0 of 500 N/m, 200 N/m sideways; answered at its pose, watchdog content.
+// A tool 1 mm deep in a plane z = 0 of 500 N/m, 200 N/m sideways; answered at its pose, with the watchdog at full gain.
 class Pressed : public ::testing::Test {
  protected:
   void SetUp() override {

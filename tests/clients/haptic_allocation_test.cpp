@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// After the start nothing of ours allocates. Cyclone DDS does in its write; how much is counted beside it.
+// After the start none of our code allocates. Cyclone DDS allocates in its write; the test counts how much.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -54,7 +54,7 @@ Options onTool1() {
   return options;
 }
 
-// Sends and answers until the force is there in full.
+// Sends and answers until the force has its full size.
 Force pressed(Server& server, HapticTool& tool, const Vec3& position, double fz) {
   Force force;
   for (int i = 0; i < 2000 && force.gain < 1.0; ++i) {

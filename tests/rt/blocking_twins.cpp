@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Never linked: each mistake but kNone is one that the compiler has to name by itself (-Wfunction-effects, preset
-// rtsan). One at a time, chosen by a macro of that name.
+// Never linked. The compiler must report each mistake but kNone (-Wfunction-effects, preset rtsan). A macro of the
+// mistake's name selects one.
 #include <cstdlib>
 #include <ctime>
 #include <mutex>

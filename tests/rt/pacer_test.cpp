@@ -25,7 +25,7 @@ TEST(Pacer, SkipsAndCountsWhatItMissed) {
   std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_GE(pacer.wait(), 8'000'000);
   EXPECT_GE(pacer.missed() - before, 8U);
-  // Not made up for in a burst: the next point lies ahead.
+  // No burst makes up for it: the next point lies ahead.
   const std::int64_t woke = monotonicNow();
   pacer.wait();
   pacer.wait();

@@ -95,7 +95,7 @@ TEST(PeriodicThread, MissedPeriodsAreCountedAndNeverBunched) {
   EXPECT_GE(log.cycles[11].previous_ns, 5 * kPeriod);
 }
 
-// Asks for another 1 % of a period each time: the grid moves by just that, and no period is missed for it.
+// Shifts the grid by 1 % of a period in each cycle: it moves by exactly that, and no period is missed.
 std::int64_t shiftCycle(void* context, const Cycle& cycle) noexcept {
   (void)logCycle(context, cycle);
   return cycle.index < 20 ? 10'000 : -10'000;

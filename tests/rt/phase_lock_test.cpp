@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sender, its way to us and our ticks, all in the test's own time.
+// A sender, its wire and our ticks, all in the test's own time.
 #include "palpate/rt/phase_lock.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr std::int64_t kSlew = 10'000;  // 1 % of it
 
 class World {
  public:
-  // How much later than due a value arrives, ns.
+  // Lateness of a value's arrival, ns.
   using Delay = std::function<double()>;
 
   explicit World(std::int64_t period_ns = kPeriod) : period_(period_ns), lock_(period_ns) {}
@@ -31,7 +31,7 @@ class World {
   bool sending = true;
   Delay delay = [] { return 0.0; };
 
-  // One tick: what came before it, and where the next one is.
+  // One tick: the values before it, and the next deadline.
   void tick() {
     while (next_send < static_cast<double>(deadline_ + period_)) {  // all that may arrive before this tick
       if (sending) underway_.push_back(static_cast<std::int64_t>(next_send + delay()));
@@ -94,7 +94,7 @@ TEST(PhaseLock, LocksFromAnyPhaseWithinAHundredTicksAndStays) {
   }
 }
 
-// Also of a stream that begins anew elsewhere: what was learnt of the phase before is not taken for the new one's.
+// The same for a stream that restarts at another phase: what was learnt of the old phase does not count for the new one.
 TEST(PhaseLock, MovesNothingBeforeSixteenValuesCame) {
   World world;
   for (const double phase : {300e3, 600e3}) {
@@ -114,7 +114,7 @@ TEST(PhaseLock, MovesNothingBeforeSixteenValuesCame) {
   }
 }
 
-// Others move the grid: the lock learns the phase all the same, and is right at once when its turn comes.
+// Other locks move the grid: this lock still learns its phase, and is right at once when its turn comes.
 TEST(PhaseLock, LearnsThePhaseAlsoWhenItIsNotTheOneThatMovesTheGrid) {
   PhaseLock lock(kPeriod);
   std::int64_t deadline = 5'000'000'000, lead = 0;
@@ -149,7 +149,7 @@ TEST(PhaseLock, TheMarginFollowsTheJitter) {
   EXPECT_LT(margins[1], margins[2]);
 }
 
-// What misses its tick is replaced by the next value, so that nobody ever sees how late it was; but it was missing.
+// The next value replaces one that misses its tick, so its lateness is never seen; the lock counts it as missing.
 TEST(PhaseLock, TheMarginGrowsByValuesThatNoTickEverSaw) {
   std::mt19937 random(9);
   World world;
@@ -208,7 +208,7 @@ TEST(PhaseLock, KeepsThePhaseWhenTheStreamStops) {
   EXPECT_EQ(world.lock_.state(), PhaseState::kFree);
   const std::int64_t travelled = world.travelled_;
   world.run(1000);
-  EXPECT_EQ(world.travelled_, travelled) << "the grid moved for nobody";
+  EXPECT_EQ(world.travelled_, travelled) << "the grid moved without a stream";
   world.sending = true;
   world.run(40);
   EXPECT_EQ(world.lock_.state(), PhaseState::kLocked) << "it is where it was";
@@ -237,7 +237,7 @@ TEST(PhaseLock, ASenderAtAnotherRateIsLeftAlone) {
   }
 }
 
-// Values that are sent in answer to a tick come at the same phase wherever the grid goes.
+// Values sent in answer to a tick come at the same phase wherever the grid goes.
 TEST(PhaseLock, AStreamThatFollowsUsIsNotChased) {
   for (const std::int64_t lead : {100'000, 300'000, 700'000, 930'000}) {
     PhaseLock lock(kPeriod);
@@ -254,7 +254,7 @@ TEST(PhaseLock, AStreamThatFollowsUsIsNotChased) {
   }
 }
 
-// The sender knows what we do and wants the grid to run away.
+// The sender sees the grid and tries to make it run away.
 TEST(PhaseLock, AHostileStreamCannotDriveTheGridBeyondTheBound) {
   std::mt19937 random(11);
   PhaseLock lock(kPeriod);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RealtimeSanitizer finds what a real-time function must not do: each of these does it, and ends the program.
+// RealtimeSanitizer finds what a real-time function must not do: each of these functions does it, and the program ends.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

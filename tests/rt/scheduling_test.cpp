@@ -28,7 +28,7 @@ bool canRaise() {
   return raised;
 }
 
-// Runs body in a child that gave up root and every real-time allowance. @return its exit code
+// Runs body in a child without root and without any real-time allowance. @return its exit code
 template <class Body>
 int withoutPrivilege(Body body) {
   const pid_t child = fork();

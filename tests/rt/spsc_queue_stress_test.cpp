@@ -22,8 +22,8 @@ Value filled(std::uint64_t number) {
   return value;
 }
 
-// The wrong twin: shows the counter before the value is in the slot, and frees the slot before it was copied
-// out. Relaxed atomics throughout, so that ThreadSanitizer leaves it to the check.
+// The wrong twin: publishes the counter before the value is in the slot, and frees the slot before its value is
+// copied out. Relaxed atomics throughout, so that ThreadSanitizer leaves it to the check.
 class HastyQueue {
  public:
   bool push(const Value& value) {
@@ -50,7 +50,7 @@ class HastyQueue {
   std::atomic<std::uint64_t> head_{0};
 };
 
-// The other wrong twin: passes a few values on and then nothing, as if one side never saw the other's counter.
+// The other wrong twin: passes a few values and then none, as if one side never saw the other's counter.
 class StallingQueue {
  public:
   bool push(const Value& value) { return pushed_ < kLast && queue_.push(value) && ++pushed_ > 0; }

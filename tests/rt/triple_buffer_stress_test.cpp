@@ -32,7 +32,7 @@ bool isTorn(const Value& value) {
 }
 
 // The same interface without the protocol: one slot that both sides touch. The words are relaxed atomics, so
-// that the language calls it a race of meaning and not of memory, and ThreadSanitizer leaves it to the check.
+// that this is no data race in the language, and ThreadSanitizer leaves it to the check.
 class TornBuffer {
  public:
   void write(const Value& value) {

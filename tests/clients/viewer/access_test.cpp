@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may come in.
+// Who may connect.
 #include "access.h"
 
 #include <gtest/gtest.h>

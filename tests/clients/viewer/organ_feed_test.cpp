@@ -29,7 +29,7 @@ class FeedOfManyServers : public ::testing::Test {
     return statuses_.matched() > 0 && surfaces_.matched() > 0 && parameters_.matched() > 0 &&
            fields_.matched() > 0 && forces_.matched() > 0 && poses_.matched() > 0;
   }
-  // Polls until it is so; not for ever.
+  // Polls until the condition holds, or the time is over.
   bool until(const std::function<bool()>& so) {
     for (int i = 0; i < 400; ++i) {
       (void)feed_.poll(rt::monotonicNow(), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the viewer hands out, and what not.
+// Files that the viewer serves, and files that it refuses.
 #include "page_files.h"
 
 #include <gtest/gtest.h>

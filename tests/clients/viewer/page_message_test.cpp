@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page says, and what nobody may say.
+// Messages of a page that are taken, and messages that are refused.
 #include "page_message.h"
 
 #include <gtest/gtest.h>

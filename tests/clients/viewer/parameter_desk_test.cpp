@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages' wishes on their way to a server that the test plays.
+// Pages' requests to a server that the test plays.
 #include "parameter_desk.h"
 
 #include <gtest/gtest.h>
@@ -42,14 +42,14 @@ struct Asked {
     for (int i = 0; i < 1000 && requests.matched() == 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  // What a server with this number says of itself.
+  // The parameters of a server with this number.
   static dds::ServerParameters server(std::uint32_t id, double model_youngs_modulus) {
     dds::ServerParameters known{};
     known.server_id = id;
     known.model_youngs_modulus = model_youngs_modulus;
     return known;
   }
-  // What has come, after a tend() at this time.
+  // The requests that came, after a tend() at this time.
   std::vector<dds::ParameterRequest> at(std::int64_t now_ns,
                                         const dds::ServerParameters& asked = server(0, 100e3)) {
     desk.tend(asked, now_ns);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets that come now early, now late become a steady way.
+// Targets with jitter become a steady path.
 #include "pose_follower.h"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 
 namespace palpate::testing {
 
-/// What the page does, without a screen: keeps what comes, acknowledges frames, drags. Threads: one.
+/// A page without a screen: keeps what comes, acknowledges frames, drags. Threads: one.
 class TestPage {
  public:
   struct Tool {
@@ -26,7 +26,7 @@ class TestPage {
 
   explicit TestPage(const WsRequest& request) : client(request) {}
 
-  /// Takes what comes for so long, or until `enough`. @return whether it was enough
+  /// Takes messages for this time, or until `enough` holds. @return whether it held
   bool listen(std::chrono::milliseconds time, const std::function<bool()>& enough = {});
 
   [[nodiscard]] bool has(const std::string& type) const { return texts.contains(type); }
@@ -35,7 +35,7 @@ class TestPage {
   /// Waits for surface and a frame with a field. @return whether they came within 20 s
   [[nodiscard]] bool connect();
 
-  /// Holds the tip `depth` below the highest node that may be touched for so long, or until `enough`.
+  /// Holds the tip `depth` below the highest accessible node for this time, or until `enough` holds.
   bool press(double depth, std::chrono::milliseconds time, const std::function<bool()>& enough = {});
 
   WsClient client;

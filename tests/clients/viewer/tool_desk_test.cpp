@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grabbing and letting go, faster than the desk is asked what ended.
+// Grabs and releases, faster than endings() is called.
 #include "tool_desk.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// palpate-viewer between a real server and pages that are played by the test.
+// palpate-viewer between a real server and pages played by the test.
 #include <algorithm>
 #include <csignal>
 #include <mutex>
@@ -26,7 +26,7 @@ class AnswersOnTheWire {
       : participant_(static_cast<std::uint32_t>(std::stoul(domain))),
         reader_(participant_, &AnswersOnTheWire::onForce, this) {}
 
-  // Answers that came with stamps in this time, of this machine's clock.
+  // Number of answers with stamps in this interval of this machine's clock.
   [[nodiscard]] std::size_t between(double from_us, double to_us) {
     const std::lock_guard lock(mutex_);
     return static_cast<std::size_t>(std::count_if(
@@ -70,7 +70,7 @@ TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
   page->client.say({{"type", "release"}});
   EXPECT_TRUE(page->listen(seconds(5), [&] { return page->has("tool"); }));
   EXPECT_EQ(page->texts["tool"]["message"], "released");
-  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->tools.empty(); })) << "nobody holds it any more";
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->tools.empty(); })) << "no page holds it now";
   EXPECT_TRUE(page->listen(seconds(5), [&] { return page->largest_displacement < 1e-5; }))
       << "the dent is gone";
 }

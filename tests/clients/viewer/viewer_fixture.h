@@ -51,7 +51,7 @@ class ViewerEndToEnd : public ::testing::Test {
     EXPECT_TRUE(page->connect());
     return page;
   }
-  // And one that holds a tool.
+  // The same, and the page holds a tool.
   [[nodiscard]] std::unique_ptr<TestPage> openHoldingPage() {
     auto page = openServedPage();
     EXPECT_TRUE(grab(*page)["granted"]);

@@ -43,7 +43,7 @@ Attack saying(const char* name, std::string text, std::uint16_t code) {
   return {name, [text = std::move(text)](WsClient& c) { c.send(text); }, code};
 }
 
-// So many pieces of a message that does not end.
+// This many pieces of a message that does not end.
 Attack inPieces(const char* name, int pieces, std::size_t size, std::uint16_t code) {
   const auto run = [=](WsClient& c) {
     for (int i = 0; i < pieces && c.send(std::string(size, 'x'), i == 0 ? 1 : 0, false); ++i) {

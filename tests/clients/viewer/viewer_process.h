@@ -18,13 +18,13 @@ class ViewerProcess {
   ViewerProcess(const ViewerProcess&) = delete;
   ViewerProcess& operator=(const ViewerProcess&) = delete;
 
-  /// 0: it did not get so far.
+  /// 0: it did not start to listen.
   [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
   /// Its first line on standard output.
   [[nodiscard]] const std::string& announcement() const noexcept { return announcement_; }
 
   [[nodiscard]] bool running();
-  /// Sends a signal and waits. @return exit code, 128 + n when signal n ended it, -1 when it goes on for 20 s
+  /// Sends a signal and waits. @return exit code, 128 + n when signal n ended it, -1 when it still runs after 20 s
   int end(int signal);
 
  private:

@@ -23,7 +23,7 @@ int connectTo(std::uint16_t port) {
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return fd;
   close(fd);
-  throw std::runtime_error("nobody listens on port " + std::to_string(port));
+  throw std::runtime_error("no program listens on port " + std::to_string(port));
 }
 
 std::string httpGet(std::uint16_t port, const std::string& path, const std::string& host) {

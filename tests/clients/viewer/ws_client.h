@@ -10,7 +10,7 @@
 
 namespace palpate::testing {
 
-/// How a WebSocket is asked for; what a browser's page of the viewer itself would say, unless changed.
+/// A request for a WebSocket; by default that of a browser with the viewer's own page.
 struct WsRequest {
   std::uint16_t port{0};
   std::string path{"/ws"};
@@ -27,10 +27,10 @@ struct WsMessage {
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(bytes); }
 };
 
-/// A WebSocket client on a plain socket, which may also say what no browser would. Threads: one.
+/// A WebSocket client on a plain socket, which can also send what no browser sends. Threads: one.
 class WsClient {
  public:
-  /// Connects and shakes hands, whatever comes of it. @throw std::runtime_error when nobody listens
+  /// Connects and shakes hands; status() has the outcome. @throw std::runtime_error  no program listens
   explicit WsClient(const WsRequest& request);
   ~WsClient();
   WsClient(const WsClient&) = delete;
@@ -41,7 +41,7 @@ class WsClient {
   /// Sends one frame, masked. @return false when the connection is gone
   bool send(const std::string& text, std::uint8_t opcode = 1, bool final = true);
   bool say(const nlohmann::json& object) { return send(object.dump()); }
-  /// Sends bytes as they are.
+  /// Sends bytes unchanged.
   bool sendRaw(const std::string& bytes);
 
   /// The next message; answers WebSocket pings by itself.
@@ -57,11 +57,11 @@ class WsClient {
   std::vector<std::uint8_t> buffer_;
 };
 
-/// A TCP connection to this machine. @throw std::runtime_error when nobody listens
+/// A TCP connection to this machine. @throw std::runtime_error  no program listens
 [[nodiscard]] int connectTo(std::uint16_t port);
 
-/// All that comes as answer to GET, head and body; empty when the connection ends without.
-/// @param[in] path  sent as it is
+/// The whole answer to GET, head and body; empty when the connection ends without one.
+/// @param[in] path  sent unchanged
 [[nodiscard]] std::string httpGet(std::uint16_t port, const std::string& path, const std::string& host);
 
 }  // namespace palpate::testing
