@@ -49,7 +49,7 @@ struct PgdCase {
   std::optional<bool> hadamard;     ///< component-wise pairs, Eq. (3)
   std::optional<double> tolerance;  ///< of the residual, relative, [0, 1)
   std::optional<int> greedy_pairs;  ///< before recompression, modes to 100000; absent: 1.5 modes
-  std::optional<int> sweeps;        ///< alternating directions a pair, 1 to 1000
+  std::optional<int> sweeps;        ///< alternating directions per pair, 1 to 1000
   std::optional<int> update;        ///< pairs between updates of all Y, 0 to 100000; 0: never
   std::optional<int> block;         ///< pairs iterated at once, 1 to 1000
 };
