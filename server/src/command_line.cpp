@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command_line.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
-#include <iostream>
 #include <sstream>
 #include <string>
 
+#include "palpate/program/command_line.h"
 #include "palpate/server/config_file.h"
 
 namespace palpate::server {
@@ -55,55 +54,44 @@ std::string defaultOf(std::size_t parameter) {
   return text.str();
 }
 
-void declareContact(CLI::App& app, Given& given) {
-  app.add_option("--device", given.device,
-                 "Device whose limits hold: touch (default), omni, desktop, premium15, premium30 or custom")
-      ->type_name("NAME");
+void declareContact(program::Options line, Given& given) {
+  line.add("--device", &given.device,
+           "Device whose limits hold: touch (default), omni, desktop, premium15, premium30 or custom")
+      .valueName("NAME");
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
-    app.add_option(info.option, given.live.*kLiveFields<LiveOverrides>[i],
-                   std::string(info.help) + ", " + rangeOf(info) + ", default " + defaultOf(i));
+    line.add(info.option, &(given.live.*kLiveFields<LiveOverrides>[i]),
+             std::string(info.help) + ", " + rangeOf(info) + ", default " + defaultOf(i));
   }
-  app.add_option("--speed-limit", given.speed_limit,
-                 "A pose that moves faster counts as a jump, m/s, 0.01 to 100 or inf, default 2");
-  app.add_option("--tools", given.tools, "Number of tools that are answered, ids from 0; 1 to 4, default 4");
+  line.add("--speed-limit", &given.speed_limit,
+           "A pose that moves faster counts as a jump, m/s, 0.01 to 100 or inf, default 2");
+  line.add("--tools", &given.tools, "Number of tools that are answered, ids from 0; 1 to 4, default 4");
 }
 
-// CLI11 2.1.2 writes false into an optional<bool> whose flag is absent, which would overrule the file.
-void declareFlag(CLI::App& app, const std::string& names, std::optional<bool>& given,
-                 const std::string& text) {
-  app.add_flag_function(
-      names, [&given](std::int64_t count) { given = count > 0; }, text);
-}
-
-void declare(CLI::App& app, Given& given) {
-  app.set_version_flag("--version", std::string("palpate-server ") + PALPATE_VERSION);
-  app.add_option("--model", given.model, "Model file made by palpate-solve")->type_name("FILE");
-  app.add_option("--config", given.config, "Options as TOML, see server/server.toml")->type_name("FILE");
-  app.add_option("--record", given.record,
-                 "Record every tick's input and answer in this file, for palpate-replay")
-      ->type_name("FILE");
-  app.add_option("--domain", given.domain, "DDS domain, 0 to 230, default 0");
-  app.add_option("--rate", given.rate,
-                 "Ticks per second, 50 to 10000, default 1000 (lower with a longer tool.stale_timeout)")
-      ->type_name("HZ");
-  app.add_option("--realtime", given.realtime, "Real-time priority: require, prefer (default) or off")
-      ->type_name("POLICY");
-  app.add_option("--tip-radius", given.tip_radius, "Radius of the tools' tips, m, 0 to 0.05, default 0.005");
-  declareContact(app, given);
-  app.add_option("--surface-rate", given.surface_rate,
-                 "Surface fields per second, 0.1 or more, default inf: with every tick")
-      ->type_name("HZ");
-  declareFlag(app, "--phase-lock,!--no-phase-lock", given.phase_lock,
-              "Ticks follow the poses' arrival, so that a pose waits little for its tick");
-  app.add_option("--tick-cpu", given.tick_cpu,
-                 "CPU that the tick runs on, default -1: where the scheduler puts it");
-  declareFlag(app, "--tick-cpu-alone,!--no-tick-cpu-alone", given.tick_cpu_alone,
-              "Nothing else of the server runs on the tick's CPU");
-  app.add_option("--organ-id", given.organ_id, "Key of the surface topics, default 0");
-  app.add_option("--server-id", given.server_id, "Key of the status topic, default 0");
-  app.footer(
-      "Example: palpate-server --model liver.h5 --domain 7\nStop it with Ctrl-C: zero force is sent first.");
+void declare(program::Options line, Given& given) {
+  line.add("--model", &given.model, "Model file made by palpate-solve").valueName("FILE");
+  line.add("--config", &given.config, "Options as TOML, see server/server.toml").valueName("FILE");
+  line.add("--record", &given.record, "Record every tick's input and answer in this file, for palpate-replay")
+      .valueName("FILE");
+  line.add("--domain", &given.domain, "DDS domain, 0 to 230, default 0");
+  line.add("--rate", &given.rate,
+           "Ticks per second, 50 to 10000, default 1000 (lower with a longer tool.stale_timeout)")
+      .valueName("HZ");
+  line.add("--realtime", &given.realtime, "Real-time priority: require, prefer (default) or off")
+      .valueName("POLICY");
+  line.add("--tip-radius", &given.tip_radius, "Radius of the tools' tips, m, 0 to 0.05, default 0.005");
+  declareContact(line, given);
+  line.add("--surface-rate", &given.surface_rate,
+           "Surface fields per second, 0.1 or more, default inf: with every tick")
+      .valueName("HZ");
+  line.flag("--phase-lock,!--no-phase-lock", &given.phase_lock,
+            "Ticks follow the poses' arrival, so that a pose waits little for its tick");
+  line.add("--tick-cpu", &given.tick_cpu,
+           "CPU that the tick runs on, default -1: where the scheduler puts it");
+  line.flag("--tick-cpu-alone,!--no-tick-cpu-alone", &given.tick_cpu_alone,
+            "Nothing else of the server runs on the tick's CPU");
+  line.add("--organ-id", &given.organ_id, "Key of the surface topics, default 0");
+  line.add("--server-id", &given.server_id, "Key of the status topic, default 0");
 }
 
 template <class T>
@@ -181,16 +169,17 @@ ServerConfig combine(const Given& given) {
 }  // namespace
 
 std::optional<ServerConfig> parseCommandLine(int argc, char** argv) {
-  CLI::App app("Serves a soft organ: answers tool poses with forces and surface displacements over DDS.",
-               "palpate-server");
+  program::CommandLine line(
+      "palpate-server",
+      "Serves a soft organ: answers tool poses with forces and surface displacements over DDS.",
+      std::string("palpate-server ") + PALPATE_VERSION);
   Given given;
-  declare(app, given);
+  declare(line.options(), given);
+  line.footer(
+      "Example: palpate-server --model liver.h5 --domain 7\nStop it with Ctrl-C: zero force is sent first.");
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    app.exit(help, std::cout, std::cerr);
-    return std::nullopt;
-  } catch (const CLI::ParseError& error) {
+    if (!line.read(argc, argv)) return std::nullopt;
+  } catch (const program::UsageError& error) {
     throw ConfigError(error.what());
   }
   return combine(given);

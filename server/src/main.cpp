@@ -2,12 +2,11 @@
 #include <spdlog/spdlog.h>
 
 #include <csignal>
-#include <exception>
-#include <iostream>
 #include <memory>
 
 #include "command_line.h"
 #include "log_sink.h"
+#include "palpate/program/run.h"
 #include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
@@ -80,10 +79,5 @@ int serve(int argc, char** argv) {
 }  // namespace palpate::server
 
 int main(int argc, char** argv) {
-  try {
-    return palpate::server::serve(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "palpate-server: " << error.what() << '\n';
-    return 1;
-  }
+  return palpate::program::runProgram("palpate-server", &palpate::server::serve, argc, argv);
 }

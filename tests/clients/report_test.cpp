@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "palpate/client/error.h"
 #include "palpate/idl/types.h"
 #include "palpate/report/program.h"
 #include "palpate/report/text_chart.h"
@@ -12,43 +8,9 @@
 namespace palpate::report {
 namespace {
 
-std::string refusal(const std::string& text) {
-  try {
-    (void)parsePoint("--at", text);
-  } catch (const client::ClientError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-TEST(Point, IsReadFromThreeNumbers) {
-  EXPECT_EQ(parsePoint("--at", "0.1,-2e-3,3"), (client::Point{0.1, -2e-3, 3.0}));
-}
-
-TEST(Point, RejectsAnythingElse) {
-  for (const char* text :
-       {"", "1", "1,2", "1,2,", "1,2,3,4", "1,2,x", "1,2,nan", "1,inf,3", "1;2;3", "1,2,3 "})
-    EXPECT_EQ(refusal(text), "--at is '" + std::string(text) + "', expected three finite numbers x,y,z");
-}
-
 TEST(Flags, HaveNames) {
   EXPECT_EQ(flagNames(0), "-");
   EXPECT_EQ(flagNames(dds::flag::kInContact | dds::flag::kBeyondDomain), "contact beyond-domain");
-}
-
-TEST(File, IsWrittenWholeOrNotAtAll) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("palpate-report-" + std::to_string(getpid()));
-  writeFile(path, "hello");
-  std::ifstream file(path);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "hello");
-  std::filesystem::remove(path);
-  try {
-    writeFile("/nonexistent/plot.svg", "x");
-    FAIL() << "wrote into a folder that does not exist";
-  } catch (const client::ClientError& error) {
-    EXPECT_STREQ(error.what(), "cannot write /nonexistent/plot.svg: No such file or directory");
-  }
 }
 
 TEST(Chart, TopRowHoldsOnlyThePeak) {

@@ -13,7 +13,7 @@
 namespace palpate::device {
 namespace {
 
-using nlohmann::json;
+using program::Json;
 
 template <class... Values>
 std::string line(const char* format, Values... values) {
@@ -31,8 +31,8 @@ double largest(const std::vector<double>& values) {
 }
 
 // K_vc as the server states it, N/m; null without a coupling, because JSON has no infinity.
-json couplingOf(const dds::ServerStatus& status) {
-  return std::isfinite(status.coupling_stiffness) ? json(status.coupling_stiffness) : json(nullptr);
+Json couplingOf(const dds::ServerStatus& status) {
+  return std::isfinite(status.coupling_stiffness) ? Json(status.coupling_stiffness) : Json(nullptr);
 }
 
 std::string settled(const Verdict& verdict) {
@@ -66,9 +66,9 @@ std::string textOf(const Session& s) {
   return text;
 }
 
-json jsonOf(const Session& s) {
+Json jsonOf(const Session& s) {
   const Recording& recording = s.recording;
-  const json settle = s.verdict.settle_s ? json(*s.verdict.settle_s) : json(nullptr);
+  const Json settle = s.verdict.settle_s ? Json(*s.verdict.settle_s) : Json(nullptr);
   return {
       {"preset", s.preset},
       {"device",

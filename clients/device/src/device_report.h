@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "palpate/client/server_finder.h"
 #include "palpate/client/surface.h"
 #include "palpate/device/mechanics.h"
+#include "palpate/program/json.h"
 #include "run.h"
 
 namespace palpate::device {
@@ -28,7 +28,7 @@ struct Session {
 /// For people: the run, a chart of the depth, and the verdict.
 [[nodiscard]] std::string textOf(const Session& session);
 /// The object of --json (docs/json.md).
-[[nodiscard]] nlohmann::json jsonOf(const Session& session);
+[[nodiscard]] program::Json jsonOf(const Session& session);
 /// Depth of the tip over time, with and without the organ, as SVG.
 [[nodiscard]] std::string plotOf(const Session& session);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-device: a simulated haptic device in a hand touches the organ, driven by the server's forces.
-#include <CLI/CLI.hpp>
+#include <array>
 #include <iostream>
 #include <optional>
 
@@ -8,7 +8,11 @@
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/device/closed_loop.h"
-#include "palpate/report/program.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/json.h"
+#include "palpate/program/numbers.h"
+#include "palpate/program/run.h"
+#include "palpate/program/write_file.h"
 
 namespace palpate::device {
 namespace {
@@ -27,42 +31,27 @@ struct Arguments {
   std::string plot;
 };
 
-void addDevice(CLI::App& app, Arguments& arguments) {
-  app.add_option("--preset", arguments.preset,
-                 "the device: touch, omni, desktop, premium15, premium30 or custom")
-      ->check(CLI::IsMember({"touch", "omni", "desktop", "premium15", "premium30", "custom"}))
-      ->capture_default_str();
-  app.add_option("--mass", arguments.mass,
-                 "moving mass of the device, kg; default: the preset's, custom 0.1");
-  app.add_option("--damping", arguments.damping, "its damping, N s/m; default: the preset's, custom 0");
-  app.add_option("--friction", arguments.friction,
-                 "its Coulomb friction, N; default: the preset's, custom 0");
-  app.add_option("--hand", arguments.hand, "mass (kg), damping (N s/m), stiffness (N/m) of the hand: M,B,K")
-      ->capture_default_str();
+void addDevice(program::Options line, Arguments& arguments) {
+  line.add("--preset", &arguments.preset, "the device: touch, omni, desktop, premium15, premium30 or custom")
+      .oneOf({"touch", "omni", "desktop", "premium15", "premium30", "custom"});
+  line.add("--mass", &arguments.mass, "moving mass of the device, kg; default: the preset's, custom 0.1");
+  line.add("--damping", &arguments.damping, "its damping, N s/m; default: the preset's, custom 0");
+  line.add("--friction", &arguments.friction, "its Coulomb friction, N; default: the preset's, custom 0");
+  line.add("--hand", &arguments.hand, "mass (kg), damping (N s/m), stiffness (N/m) of the hand: M,B,K");
 }
 
-void addOptions(CLI::App& app, Arguments& arguments) {
-  addDevice(app, arguments);
-  app.add_option("--motion", arguments.motion, "what the hand does: press, drag or tap")
-      ->check(CLI::IsMember({"press", "drag", "tap"}))
-      ->capture_default_str();
-  app.add_option("--seconds", arguments.path.seconds, "duration of the whole, s")->capture_default_str();
-  app.add_option("--depth", arguments.path.depth, "how far below the rest surface the hand wants the tip, m")
-      ->capture_default_str();
-  app.add_option("--at", arguments.at,
-                 "touch the accessible node nearest to x,y,z (m); default: the highest one");
-  app.add_option("--tool", arguments.tool_id, "tool id, 0 to 3")
-      ->check(CLI::Range(0, 3))
-      ->capture_default_str();
-  app.add_option("--domain", arguments.domain, "DDS domain")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
-  app.add_option("--wait", arguments.wait_s, "how long to wait for a server, s")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  app.add_flag("--json", arguments.json, "print one JSON object on standard output");
-  app.add_option("--plot", arguments.plot, "write the depth over time to this SVG file");
-  app.set_version_flag("--version", PALPATE_VERSION);
+void addOptions(program::Options line, Arguments& arguments) {
+  addDevice(line, arguments);
+  line.add("--motion", &arguments.motion, "what the hand does: press, drag or tap")
+      .oneOf({"press", "drag", "tap"});
+  line.add("--seconds", &arguments.path.seconds, "duration of the whole, s");
+  line.add("--depth", &arguments.path.depth, "how far below the rest surface the hand wants the tip, m");
+  line.add("--at", &arguments.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
+  line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
+  line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
+  line.add("--wait", &arguments.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
+  line.flag("--json", &arguments.json, "print one JSON object on standard output");
+  line.add("--plot", &arguments.plot, "write the depth over time to this SVG file");
 }
 
 Mechanics mechanicsOf(const Arguments& arguments) {
@@ -76,7 +65,7 @@ Mechanics mechanicsOf(const Arguments& arguments) {
 }
 
 Hand handOf(const Arguments& arguments) {
-  const Point values = report::parsePoint("--hand", arguments.hand);
+  const std::array<double, 3> values = program::parseVector("--hand", arguments.hand);
   const Hand hand{values[0], values[1], values[2]};
   check(hand);
   return hand;
@@ -84,7 +73,7 @@ Hand handOf(const Arguments& arguments) {
 
 client::Spot spotOf(const Arguments& arguments, const client::Surface& surface) {
   std::optional<Point> at;
-  if (!arguments.at.empty()) at = report::parsePoint("--at", arguments.at);
+  if (!arguments.at.empty()) at = Point{program::parseVector("--at", arguments.at)};
   return client::chooseSpot(surface, at);
 }
 
@@ -112,20 +101,21 @@ Session play(const dds::Participant& participant, const Arguments& arguments, co
 
 void tell(const Session& session, const Arguments& arguments) {
   (arguments.json ? std::cerr : std::cout) << textOf(session) << std::flush;
-  if (arguments.json) report::printJson(jsonOf(session));
-  if (!arguments.plot.empty()) report::writeFile(arguments.plot, plotOf(session));
+  if (arguments.json) program::printJson(jsonOf(session));
+  if (!arguments.plot.empty()) program::writeFile(arguments.plot, plotOf(session));
 }
 
 int body(int argc, char** argv) {
   // 1. What to do; refuse what cannot be before anybody waits.
-  CLI::App app(
+  program::CommandLine line(
+      "palpate-device",
       "Moves a simulated haptic device, held by a hand, against a palpate-server and judges its stability.");
   Arguments arguments;
-  addOptions(app, arguments);
-  CLI11_PARSE(app, argc, argv);
+  addOptions(line.options(), arguments);
+  if (!line.read(argc, argv)) return 0;
   const Mechanics mechanics = mechanicsOf(arguments);
   const Hand hand = handOf(arguments);
-  if (!arguments.at.empty()) (void)report::parsePoint("--at", arguments.at);
+  if (!arguments.at.empty()) (void)program::parseVector("--at", arguments.at);
   arguments.path.lead = leadOf(mechanics, hand);
   (void)makeMotion(arguments.motion, {}, {0, 0, 1}, arguments.path);
   client::catchStopSignals();
@@ -149,5 +139,5 @@ int body(int argc, char** argv) {
 }  // namespace palpate::device
 
 int main(int argc, char** argv) {
-  return palpate::report::runProgram("palpate-device", &palpate::device::body, argc, argv);
+  return palpate::program::runProgram("palpate-device", &palpate::device::body, argc, argv);
 }

@@ -72,7 +72,7 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
   return text + "pose to force:\n" + report::textHistogram(log.poseToForce());
 }
 
-nlohmann::json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
+program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
   return {{"pose_to_force_us", report::toJson(summaryOf(log.poseToForce()))},
           {"pose_wait_us", report::toJson(summaryOf(log.wait()))},
           {"pose_to_force_less_wait_us", report::toJson(summaryOf(log.poseToForceLessWait()))},

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "latency_log.h"
 #include "measure.h"
 #include "palpate/idl/types.h"
+#include "palpate/program/json.h"
 
 namespace palpate::latency {
 
@@ -16,8 +16,8 @@ namespace palpate::latency {
 
 /// The same for programs: `pose_to_force_us`, `pose_wait_us`, `pose_to_force_less_wait_us`, `wakeup_us`, `tick_us`, `client_wakeup_us`, each {p50, p99,
 /// p999, max, count}; `overruns`, `lost`, `late`, `superseded`, `seconds` and more.
-[[nodiscard]] nlohmann::json jsonOf(const LatencyLog& log, const SenderStats& sender,
-                                    const dds::ServerStatus& server);
+[[nodiscard]] program::Json jsonOf(const LatencyLog& log, const SenderStats& sender,
+                                   const dds::ServerStatus& server);
 
 /// The three histograms on logarithmic axes, as SVG.
 [[nodiscard]] std::string plotOf(const LatencyLog& log);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-latency: how long a pose takes to become a force, and how steadily the server ticks.
-#include <CLI/CLI.hpp>
 #include <array>
 #include <iostream>
 #include <optional>
@@ -11,7 +10,11 @@
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/reader.h"
-#include "palpate/report/program.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/json.h"
+#include "palpate/program/numbers.h"
+#include "palpate/program/run.h"
+#include "palpate/program/write_file.h"
 
 namespace palpate::latency {
 namespace {
@@ -25,25 +28,15 @@ struct Options {
   std::string plot;
 };
 
-void addOptions(CLI::App& app, Options& options) {
-  app.add_option("--seconds", options.measure.seconds, "how long to measure, s")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->capture_default_str();
-  app.add_option("--rate", options.measure.rate_hz, "poses a second")
-      ->check(CLI::Range(10.0, 4000.0))
-      ->capture_default_str();
-  app.add_option("--at", options.at,
-                 "press the accessible node nearest to x,y,z (m); default: the highest one");
-  app.add_option("--tool", options.measure.tool_id, "tool id, 0 to 3")
-      ->check(CLI::Range(0, 3))
-      ->capture_default_str();
-  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
-  app.add_option("--wait", options.wait_s, "how long to wait for a server, s")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "print one JSON object on standard output");
-  app.add_option("--plot", options.plot, "write the histograms to this SVG file");
-  app.set_version_flag("--version", PALPATE_VERSION);
+void addOptions(program::Options line, Options& options) {
+  line.add("--seconds", &options.measure.seconds, "how long to measure, s").range(0.1, 86400.0);
+  line.add("--rate", &options.measure.rate_hz, "poses a second").range(10.0, 4000.0);
+  line.add("--at", &options.at, "press the accessible node nearest to x,y,z (m); default: the highest one");
+  line.add("--tool", &options.measure.tool_id, "tool id, 0 to 3").range(0, 3);
+  line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
+  line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.add("--plot", &options.plot, "write the histograms to this SVG file");
 }
 
 // What the server says by now, for the status is sent once a second.
@@ -58,12 +51,14 @@ dds::ServerStatus newest(const dds::Reader<dds::ServerStatus>& statuses, const d
 
 int body(int argc, char** argv) {
   // 1. What to do.
-  CLI::App app("Sends poses to a palpate-server and measures round trip, tick time and wake-up lateness.");
+  program::CommandLine line(
+      "palpate-latency",
+      "Sends poses to a palpate-server and measures round trip, tick time and wake-up lateness.");
   Options options;
-  addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  addOptions(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
   std::optional<client::Point> at;
-  if (!options.at.empty()) at = report::parsePoint("--at", options.at);
+  if (!options.at.empty()) at = client::Point{program::parseVector("--at", options.at)};
   client::catchStopSignals();
 
   // 2. Find the server and a place to press.
@@ -86,8 +81,8 @@ int body(int argc, char** argv) {
 
   // 4. Tell.
   (options.json ? std::cerr : std::cout) << textOf(log, sender, server.status) << std::flush;
-  if (options.json) report::printJson(jsonOf(log, sender, server.status));
-  if (!options.plot.empty()) report::writeFile(options.plot, plotOf(log));
+  if (options.json) program::printJson(jsonOf(log, sender, server.status));
+  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(log));
   return 0;
 }
 
@@ -95,5 +90,5 @@ int body(int argc, char** argv) {
 }  // namespace palpate::latency
 
 int main(int argc, char** argv) {
-  return palpate::report::runProgram("palpate-latency", &palpate::latency::body, argc, argv);
+  return palpate::program::runProgram("palpate-latency", &palpate::latency::body, argc, argv);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-parameters: changes what the hand feels while the server runs, or says what is in force.
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
@@ -10,7 +9,9 @@
 
 #include "exchange.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/report/program.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/json.h"
+#include "palpate/program/run.h"
 
 namespace palpate::parameters {
 namespace {
@@ -33,22 +34,16 @@ std::string rangeOf(const LiveParameterInfo& info) {
   return text.str();
 }
 
-void addOptions(CLI::App& app, Options& options) {
+void addOptions(program::Options line, Options& options) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
-    app.add_option(info.option, options.values.*kLiveFields<LiveFields<std::optional<double>>>[i],
-                   std::string(info.help) + ", " + rangeOf(info));
+    line.add(info.option, &(options.values.*kLiveFields<LiveFields<std::optional<double>>>[i]),
+             std::string(info.help) + ", " + rangeOf(info));
   }
-  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
-  app.add_option("--server-id", options.server_id, "which server of the domain")->capture_default_str();
-  app.add_option("--wait", options.wait_s, "how long to wait for an answer, s")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "print one JSON object on standard output");
-  app.set_version_flag("--version", PALPATE_VERSION);
-  app.footer(
-      "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4\nWithout values: says what is in "
-      "force.");
+  line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--server-id", &options.server_id, "which server of the domain");
+  line.add("--wait", &options.wait_s, "how long to wait for an answer, s").range(0.0, 3600.0);
+  line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 
 dds::ParameterRequest requestOf(const Options& options) {
@@ -64,12 +59,12 @@ dds::ParameterRequest requestOf(const Options& options) {
 }
 
 // JSON has no infinity: null says "no bound".
-nlohmann::json jsonOf(const dds::ServerParameters& answer) {
-  nlohmann::json json{{"accepted", answer.accepted},
-                      {"message", answer.message},
-                      {"revision", answer.revision},
-                      {"server_id", answer.server_id},
-                      {"model_youngs_modulus_Pa", answer.model_youngs_modulus}};
+program::Json jsonOf(const dds::ServerParameters& answer) {
+  program::Json json{{"accepted", answer.accepted},
+                     {"message", answer.message},
+                     {"revision", answer.revision},
+                     {"server_id", answer.server_id},
+                     {"model_youngs_modulus_Pa", answer.model_youngs_modulus}};
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     json[kLiveParameters[i].json] = answer.*kLiveFields<dds::ServerParameters>[i];
   return json;
@@ -90,10 +85,15 @@ void print(const dds::ServerParameters& answer) {
 
 int body(int argc, char** argv) {
   // 1. What to change.
-  CLI::App app("Changes what the hand feels while a palpate-server runs, or says what is in force.");
+  program::CommandLine line(
+      "palpate-parameters",
+      "Changes what the hand feels while a palpate-server runs, or says what is in force.");
   Options options;
-  addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  addOptions(line.options(), options);
+  line.footer(
+      "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4\nWithout values: says what is in "
+      "force.");
+  if (!line.read(argc, argv)) return 0;
   client::catchStopSignals();
 
   // 2. Ask, until the server answers.
@@ -103,7 +103,7 @@ int body(int argc, char** argv) {
 
   // 3. Tell.
   if (options.json) {
-    report::printJson(jsonOf(answer));
+    program::printJson(jsonOf(answer));
   } else {
     print(answer);
   }
@@ -116,5 +116,5 @@ int body(int argc, char** argv) {
 }  // namespace palpate::parameters
 
 int main(int argc, char** argv) {
-  return palpate::report::runProgram("palpate-parameters", &palpate::parameters::body, argc, argv);
+  return palpate::program::runProgram("palpate-parameters", &palpate::parameters::body, argc, argv);
 }

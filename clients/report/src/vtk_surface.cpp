@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "palpate/client/error.h"
-#include "palpate/report/program.h"
+#include "palpate/program/write_file.h"
 
 namespace palpate::report {
 namespace {
@@ -103,7 +103,7 @@ void writeSurface(const std::filesystem::path& path, const Surface& surface,
     throw client::ClientError("displacement has " + std::to_string(displacement.size()) +
                               " entries, expected " + std::to_string(3 * surface.positions.size()));
   const Blocks blocks{surface, displacement};
-  writeFile(path, path.extension() == ".vtu" ? xml(blocks) : legacy(blocks));
+  program::writeFile(path, path.extension() == ".vtu" ? xml(blocks) : legacy(blocks));
 }
 
 }  // namespace palpate::report

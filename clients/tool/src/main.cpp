@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-tool: a scripted tool touches the organ and prints the force over time.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <optional>
 
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/report/program.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/json.h"
+#include "palpate/program/numbers.h"
+#include "palpate/program/run.h"
+#include "palpate/program/write_file.h"
 #include "tool_report.h"
 
 namespace palpate::tool {
@@ -25,30 +28,21 @@ struct Options {
   std::string plot;
 };
 
-void addOptions(CLI::App& app, Options& options) {
-  app.add_option("--script", options.script, "what to play: press, slide or poke")
-      ->check(CLI::IsMember({"press", "slide", "poke"}))
-      ->capture_default_str();
-  app.add_option("--seconds", options.seconds, "duration of the whole script, s")
-      ->check(CLI::Range(0.05, 3600.0));
-  app.add_option("--depth", options.path.depth, "how far below the rest surface, m")->capture_default_str();
-  app.add_option("--slide", options.path.slide_distance, "way along the surface, m")->capture_default_str();
-  app.add_option("--pokes", options.path.pokes, "how often poke goes in")->capture_default_str();
-  app.add_option("--clearance", options.path.clearance, "distance at the start and the end, m")
-      ->capture_default_str();
-  app.add_option("--at", options.at,
-                 "touch the accessible node nearest to x,y,z (m); default: the highest one");
-  app.add_option("--tip-radius", options.tip_radius, "radius of the tip, m; default: what the server says");
-  app.add_option("--tool", options.tool_id, "tool id, 0 to 3")
-      ->check(CLI::Range(0, 3))
-      ->capture_default_str();
-  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
-  app.add_option("--wait", options.wait_s, "how long to wait for a server, s")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "print one JSON object on standard output");
-  app.add_option("--plot", options.plot, "write the force over time to this SVG file");
-  app.set_version_flag("--version", PALPATE_VERSION);
+void addOptions(program::Options line, Options& options) {
+  line.add("--script", &options.script, "what to play: press, slide or poke")
+      .oneOf({"press", "slide", "poke"});
+  line.add("--seconds", &options.seconds, "duration of the whole script, s").range(0.05, 3600.0);
+  line.add("--depth", &options.path.depth, "how far below the rest surface, m");
+  line.add("--slide", &options.path.slide_distance, "way along the surface, m");
+  line.add("--pokes", &options.path.pokes, "how often poke goes in");
+  line.add("--clearance", &options.path.clearance, "distance at the start and the end, m");
+  line.add("--at", &options.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
+  line.add("--tip-radius", &options.tip_radius, "radius of the tip, m; default: what the server says");
+  line.add("--tool", &options.tool_id, "tool id, 0 to 3").range(0, 3);
+  line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
+  line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.add("--plot", &options.plot, "write the force over time to this SVG file");
 }
 
 Played prepare(const Options& options, const client::ServerInfo& server) {
@@ -58,7 +52,7 @@ Played prepare(const Options& options, const client::ServerInfo& server) {
     std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
               << server.status.tip_radius << " m\n";
   std::optional<client::Point> at;
-  if (!options.at.empty()) at = report::parsePoint("--at", options.at);
+  if (!options.at.empty()) at = client::Point{program::parseVector("--at", options.at)};
   const client::Spot spot = client::chooseSpot(server.surface, at);
   client::Path path = client::scriptedPath(options.script, spot, path_options);
   if (options.seconds) path = path.stretchedTo(*options.seconds);
@@ -67,12 +61,14 @@ Played prepare(const Options& options, const client::ServerInfo& server) {
 
 int body(int argc, char** argv) {
   // 1. What to do; refuse what cannot be before anybody waits.
-  CLI::App app("Plays a scripted tool path against a palpate-server and prints the force on the tool.");
+  program::CommandLine line(
+      "palpate-tool",
+      "Plays a scripted tool path against a palpate-server and prints the force on the tool.");
   Options options;
-  addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  addOptions(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
   client::check(options.path);
-  if (!options.at.empty()) (void)report::parsePoint("--at", options.at);
+  if (!options.at.empty()) (void)program::parseVector("--at", options.at);
   client::catchStopSignals();
 
   // 2. Find the server and its organ.
@@ -87,8 +83,8 @@ int body(int argc, char** argv) {
 
   // 4. Tell.
   (options.json ? std::cerr : std::cout) << tableOf(played, recording) << std::flush;
-  if (options.json) report::printJson(jsonOf(played, recording));
-  if (!options.plot.empty()) report::writeFile(options.plot, plotOf(played, recording));
+  if (options.json) program::printJson(jsonOf(played, recording));
+  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(played, recording));
   return 0;
 }
 
@@ -96,5 +92,5 @@ int body(int argc, char** argv) {
 }  // namespace palpate::tool
 
 int main(int argc, char** argv) {
-  return palpate::report::runProgram("palpate-tool", &palpate::tool::body, argc, argv);
+  return palpate::program::runProgram("palpate-tool", &palpate::tool::body, argc, argv);
 }

@@ -104,8 +104,8 @@ std::string tableOf(const Played& played, const Recording& recording) {
   return text + '\n' + report::textChart(t, f, "s", "|force| / N") + '\n' + summaryOf(played, recording);
 }
 
-nlohmann::json jsonOf(const Played& played, const Recording& recording) {
-  nlohmann::json t = nlohmann::json::array(), pose = t, force = t, flags = t, penetration = t;
+program::Json jsonOf(const Played& played, const Recording& recording) {
+  program::Json t = program::Json::array(), pose = t, force = t, flags = t, penetration = t;
   double contact_s = 0.0;
   for (std::size_t i = 0; i < recording.samples.size(); ++i) {
     const Sample& sample = recording.samples[i];

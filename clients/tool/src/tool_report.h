@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "palpate/client/scripts.h"
 #include "palpate/client/server_finder.h"
+#include "palpate/program/json.h"
 #include "play.h"
 
 namespace palpate::tool {
@@ -24,7 +24,7 @@ struct Played {
 
 /// The same for programs: `t_s`[n], `pose_m`[n][3], `force_N`[n][3] (on the tool), `flags`[n],
 /// `penetration_m`[n], `work_J`[n], `summary`, and what was played. docs/json.md documents it.
-[[nodiscard]] nlohmann::json jsonOf(const Played& played, const Recording& recording);
+[[nodiscard]] program::Json jsonOf(const Played& played, const Recording& recording);
 
 /// The force's size and components over time, as SVG.
 [[nodiscard]] std::string plotOf(const Played& played, const Recording& recording);

@@ -3,7 +3,6 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <fstream>
 #include <iostream>
@@ -11,7 +10,9 @@
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/receive_threads.h"
-#include "palpate/report/program.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/json.h"
+#include "palpate/program/run.h"
 #include "palpate/rt/scheduling.h"
 #include "web_server.h"
 
@@ -29,34 +30,26 @@ struct Options {
   bool json{false};
 };
 
-void addOptions(CLI::App& app, Options& options) {
+void addOptions(program::Options line, Options& options) {
   WebOptions& web = options.web;
-  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
-  app.add_option("--listen", web.access.listen,
-                 "numeric address to listen on; one that other machines reach needs a token")
-      ->capture_default_str();
-  app.add_option("--port", web.access.port, "TCP port; 0: any that is free")->capture_default_str();
-  app.add_option("--page", options.page, "folder with the page's index.html");
-  app.add_option(
-      "--token", web.access.token,
-      "secret that pages must bring, 16 to 128 letters, digits, - and _ (seen in the list of processes: "
-      "better --token-file)");
-  app.add_option("--token-file", options.token_file, "file whose first line is the token");
-  app.add_option(
-      "--origin", web.access.origins,
+  line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--listen", &web.access.listen,
+           "numeric address to listen on; one that other machines reach needs a token");
+  line.add("--port", &web.access.port, "TCP port; 0: any that is free");
+  line.add("--page", &options.page, "folder with the page's index.html");
+  line.add("--token", &web.access.token,
+           "secret that pages must bring, 16 to 128 letters, digits, - and _ (seen in the list of processes: "
+           "better --token-file)");
+  line.add("--token-file", &options.token_file, "file whose first line is the token");
+  line.add(
+      "--origin", &web.access.origins,
       "further address under which browsers see the page, e.g. https://viewer.example.org; may be repeated");
-  app.add_option("--rate", web.rate_hz, "frames a second to each page, at most")
-      ->check(CLI::Range(1.0, 1000.0))
-      ->capture_default_str();
-  app.add_option("--max-pages", web.max_pages, "pages that may be open at once")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  app.add_option("--tools", options.tools, "tool ids that pages may drive, in the order of preference")
-      ->delimiter(',')
-      ->check(CLI::Range(0, 3))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "when it listens, print one JSON object on standard output");
-  app.set_version_flag("--version", PALPATE_VERSION);
+  line.add("--rate", &web.rate_hz, "frames a second to each page, at most").range(1.0, 1000.0);
+  line.add("--max-pages", &web.max_pages, "pages that may be open at once").range(1, 256);
+  line.add("--tools", &options.tools, "tool ids that pages may drive, in the order of preference")
+      .list(',')
+      .range(0, 3);
+  line.flag("--json", &options.json, "when it listens, print one JSON object on standard output");
 }
 
 std::string tokenFrom(const std::string& path) {
@@ -69,10 +62,10 @@ std::string tokenFrom(const std::string& path) {
 void announce(const WebServer& server, const Options& options) {
   const bool token = !options.web.access.token.empty();
   if (options.json) {
-    report::printJson({{"address", server.address()},
-                       {"port", server.port()},
-                       {"domain", options.domain},
-                       {"needs_token", token}});
+    program::printJson({{"address", server.address()},
+                        {"port", server.port()},
+                        {"domain", options.domain},
+                        {"needs_token", token}});
   } else {
     std::cout << "page at " << server.address() << (token ? " (with ?token=... behind it)" : "") << std::endl;
   }
@@ -80,10 +73,12 @@ void announce(const WebServer& server, const Options& options) {
 
 int body(int argc, char** argv) {
   // 1. What to do.
-  CLI::App app("Shows the organ that a palpate-server simulates in browsers, and lets them touch it.");
+  program::CommandLine line(
+      "palpate-viewer",
+      "Shows the organ that a palpate-server simulates in browsers, and lets them touch it.");
   Options options;
-  addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  addOptions(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
   if (!options.token_file.empty()) options.web.access.token = tokenFrom(options.token_file);
   options.web.page = options.page.empty() ? defaultPageFolder() : std::filesystem::path(options.page);
   spdlog::set_default_logger(spdlog::stderr_color_mt("palpate-viewer"));
@@ -107,5 +102,5 @@ int body(int argc, char** argv) {
 }  // namespace palpate::viewer
 
 int main(int argc, char** argv) {
-  return palpate::report::runProgram("palpate-viewer", &palpate::viewer::body, argc, argv);
+  return palpate::program::runProgram("palpate-viewer", &palpate::viewer::body, argc, argv);
 }

@@ -2,44 +2,45 @@
 #include "page_message.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "palpate/program/json.h"
 
 namespace palpate::viewer {
 namespace {
 
-using nlohmann::json;
+using program::Json;
 
 // A finite number in [low, high].
-std::optional<double> number(const json& object, const char* key, double low, double high) {
-  const auto at = object.find(key);
-  if (at == object.end() || !at->is_number()) return std::nullopt;
+std::optional<double> number(const Json& object, const char* key, double low, double high) {
+  const Json* const at = object.find(key);
+  if (at == nullptr || !at->isNumber()) return std::nullopt;
   const double value = at->get<double>();
   if (!(value >= low && value <= high)) return std::nullopt;
   return value;
 }
 
 // A whole number in [0, high].
-std::optional<std::uint64_t> whole(const json& object, const char* key, std::uint64_t high) {
-  const auto at = object.find(key);
-  if (at == object.end() || !at->is_number_unsigned()) return std::nullopt;
+std::optional<std::uint64_t> whole(const Json& object, const char* key, std::uint64_t high) {
+  const Json* const at = object.find(key);
+  if (at == nullptr || !at->isUnsigned()) return std::nullopt;
   const auto value = at->get<std::uint64_t>();
   if (value > high) return std::nullopt;
   return value;
 }
 
-std::optional<PageMessage> target(const json& object) {
-  const auto at = object.find("position");
-  if (at == object.end() || !at->is_array() || at->size() != 3) return std::nullopt;
+std::optional<PageMessage> target(const Json& object) {
+  const Json* const at = object.find("position");
+  if (at == nullptr || !at->isArray() || at->size() != 3) return std::nullopt;
   Target result{};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!(*at)[i].is_number()) return std::nullopt;
+    if (!(*at)[i].isNumber()) return std::nullopt;
     result.position[i] = (*at)[i].get<double>();
     if (!(std::fabs(result.position[i]) <= kMaxCoordinate)) return std::nullopt;
   }
   return result;
 }
 
-std::optional<PageMessage> parameters(const json& object) {
+std::optional<PageMessage> parameters(const Json& object) {
   constexpr std::uint64_t kMaxExact = 1ULL << 53;  // a page's numbers are exact up to here
   constexpr double kLargest = 1e12;                // the server judges the ranges
   const auto request = whole(object, "request", kMaxExact);
@@ -63,11 +64,12 @@ std::optional<PageMessage> parameters(const json& object) {
 
 std::optional<PageMessage> parsePageMessage(std::string_view text) {
   if (text.size() > kMaxMessage) return std::nullopt;
-  const json object = json::parse(text, nullptr, false);
-  if (!object.is_object()) return std::nullopt;
-  const auto type = object.find("type");
-  if (type == object.end() || !type->is_string()) return std::nullopt;
-  const auto& name = type->get_ref<const std::string&>();
+  const std::optional<Json> read = Json::read(text);
+  if (!read) return std::nullopt;
+  const Json& object = *read;
+  const Json* const type = object.find("type");  // nothing in what is no object
+  if (type == nullptr || !type->isString()) return std::nullopt;
+  const std::string& name = type->text();
   if (name == "ack") {
     const auto seq = whole(object, "seq", UINT32_MAX);
     return seq ? std::optional<PageMessage>(Ack{static_cast<std::uint32_t>(*seq)}) : std::nullopt;

@@ -2,29 +2,26 @@
 #include "page_text.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <array>
 #include <sstream>
 
 #include "page_message.h"
+#include "palpate/program/json.h"
 #include "palpate/report/program.h"
 
 namespace palpate::viewer {
 namespace {
 
-using nlohmann::json;
+using program::Json;
 
-std::string dump(const json& object) {
-  return object.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-json flagList(std::uint32_t flags) {
-  json names = json::array();
+Json flagList(std::uint32_t flags) {
+  Json names = Json::array();
   std::istringstream words(flags == 0 ? "" : report::flagNames(flags));
   for (std::string word; words >> word;) names.push_back(word);
   return names;
 }
 
-json toJson(const dds::Percentiles& times) {
+Json toJson(const dds::Percentiles& times) {
   return {{"p50", times.p50},
           {"p99", times.p99},
           {"p999", times.p999},
@@ -32,7 +29,7 @@ json toJson(const dds::Percentiles& times) {
           {"count", times.count}};
 }
 
-json serverOf(const dds::ServerStatus& s) {
+Json serverOf(const dds::ServerStatus& s) {
   return {{"server_id", s.server_id},
           {"model_id", s.model_id},
           {"organ_id", s.organ_id},
@@ -63,12 +60,12 @@ json serverOf(const dds::ServerStatus& s) {
 
 /// Live parameters by their names, from ServerStatus or ServerParameters.
 template <class Message>
-void addLive(const Message& message, json& object) {
+void addLive(const Message& message, Json& object) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     object[kLiveParameters[i].name] = message.*kLiveFields<Message>[i];
 }
 
-json boxOf(const client::Surface& surface) {
+Json boxOf(const client::Surface& surface) {
   client::Point low = surface.positions.front();
   client::Point high = low;
   for (const client::Point& X : surface.positions)
@@ -76,38 +73,39 @@ json boxOf(const client::Surface& surface) {
       low[i] = std::min(low[i], X[i]);
       high[i] = std::max(high[i], X[i]);
     }
-  const auto plain = [](const client::Point& p) { return std::array<double, 3>{p[0], p[1], p[2]}; };
-  return {plain(low), plain(high)};
+  return std::array{low, high};
 }
 
 }  // namespace
 
 std::string helloText(std::uint64_t page_id, double rate_hz) {
-  return dump({{"type", "hello"},
+  return Json({{"type", "hello"},
                {"version", PALPATE_VERSION},
                {"protocol", 1},
                {"page_id", page_id},
                {"rate_hz", rate_hz},
-               {"max_message", kMaxMessage}});
+               {"max_message", kMaxMessage}})
+      .dump();
 }
 
 std::string stateText(const ServerState& state) {
-  return dump({{"type", "state"}, {"server", state.name}, {"text", state.text}});
+  return Json({{"type", "state"}, {"server", state.name}, {"text", state.text}}).dump();
 }
 
 std::string meshText(const client::Surface& surface, std::uint32_t revision, double tip_radius) {
-  return dump({{"type", "mesh"},
+  return Json({{"type", "mesh"},
                {"revision", revision},
                {"model_id", surface.model_id},
                {"nodes", surface.positions.size()},
                {"triangles", surface.triangles.size()},
                {"tip_radius", tip_radius},
-               {"box", boxOf(surface)}});
+               {"box", boxOf(surface)}})
+      .dump();
 }
 
 std::string statusText(const std::optional<dds::ServerStatus>& status,
                        const std::optional<dds::ServerParameters>& parameters, const ViewerFigures& figures) {
-  json object = status ? serverOf(*status) : json::object();
+  Json object = status ? serverOf(*status) : Json::object();
   if (status) addLive(*status, object);
   if (parameters) {  // newer than those in the status
     addLive(*parameters, object);
@@ -118,21 +116,22 @@ std::string statusText(const std::optional<dds::ServerStatus>& status,
   object["viewer"] = {{"pages", figures.pages},
                       {"frame_rate", figures.frame_rate},
                       {"dropped_fields", figures.dropped_fields}};
-  return dump(object);
+  return object.dump();
 }
 
 std::string toolText(const ToolGrant& grant) {
-  json object{{"type", "tool"}, {"granted", grant.granted}, {"message", grant.message}};
-  object["tool_id"] = grant.granted ? json(grant.tool_id) : json();
-  return dump(object);
+  Json object{{"type", "tool"}, {"granted", grant.granted}, {"message", grant.message}};
+  object["tool_id"] = grant.granted ? Json(grant.tool_id) : Json();
+  return object.dump();
 }
 
 std::string parametersText(std::uint64_t request, bool accepted, const std::string& message) {
-  return dump({{"type", "parameters"}, {"request", request}, {"accepted", accepted}, {"message", message}});
+  return Json({{"type", "parameters"}, {"request", request}, {"accepted", accepted}, {"message", message}})
+      .dump();
 }
 
 std::string pongText(double t0, double t_us) {
-  return dump({{"type", "pong"}, {"t0", t0}, {"t_us", t_us}});
+  return Json({{"type", "pong"}, {"t0", t0}, {"t_us", t_us}}).dump();
 }
 
 }  // namespace palpate::viewer

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-watch: a viewer without a screen; follows the displacement of an organ's surface.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -12,7 +11,9 @@
 #include "palpate/client/frame_pace.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/report/program.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/json.h"
+#include "palpate/program/run.h"
 #include "palpate/report/vtk_surface.h"
 #include "palpate/rt/clock.h"
 #include "palpate/rt/pacer.h"
@@ -35,22 +36,14 @@ struct Watch {
   std::optional<client::FramePace> pace;  // nothing: takes all fields
 };
 
-void addOptions(CLI::App& app, Options& options) {
-  app.add_option("--seconds", options.seconds, "how long to watch, s")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->capture_default_str();
-  app.add_option("--rate", options.rate_hz,
-                 "look at no more than so many fields a second; 0: at all that come")
-      ->check(CLI::Range(0.0, 10000.0))
-      ->capture_default_str();
-  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
-  app.add_option("--wait", options.wait_s, "how long to wait for a server, s")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  app.add_option("--vtk", options.vtk,
-                 "write the surface at its largest displacement to this .vtu or .vtk file");
-  app.add_flag("--json", options.json, "print one JSON object on standard output");
-  app.set_version_flag("--version", PALPATE_VERSION);
+void addOptions(program::Options line, Options& options) {
+  line.add("--seconds", &options.seconds, "how long to watch, s").range(0.1, 86400.0);
+  line.add("--rate", &options.rate_hz, "look at no more than so many fields a second; 0: at all that come")
+      .range(0.0, 10000.0);
+  line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
+  line.add("--vtk", &options.vtk, "write the surface at its largest displacement to this .vtu or .vtk file");
+  line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 
 void printLine(std::ostream& out, double t, double rate, const client::Surface& surface,
@@ -84,8 +77,8 @@ double follow(const FieldLog& log, const client::Surface& surface, double second
   return elapsed();
 }
 
-nlohmann::json jsonOf(const FieldSummary& summary, const client::Surface& surface, double seconds) {
-  const auto node = [&](const NodeDisplacement& at) -> nlohmann::json {
+program::Json jsonOf(const FieldSummary& summary, const client::Surface& surface, double seconds) {
+  const auto node = [&](const NodeDisplacement& at) -> program::Json {
     return {{"size", at.size},
             {"displacement", at.u},
             {"node", surface.mesh_tags[at.node]},
@@ -101,10 +94,11 @@ nlohmann::json jsonOf(const FieldSummary& summary, const client::Surface& surfac
 
 int body(int argc, char** argv) {
   // 1. What to do.
-  CLI::App app("Follows the displacement of the organ that a palpate-server simulates.");
+  program::CommandLine line("palpate-watch",
+                            "Follows the displacement of the organ that a palpate-server simulates.");
   Options options;
-  addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  addOptions(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
   if (!options.vtk.empty()) report::checkSurfacePath(options.vtk);
   client::catchStopSignals();
 
@@ -130,7 +124,7 @@ int body(int argc, char** argv) {
 
   // 4. Tell.
   const FieldSummary summary = log.summary();
-  if (options.json) report::printJson(jsonOf(summary, surface, seconds));
+  if (options.json) program::printJson(jsonOf(summary, surface, seconds));
   if (!options.vtk.empty()) report::writeSurface(options.vtk, surface, log.peakField());
   if (summary.received == 0)
     throw client::ClientError("no displacement field came within " + std::to_string(seconds) + " s");
@@ -141,5 +135,5 @@ int body(int argc, char** argv) {
 }  // namespace palpate::watch
 
 int main(int argc, char** argv) {
-  return palpate::report::runProgram("palpate-watch", &palpate::watch::body, argc, argv);
+  return palpate::program::runProgram("palpate-watch", &palpate::watch::body, argc, argv);
 }

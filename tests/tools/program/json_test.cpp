@@ -65,6 +65,12 @@ TEST(Json, RefusesWhatIsNone) {
   }
 }
 
+TEST(Json, RefusesWhatIsNestedTooDeep) {
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  EXPECT_TRUE(Json::read(nested(100)));
+  EXPECT_FALSE(Json::read(nested(200'000)));
+}
+
 TEST(Json, EqualsWhateverTheOrderOfKeys) {
   EXPECT_EQ(Json::parse(R"({"a": 1, "b": [1.0, 2]})"), (Json{{"b", std::array{1, 2}}, {"a", 1}}));
   EXPECT_FALSE(Json(1) == Json("1"));

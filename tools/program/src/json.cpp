@@ -34,8 +34,9 @@ Text toText(const Json& json, Keys keys) {
   return object;
 }
 
-// Ours of nlohmann's, which has read the text.
-Json fromText(const Text& text) {
+// Ours of nlohmann's, which has read the text. @throw JsonError where it is nested deeper than anything we read
+Json fromText(const Text& text, int depth = 0) {
+  if (depth > 100) throw JsonError("JSON is nested more than 100 deep");
   switch (text.type()) {
     case Text::value_t::boolean:
       return text.get<bool>();
@@ -49,12 +50,12 @@ Json fromText(const Text& text) {
       return text.get_ref<const std::string&>();
     case Text::value_t::array: {
       Json array = Json::array();
-      for (const Text& entry : text) array.push_back(fromText(entry));
+      for (const Text& entry : text) array.push_back(fromText(entry, depth + 1));
       return array;
     }
     case Text::value_t::object: {
       Json object = Json::object();
-      for (const auto& [key, value] : text.items()) object[key] = fromText(value);
+      for (const auto& [key, value] : text.items()) object[key] = fromText(value, depth + 1);
       return object;
     }
     default:
@@ -95,7 +96,11 @@ Json Json::object() {
 std::optional<Json> Json::read(std::string_view text) {
   const Text parsed = Text::parse(text, nullptr, false);
   if (parsed.is_discarded()) return std::nullopt;
-  return fromText(parsed);
+  try {
+    return fromText(parsed);
+  } catch (const JsonError&) {
+    return std::nullopt;
+  }
 }
 
 Json Json::parse(std::string_view text) {

@@ -65,9 +65,9 @@ class Json {
 
   [[nodiscard]] static Json array();
   [[nodiscard]] static Json object();
-  /// @return nothing when `text` is no JSON
+  /// @return nothing when `text` is no JSON, or nested more than 100 deep
   [[nodiscard]] static std::optional<Json> read(std::string_view text);
-  /// @throw JsonError when `text` is no JSON
+  /// @throw JsonError when `text` is no JSON, or nested more than 100 deep
   [[nodiscard]] static Json parse(std::string_view text);
 
   [[nodiscard]] bool isNull() const noexcept;
