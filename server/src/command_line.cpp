@@ -2,7 +2,9 @@
 #include "command_line.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -45,12 +47,13 @@ std::string rangeOf(const LiveParameterInfo& info) {
 
 // What holds where neither the file nor the command line names a value.
 std::string defaultOf(std::size_t parameter) {
-  StepConfig without;
+  double StepConfig::*const field = kLiveFields<StepConfig>[parameter];
+  StepConfig of_device;
+  of_device.*field = std::numeric_limits<double>::quiet_NaN();
+  apply(*findDevicePreset(kDefaultDevice), of_device);
+  if (!std::isnan(of_device.*field)) return "the device's";
   std::ostringstream text;
-  const double value = without.*kLiveFields<StepConfig>[parameter];
-  apply(*findDevicePreset(kDefaultDevice), without);
-  if (without.*kLiveFields<StepConfig>[parameter] != value) return "the device's";
-  text << value;
+  text << StepConfig{}.*field;
   return text.str();
 }
 

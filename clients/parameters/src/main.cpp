@@ -91,6 +91,7 @@ int body(int argc, char** argv) {
   Options options;
   addOptions(line.options(), options);
   line.footer(
+      "The server's device and start may allow less coupling, force and change of force.\n"
       "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4\nWithout values: says what is in "
       "force.");
   if (!line.read(argc, argv)) return 0;
