@@ -2,6 +2,7 @@
 #include "palpate/client/server_finder.h"
 
 #include <cmath>
+#include <iostream>
 #include <thread>
 
 #include "palpate/client/error.h"
@@ -58,6 +59,11 @@ ServerInfo ServerFinder::wait(std::chrono::milliseconds timeout) {
     throw ClientError("the server's status says tip_radius " + std::to_string(info.status.tip_radius) +
                       " m, expected 0 to 0.05");
   return info;
+}
+
+ServerInfo findServer(const dds::Participant& participant, double seconds) {
+  std::cerr << "waiting for a server on DDS domain " << participant.domain() << "\n";
+  return ServerFinder(participant).wait(std::chrono::milliseconds(static_cast<long>(seconds * 1e3)));
 }
 
 }  // namespace palpate::client

@@ -45,7 +45,7 @@ void addOptions(program::Options line, Arguments& arguments) {
   line.add("--motion", &arguments.motion, "what the hand does: press, drag or tap")
       .oneOf({"press", "drag", "tap"});
   line.add("--seconds", &arguments.path.seconds, "duration of the whole, s");
-  line.add("--depth", &arguments.path.depth, "how far below the rest surface the hand wants the tip, m");
+  line.add("--depth", &arguments.path.depth, "wanted depth of the tip below the rest surface, m");
   line.add("--at", &arguments.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
   line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
@@ -106,7 +106,7 @@ void tell(const Session& session, const Arguments& arguments) {
 }
 
 int body(int argc, char** argv) {
-  // 1. What to do; refuse what cannot be before anybody waits.
+  // 1. What to do; refuses bad values before it waits.
   program::CommandLine line(
       "palpate-device",
       "Moves a simulated haptic device, held by a hand, against a palpate-server and judges its stability.");
@@ -122,9 +122,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(arguments.domain);
-  std::cerr << "waiting for a server on DDS domain " << arguments.domain << "\n";
-  const auto patience = std::chrono::milliseconds(static_cast<long>(arguments.wait_s * 1e3));
-  const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+  const client::ServerInfo server = client::findServer(participant, arguments.wait_s);
 
   // 3. The motion there, once without the organ and once against the server.
   arguments.path.tip_radius = server.status.tip_radius;

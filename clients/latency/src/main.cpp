@@ -39,7 +39,7 @@ void addOptions(program::Options line, Options& options) {
   line.add("--plot", &options.plot, "write the histograms to this SVG file");
 }
 
-// What the server says by now, for the status is sent once a second.
+// The newest status: the server sends one per second.
 dds::ServerStatus newest(const dds::Reader<dds::ServerStatus>& statuses, const dds::ServerStatus& before) {
   std::array<dds::ServerStatus, dds::kMaxTake> taken;
   dds::ServerStatus status = before;
@@ -63,9 +63,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and a place to press.
   const dds::Participant participant(options.domain);
-  std::cerr << "waiting for a server on DDS domain " << options.domain << "\n";
-  const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
-  client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+  client::ServerInfo server = client::findServer(participant, options.wait_s);
   const dds::Reader<dds::ServerStatus> statuses(participant);
   const client::Spot spot = client::chooseSpot(server.surface, at);
   options.measure.tip_radius = server.status.tip_radius;

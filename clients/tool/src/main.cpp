@@ -32,12 +32,12 @@ void addOptions(program::Options line, Options& options) {
   line.add("--script", &options.script, "what to play: press, slide or poke")
       .oneOf({"press", "slide", "poke"});
   line.add("--seconds", &options.seconds, "duration of the whole script, s").range(0.05, 3600.0);
-  line.add("--depth", &options.path.depth, "how far below the rest surface, m");
-  line.add("--slide", &options.path.slide_distance, "way along the surface, m");
-  line.add("--pokes", &options.path.pokes, "how often poke goes in");
+  line.add("--depth", &options.path.depth, "depth of the tip below the rest surface, m");
+  line.add("--slide", &options.path.slide_distance, "distance along the surface, m");
+  line.add("--pokes", &options.path.pokes, "number of times that poke goes in");
   line.add("--clearance", &options.path.clearance, "distance at the start and the end, m");
   line.add("--at", &options.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
-  line.add("--tip-radius", &options.tip_radius, "radius of the tip, m; default: what the server says");
+  line.add("--tip-radius", &options.tip_radius, "radius of the tip, m; default: the server's");
   line.add("--tool", &options.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
@@ -60,7 +60,7 @@ Played prepare(const Options& options, const client::ServerInfo& server) {
 }
 
 int body(int argc, char** argv) {
-  // 1. What to do; refuse what cannot be before anybody waits.
+  // 1. What to do; refuses bad values before it waits.
   program::CommandLine line(
       "palpate-tool",
       "Plays a scripted tool path against a palpate-server and prints the force on the tool.");
@@ -73,9 +73,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(options.domain);
-  std::cerr << "waiting for a server on DDS domain " << options.domain << "\n";
-  const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
-  const client::ServerInfo server = client::ServerFinder(participant).wait(patience);
+  const client::ServerInfo server = client::findServer(participant, options.wait_s);
 
   // 3. Play the path.
   const Played played = prepare(options, server);

@@ -38,7 +38,7 @@ struct Watch {
 
 void addOptions(program::Options line, Options& options) {
   line.add("--seconds", &options.seconds, "how long to watch, s").range(0.1, 86400.0);
-  line.add("--rate", &options.rate_hz, "look at no more than so many fields a second; 0: at all that come")
+  line.add("--rate", &options.rate_hz, "most fields per second to look at; 0: all of them")
       .range(0.0, 10000.0);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
@@ -104,9 +104,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(options.domain);
-  std::cerr << "waiting for a server on DDS domain " << options.domain << "\n";
-  const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
-  const client::Surface surface = client::ServerFinder(participant).wait(patience).surface;
+  const client::Surface surface = client::findServer(participant, options.wait_s).surface;
 
   // 3. Follow the field.
   FieldLog log(surface);

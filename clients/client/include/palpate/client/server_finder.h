@@ -37,4 +37,7 @@ class ServerFinder {
   bool has_surface_{false};
 };
 
+/// ServerFinder::wait() for a program: first says on standard error that it waits.
+[[nodiscard]] ServerInfo findServer(const dds::Participant& participant, double seconds);
+
 }  // namespace palpate::client
