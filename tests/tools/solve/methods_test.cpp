@@ -148,10 +148,10 @@ TEST_F(SolveMethods, RefusesStepsOfASeries) {
   expectRefusal({"--steps", "30"}, "load.steps has no effect with method series-displacement");
 }
 TEST_F(SolveMethods, RefusesADirectionOfASeries) {
-  expectRefusal({"--method", "series-force", "--load-direction", "0,0,1"}, "load.direction says nothing");
+  expectRefusal({"--method", "series-force", "--load-direction", "0,0,1"}, "load.direction has no effect");
 }
 TEST_F(SolveMethods, RefusesALoadOfASeries) {
-  expectRefusal({"--method", "series-force", "--load", "2"}, "load.magnitude says nothing");
+  expectRefusal({"--method", "series-force", "--load", "2"}, "load.magnitude has no effect");
 }
 TEST_F(SolveMethods, PointsFromANonlinearPgdOfAnyDirectionToTheForceSeries) {
   expectRefusal({"--method", "pgd-explicit", "--load-direction", "any"}, "method series-force");
