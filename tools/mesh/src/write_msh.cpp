@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/mesh/write_msh.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <fstream>
 #include <map>
+#include <ostream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "palpate/mesh/mesh_error.h"
+#include "palpate/program/write_file.h"
 
 namespace palpate::mesh {
 namespace {
@@ -182,27 +179,15 @@ void writeSections(std::ostream& out, const TetMesh& mesh, const Layout& layout)
   writeElements(out, mesh, layout);
 }
 
-// Writes the file. @return the first error, if any. A stream only tells that it failed; errno tells why.
-std::error_code writeFile(const std::filesystem::path& path, const TetMesh& mesh, const Layout& layout) {
-  errno = 0;
-  std::ofstream out(path);
-  if (out) writeSections(out, mesh, layout);
-  if (out) out.close();
-  return out ? std::error_code{} : std::error_code(errno != 0 ? errno : EIO, std::generic_category());
-}
-
 }  // namespace
 
 void writeMsh(const std::filesystem::path& path, const TetMesh& mesh, const BoundarySurface& boundary) {
   const Layout layout = layoutOf(mesh, boundary);
-  // A name with the process id, so two processes do not write into one file.
-  const std::filesystem::path beside = path.string() + ".tmp-" + std::to_string(::getpid());
-  std::error_code error = writeFile(beside, mesh, layout);
-  if (!error) std::filesystem::rename(beside, path, error);
-  if (!error) return;
-  std::error_code ignored;  // the message is about the first error
-  std::filesystem::remove(beside, ignored);
-  throw MeshError(path.string() + ": cannot be written: " + error.message());
+  try {
+    program::writeFile(path, [&](std::ostream& out) { writeSections(out, mesh, layout); });
+  } catch (const program::WriteError& error) {
+    throw MeshError(path.string() + ": cannot be written: " + error.reason());
+  }
 }
 
 }  // namespace palpate::mesh

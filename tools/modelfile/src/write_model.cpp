@@ -19,6 +19,7 @@
 #include "palpate/core/hdf5_handle.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
+#include "palpate/program/write_file.h"
 
 namespace palpate::modelfile {
 
@@ -276,18 +277,14 @@ void writeAll(const std::string& path, const ModelData& data) {
 void writeModel(const std::filesystem::path& path, const ModelData& data) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out
   checkSizes(data);
-  const std::string temporary = path.string() + ".tmp-" + std::to_string(::getpid());
+  program::FileBeside beside(path);
   try {
-    writeAll(temporary, data);
-    std::filesystem::rename(temporary, path);
+    writeAll(beside.path(), data);
+    beside.takePlace();
     sync(path.has_parent_path() ? path.parent_path().string() : ".");
-  } catch (const std::filesystem::filesystem_error& error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw ModelFileError(path.string() + ": cannot be written: " + error.code().message());
+  } catch (const program::WriteError& error) {
+    throw ModelFileError(path.string() + ": cannot be written: " + error.reason());
   } catch (const ModelFileError& error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
     throw ModelFileError(path.string() + ": " + error.what());
   }
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/modelfile/write_xdmf.h"
 
-#include <unistd.h>
-
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -11,6 +8,7 @@
 #include "palpate/core/datasets.h"
 #include "palpate/core/meta_model.h"
 #include "palpate/modelfile/model_data.h"
+#include "palpate/program/write_file.h"
 
 namespace palpate::modelfile {
 
@@ -77,17 +75,13 @@ std::filesystem::path writeXdmf(const std::filesystem::path& model) {
   path.replace_extension(".xdmf");
   if (path == model)
     throw ModelFileError(model.string() + ": a model named .xdmf would be overwritten by its .xdmf");
-  const std::filesystem::path temporary = path.string() + ".tmp-" + std::to_string(::getpid());
-  std::ofstream out(temporary);
-  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
-  writeGrid(out, escaped(model.filename().string()), loaded.view());
-  out << "  </Domain>\n</Xdmf>\n";
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, path, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
+  try {
+    program::writeFile(path, [&](std::ostream& out) {
+      out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
+      writeGrid(out, escaped(model.filename().string()), loaded.view());
+      out << "  </Domain>\n</Xdmf>\n";
+    });
+  } catch (const program::WriteError&) {
     throw ModelFileError(path.string() + " cannot be written; the model itself is whole");
   }
   return path;
