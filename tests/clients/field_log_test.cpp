@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "palpate/idl/writer.h"
+#include "palpate/testing/test_domain.h"
 #include "small_surface.h"
-#include "test_domain.h"
 
 namespace palpate::watch {
 namespace {

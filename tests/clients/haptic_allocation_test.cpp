@@ -9,7 +9,7 @@
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
 #include "palpate/testing/allocation_guard.h"
-#include "test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::testing {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
+#include "palpate/testing/test_domain.h"
 #include "palpate_haptic.h"
-#include "test_domain.h"
 
 namespace palpate::haptic {
 namespace {

@@ -8,9 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "fake_server.h"
-#include "run_program.h"
-#include "test_domain.h"
-#include "well_formed.h"
+#include "palpate/testing/files.h"
+#include "palpate/testing/run_program.h"
+#include "palpate/testing/test_domain.h"
+#include "palpate/testing/xml_fault.h"
 
 namespace palpate::testing {
 namespace {
@@ -74,9 +75,9 @@ TEST(Programs, RefuseBadOptionsByName) {
 
 TEST(Tool, PressFeelsTheSpring) {
   const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .tip_radius = 0.004});
-  const auto svg = std::filesystem::temp_directory_path() / ("press-" + std::to_string(getpid()) + ".svg");
+  const TemporaryFile svg("press.svg");
   const auto result = runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "1.5", "--depth",
-                                                           "0.002", "--json", "--plot", svg}));
+                                                           "0.002", "--json", "--plot", svg.path()}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   EXPECT_EQ(report["node"], 15);
@@ -97,9 +98,7 @@ TEST(Tool, PressFeelsTheSpring) {
             count + report["summary"]["unanswered"].get<std::size_t>());
   EXPECT_LE(report["summary"]["superseded"].get<std::size_t>(),
             report["summary"]["unanswered"].get<std::size_t>());
-  std::ifstream plot(svg);
-  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(plot), {})), "");
-  std::filesystem::remove(svg);
+  EXPECT_EQ(xmlFault(contentOf(svg.path())), "");
 }
 
 TEST(Tool, TableGoesToStandardOutputWithoutJson) {
@@ -122,10 +121,10 @@ TEST(Tool, StopsWhenTheServerLeaves) {
 // Against a spring the hand's and the organ's stiffness share the depth.
 TEST(Device, PressRestsWhereHandAndOrganBalance) {
   const FakeServer server(exclusiveDomain(), {.stiffness = 300.0, .tip_radius = 0.004});
-  const auto svg = std::filesystem::temp_directory_path() / ("device-" + std::to_string(getpid()) + ".svg");
+  const TemporaryFile svg("device.svg");
   const auto result =
       runProgram("palpate-device", onDomain({"--preset", "premium15", "--hand", "0.1,3,200", "--motion",
-                                             "press", "--seconds", "2.5", "--json", "--plot", svg}));
+                                             "press", "--seconds", "2.5", "--json", "--plot", svg.path()}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   EXPECT_EQ(report["device"]["mass"], 0.075);
@@ -137,9 +136,7 @@ TEST(Device, PressRestsWhereHandAndOrganBalance) {
   EXPECT_NEAR(report["max_force_N"].get<double>(), 300.0 * report["penetration_m"].get<double>(), 1e-3);
   EXPECT_EQ(report["flags"], 1) << "contact, and nothing else";
   EXPECT_NEAR(report["energy_net_J"].get<double>(), 0.0, 5e-5) << "a spring gives back what it took";
-  std::ifstream plot(svg);
-  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(plot), {})), "");
-  std::filesystem::remove(svg);
+  EXPECT_EQ(xmlFault(contentOf(svg.path())), "");
 }
 
 TEST(Device, AWallThatIsTooStiffForItsHandIsCalledUnstable) {
@@ -181,8 +178,9 @@ TEST(Device, StopsWhenTheServerLeaves) {
 
 TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
   const FakeServer server(exclusiveDomain(), {.drop_every = 100});
-  const auto svg = std::filesystem::temp_directory_path() / ("latency-" + std::to_string(getpid()) + ".svg");
-  const auto result = runProgram("palpate-latency", onDomain({"--seconds", "1.5", "--json", "--plot", svg}));
+  const TemporaryFile svg("latency.svg");
+  const auto result =
+      runProgram("palpate-latency", onDomain({"--seconds", "1.5", "--json", "--plot", svg.path()}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
   for (const char* key : {"pose_to_force_us", "wakeup_us", "tick_us"})
@@ -197,9 +195,7 @@ TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
   EXPECT_EQ(report["overruns"], 0);
   EXPECT_NEAR(report["seconds"].get<double>(), 1.5, 0.5);
   EXPECT_TRUE(report["late"].is_number_unsigned());
-  std::ifstream plot(svg);
-  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(plot), {})), "");
-  std::filesystem::remove(svg);
+  EXPECT_EQ(xmlFault(contentOf(svg.path())), "");
 }
 
 TEST(Watch, SeesTheOrganMove) {
@@ -209,8 +205,9 @@ TEST(Watch, SeesTheOrganMove) {
     const auto pressed = runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "2"}));
     EXPECT_EQ(pressed.exit_code, 0) << pressed.err;
   });
-  const auto vtu = std::filesystem::temp_directory_path() / ("watch-" + std::to_string(getpid()) + ".vtu");
-  const auto result = runProgram("palpate-watch", onDomain({"--seconds", "2.5", "--json", "--vtk", vtu}));
+  const TemporaryFile vtu("watch.vtu");
+  const auto result =
+      runProgram("palpate-watch", onDomain({"--seconds", "2.5", "--json", "--vtk", vtu.path()}));
   tool.join();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
@@ -218,9 +215,7 @@ TEST(Watch, SeesTheOrganMove) {
   EXPECT_EQ(report["peak"]["node"], 15);
   EXPECT_NEAR(report["peak"]["size"].get<double>(), 0.003, 1e-6);
   EXPECT_NEAR(report["peak"]["displacement"][2].get<double>(), -0.003, 1e-6);
-  std::ifstream file(vtu);
-  EXPECT_EQ(xmlFault(std::string(std::istreambuf_iterator<char>(file), {})), "");
-  std::filesystem::remove(vtu);
+  EXPECT_EQ(xmlFault(contentOf(vtu.path())), "");
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "../server/server_process.h"
 #include "palpate/idl/types.h"
+#include "palpate/testing/run_program.h"
+#include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
-#include "run_program.h"
-#include "test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::testing {
 namespace {
@@ -22,14 +22,14 @@ using nlohmann::json;
 struct Running {
   TemporaryFile model{"clients-e2e.h5"};
   std::string domain{std::to_string(exclusiveDomain())};
-  std::unique_ptr<server::testing::ServerProcess> process;
+  std::unique_ptr<ServerProcess> process;
 
   // By default the model's own force, no coupling.
   explicit Running(const std::vector<std::string>& options = {"--device", "custom", "--friction", "inf"}) {
     writeSyntheticModel(model.path());
     std::vector<std::string> arguments{"--model", model.path().string(), "--domain", domain};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    process = std::make_unique<server::testing::ServerProcess>(arguments);
+    process = std::make_unique<ServerProcess>(arguments);
   }
   [[nodiscard]] json run(const std::string& program, std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--json", "--wait", "30", "--domain", domain});

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/report/svg_plot.h"
-#include "well_formed.h"
+#include "palpate/testing/xml_fault.h"
 
 namespace palpate::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/client/error.h"
-#include "test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::client {
 namespace {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <fstream>
-#include <sstream>
 
 #include "palpate/client/error.h"
 #include "palpate/report/vtk_surface.h"
+#include "palpate/testing/files.h"
+#include "palpate/testing/xml_fault.h"
 #include "small_surface.h"
-#include "well_formed.h"
 
 namespace palpate::report {
 namespace {
@@ -17,13 +14,9 @@ std::string written(const std::string& extension) {
   palpate::testing::SmallSurface source;
   std::vector<float> u(15, 0.0F);
   u[14] = -0.01F;  // the apex moves down
-  const auto path =
-      std::filesystem::temp_directory_path() / ("palpate-vtk-" + std::to_string(getpid()) + extension);
-  writeSurface(path, client::checkedSurface(source.message()), u);
-  std::ifstream file(path);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  std::filesystem::remove(path);
-  return text;
+  const testing::TemporaryFile file("surface" + extension);
+  writeSurface(file.path(), client::checkedSurface(source.message()), u);
+  return testing::contentOf(file.path());
 }
 
 TEST(Vtk, XmlIsWellFormedAndDisplaced) {

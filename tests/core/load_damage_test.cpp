@@ -18,8 +18,8 @@ namespace palpate::testing {
 namespace {
 
 std::vector<char> readBytes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = contentOf(path);
+  return {bytes.begin(), bytes.end()};
 }
 
 void writeBytes(const std::filesystem::path& path, const std::vector<char>& bytes) {
@@ -81,8 +81,5 @@ TEST(Load, SurvivesDamagedBytes) {
   }
   EXPECT_GT(refused, 10);
 }
-
-// ---- HDF5 that cannot be mapped
-// ----------------------------------------------------------------------------------
 
 }  // namespace palpate::testing

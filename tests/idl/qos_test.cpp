@@ -3,7 +3,7 @@
 
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
-#include "test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::dds {
 namespace {

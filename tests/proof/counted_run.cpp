@@ -12,12 +12,14 @@
 #include <stdexcept>
 #include <thread>
 
-#include "../idl/test_domain.h"
-#include "../server/server_process.h"
+#include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::proof {
 namespace {
+
+using palpate::testing::ServerProcess;
 
 constexpr double kTipRadius = 0.005;  // m, the server's default
 constexpr double kWarmUp = 1.5;       // s until both tools press
@@ -69,11 +71,10 @@ class Preload {
   Preload& operator=(const Preload&) = delete;
 };
 
-std::unique_ptr<server::testing::ServerProcess> startServer(const std::string& model, std::uint32_t domain,
-                                                            const SharedCounts& counts,
-                                                            const std::string& mistake) {
+std::unique_ptr<ServerProcess> startServer(const std::string& model, std::uint32_t domain,
+                                           const SharedCounts& counts, const std::string& mistake) {
   const Preload preload(counts.descriptor(), mistake);
-  return std::make_unique<server::testing::ServerProcess>(
+  return std::make_unique<ServerProcess>(
       std::vector<std::string>{"--model", model, "--domain", std::to_string(domain), "--friction", "0.1"});
 }
 

@@ -2,20 +2,18 @@
 #include "palpate/server/config.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 
 #include "palpate/server/config_file.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::server {
 namespace {
 
 class ConfigFile : public ::testing::Test {
  protected:
-  ~ConfigFile() override { std::filesystem::remove(path_); }
-
   ServerConfig read(const std::string& text) {
     std::ofstream(path_) << text;
     ServerConfig config;
@@ -36,8 +34,8 @@ class ConfigFile : public ::testing::Test {
     return "accepted";
   }
 
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("palpate-config-" + std::to_string(getpid()) + ".toml");
+  palpate::testing::TemporaryFile file_{"config.toml"};
+  const std::filesystem::path path_ = file_.path();
 };
 
 TEST_F(ConfigFile, SetsWhatItNamesAndLeavesTheRest) {

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "../idl/test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::server {
 namespace {

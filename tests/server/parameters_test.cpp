@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "../clients/run_program.h"
+#include "palpate/testing/run_program.h"
 #include "server_fixture.h"
 
 namespace palpate::server::testing {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The recording's file: what is written is read, and what was damaged is refused.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -14,6 +13,7 @@
 #include "palpate/record/fields.h"
 #include "palpate/record/record_reader.h"
 #include "palpate/record/record_writer.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::record {
 namespace {
@@ -86,8 +86,6 @@ void expectSame(const RecordedTick& a, const RecordedTick& b) {
 
 class Recording : public ::testing::Test {
  protected:
-  ~Recording() override { std::filesystem::remove(path_); }
-
   void write(const std::vector<RecordedTick>& ticks, std::uint64_t lost = 0, bool finish = true) const {
     RecordWriter writer(path_, someFacts());
     for (const RecordedTick& tick : ticks) writer.write(tick);
@@ -121,8 +119,8 @@ class Recording : public ::testing::Test {
     file.put(static_cast<char>(old ^ (1 << bit)));
   }
 
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("palpate-record-" + std::to_string(getpid()) + ".rec");
+  palpate::testing::TemporaryFile file_{"record.rec"};
+  const std::filesystem::path path_ = file_.path();
 };
 
 TEST_F(Recording, IsReadAsItWasWritten) {

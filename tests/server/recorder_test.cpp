@@ -3,28 +3,26 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <memory>
 
 #include "palpate/record/record_reader.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::server {
 namespace {
 
 class RecorderTest : public ::testing::Test {
  protected:
-  ~RecorderTest() override { std::filesystem::remove(path_); }
-
   [[nodiscard]] record::SessionFacts facts() const {
     record::SessionFacts facts;
     facts.model_id = "m";
     return facts;
   }
 
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("palpate-recorder-" + std::to_string(getpid()) + ".rec");
+  palpate::testing::TemporaryFile file_{"recorder.rec"};
+  const std::filesystem::path path_ = file_.path();
   std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3);
 };
 

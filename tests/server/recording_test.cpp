@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "../clients/run_program.h"
 #include "palpate/modelfile/write_model.h"
+#include "palpate/testing/run_program.h"
 #include "server_fixture.h"
 
 namespace palpate::server::testing {

@@ -12,12 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "../idl/test_domain.h"
+#include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
-#include "server_process.h"
+#include "palpate/testing/test_domain.h"
 #include "test_client.h"
 
 namespace palpate::server::testing {
+
+using palpate::testing::ServerProcess;
 
 inline constexpr double kTipRadius = 0.005;
 inline constexpr std::int64_t kMs = 1'000'000;
@@ -58,7 +60,6 @@ class ServerEndToEnd : public ::testing::Test {
   ~ServerEndToEnd() override {
     client_.reset();
     server_.reset();
-    std::filesystem::remove(model_);
   }
 
   // Server, one client that has found it, and a place to touch. Without a word about the device the tool holds
@@ -100,8 +101,8 @@ class ServerEndToEnd : public ::testing::Test {
   }
 
   std::uint32_t domain_ = palpate::testing::exclusiveDomain();
-  std::filesystem::path model_ =
-      std::filesystem::temp_directory_path() / ("palpate-e2e-" + std::to_string(getpid()) + ".h5");
+  const palpate::testing::TemporaryFile model_file_{"e2e.h5"};
+  const std::filesystem::path model_ = model_file_.path();
   int log_fd_ = -1;
   std::unique_ptr<ServerProcess> server_;
   std::unique_ptr<TestClient> client_;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // What palpate-server does with what it cannot use: one line on standard error, exit code 1.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
-#include "../idl/test_domain.h"
+#include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
-#include "server_process.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::server::testing {
 namespace {
 
+using palpate::testing::ServerProcess;
+
 class ServerRefuses : public ::testing::Test {
  protected:
   ServerRefuses() { palpate::testing::useLoopback(); }
-  ~ServerRefuses() override { std::filesystem::remove(file_); }
 
   // The line, without the program's name.
   std::string refusal(const std::vector<std::string>& arguments) {
@@ -30,8 +30,8 @@ class ServerRefuses : public ::testing::Test {
     return log.size() > name.size() ? log.substr(name.size(), log.size() - name.size() - 1) : log;
   }
 
-  std::filesystem::path file_ =
-      std::filesystem::temp_directory_path() / ("palpate-refused-" + std::to_string(getpid()) + ".h5");
+  const palpate::testing::TemporaryFile temporary_{"refused.h5"};
+  const std::filesystem::path file_ = temporary_.path();
 };
 
 TEST_F(ServerRefuses, ATruncatedModel) {

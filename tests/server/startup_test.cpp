@@ -10,6 +10,9 @@
 #include <map>
 #include <sstream>
 
+#include "palpate/testing/files.h"
+#include "palpate/testing/run_program.h"
+
 namespace palpate::server {
 namespace {
 
@@ -86,9 +89,8 @@ TEST(LeaveCpuToTheTick, RefusesToLeaveNothing) {
 
 // Files for whoever runs the server without root.
 std::string textOf(const std::string& path) {
-  std::ifstream file(path);
-  EXPECT_TRUE(file.good()) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
+  EXPECT_TRUE(std::filesystem::exists(path)) << path;
+  return testing::contentOf(path);
 }
 
 TEST(ServiceFiles, TheUnitGrantsWhatTheThreadsWant) {
@@ -114,13 +116,14 @@ TEST(ServiceFiles, TheUnitGrantsWhatTheThreadsWant) {
 }
 
 TEST(ServiceFiles, SystemdUnderstandsTheUnit) {
-  if (std::system("command -v systemd-analyze >/dev/null") != 0) GTEST_SKIP() << "no systemd-analyze here";
-  const std::string copy = ::testing::TempDir() + "palpate-server.service";
+  if (!testing::isInstalled("systemd-analyze")) GTEST_SKIP() << "no systemd-analyze here";
+  const testing::TemporaryFolder folder;
+  const std::string copy = (folder / "palpate-server.service").string();
   std::string text = textOf(PALPATE_SERVICE_FILE);
   const std::size_t program = text.find("ExecStart=") + 10;
   text.replace(program, text.find(' ', program) - program, "/bin/true");  // ours is not installed
   std::ofstream(copy) << text;
-  const std::string said = ::testing::TempDir() + "systemd-analyze.txt";
+  const std::string said = (folder / "systemd-analyze.txt").string();
   EXPECT_EQ(std::system(("systemd-analyze verify " + copy + " >" + said + " 2>&1").c_str()), 0);
   EXPECT_EQ(textOf(said), "");
 }

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,12 +19,9 @@ inline constexpr dds::WriterId kSender = 1;
 inline constexpr dds::WriterId kOther = 2;
 
 inline MetaModel loadSynthetic() {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("palpate-tick-" + std::to_string(getpid()) + ".h5");
-  palpate::testing::writeSyntheticModel(path);
-  MetaModel model = MetaModel::load(path);
-  std::filesystem::remove(path);
-  return model;
+  const palpate::testing::TemporaryFile file("tick.h5");
+  palpate::testing::writeSyntheticModel(file.path());
+  return MetaModel::load(file.path());
 }
 
 /// A tick on the synthetic model, and the time that the test keeps.

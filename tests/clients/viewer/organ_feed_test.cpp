@@ -12,7 +12,7 @@
 #include "palpate/client/error.h"
 #include "palpate/idl/writer.h"
 #include "palpate/rt/clock.h"
-#include "test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::viewer {
 namespace {

@@ -3,11 +3,11 @@
 #include "page_files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
+#include <filesystem>
 
 #include "palpate/client/error.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::viewer {
 namespace fs = std::filesystem;
@@ -25,11 +25,10 @@ class PageFolder : public ::testing::Test {
     fs::create_directories(base_ / "page-of-another");
     write("page-of-another/file.txt");
   }
-  ~PageFolder() override { fs::remove_all(base_); }
 
-  void write(const std::string& name) { std::ofstream(base_ / name) << name; }
+  void write(const std::string& name) { base_.write(name, name); }
 
-  fs::path base_ = fs::temp_directory_path() / ("palpate-page-" + std::to_string(getpid()));
+  const testing::TemporaryFolder base_;
 };
 
 TEST_F(PageFolder, ItsFilesHaveTheirTypes) {

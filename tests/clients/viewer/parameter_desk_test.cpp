@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "palpate/idl/reader.h"
-#include "test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::viewer {
 namespace {

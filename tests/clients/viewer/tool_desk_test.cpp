@@ -6,7 +6,7 @@
 
 #include <chrono>
 
-#include "test_domain.h"
+#include "palpate/testing/test_domain.h"
 
 namespace palpate::viewer {
 namespace {

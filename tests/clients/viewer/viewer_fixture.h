@@ -6,11 +6,11 @@
 #include <cmath>
 #include <memory>
 
-#include "../../idl/test_domain.h"
-#include "../../server/server_process.h"
+#include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
+#include "palpate/testing/test_domain.h"
+#include "palpate/testing/viewer_process.h"
 #include "test_page.h"
-#include "viewer_process.h"
 
 namespace palpate::testing {
 
@@ -28,9 +28,9 @@ class ViewerEndToEnd : public ::testing::Test {
     SyntheticOptions options;
     options.subdivisions = subdivisions;
     writeSyntheticModel(model_.path(), options);
-    server_ = std::make_unique<server::testing::ServerProcess>(
-        std::vector<std::string>{"--model", model_.path().string(), "--domain", domain_, "--device", "custom",
-                                 "--surface-rate", "100"});
+    server_ = std::make_unique<ServerProcess>(std::vector<std::string>{"--model", model_.path().string(),
+                                                                       "--domain", domain_, "--device",
+                                                                       "custom", "--surface-rate", "100"});
   }
   void startViewer(const std::vector<std::string>& more = {}) {
     viewer_ = std::make_unique<ViewerProcess>(domain_, more);
@@ -72,7 +72,7 @@ class ViewerEndToEnd : public ::testing::Test {
 
   std::string domain_{std::to_string(exclusiveDomain())};
   TemporaryFile model_{"viewer-e2e.h5"};
-  std::unique_ptr<server::testing::ServerProcess> server_;
+  std::unique_ptr<ServerProcess> server_;
   std::unique_ptr<ViewerProcess> viewer_;
 };
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <functional>
 
-#include "../run_program.h"
+#include "palpate/testing/run_program.h"
 #include "viewer_fixture.h"
 
 namespace palpate::testing {
@@ -172,15 +172,12 @@ TEST(ViewerProgram, SaysWhyItDoesNotStart) {
       runProgram("palpate-viewer", {"--listen", "0.0.0.0", "--port", "0", "--page", "/nowhere"});
   EXPECT_EQ(open.exit_code, 1);
   EXPECT_NE(open.err.find("index.html"), std::string::npos) << open.err;
-  const std::filesystem::path page =
-      std::filesystem::temp_directory_path() / ("palpate-viewer-start-" + std::to_string(getpid()));
-  std::filesystem::create_directories(page);
-  std::ofstream(page / "index.html") << "x";
+  const TemporaryFolder page;
+  page.write("index.html", "x");
   const auto without =
-      runProgram("palpate-viewer", {"--listen", "0.0.0.0", "--port", "0", "--page", page.string()});
+      runProgram("palpate-viewer", {"--listen", "0.0.0.0", "--port", "0", "--page", page.path().string()});
   EXPECT_EQ(without.exit_code, 1);
   EXPECT_NE(without.err.find("--token"), std::string::npos) << without.err;
-  std::filesystem::remove_all(page);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/test/paths.h"
+#include "palpate/testing/paths.h"
 
 namespace palpate::testing {
 

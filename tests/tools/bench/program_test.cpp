@@ -2,12 +2,12 @@
 // palpate-bench as its own process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "palpate/test/paths.h"
+#include "palpate/testing/run_program.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {
@@ -17,26 +17,17 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 
-struct Outcome {
-  int code{-1};
-  std::string output;
-};
-
-Outcome bench(const std::string& arguments, const std::string& redirect = "2>/dev/null") {
-  const std::string command = palpate::testing::binDir() + "/palpate-bench " + arguments + " " + redirect;
-  FILE* const pipe = ::popen(command.c_str(), "r");
-  Outcome run;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) run.output += static_cast<char>(c);
-  run.code = WEXITSTATUS(::pclose(pipe));
-  return run;
+ProgramResult bench(const std::vector<std::string>& arguments) {
+  return runProgram("palpate-bench", arguments);
 }
 
 /// By name, what a short run reports.
-std::map<std::string, nlohmann::json> measured(const std::string& arguments) {
-  const Outcome run = bench(arguments + " --benchmark_format=json --benchmark_min_time=0.01");
-  EXPECT_EQ(run.code, 0);
+std::map<std::string, nlohmann::json> measured(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--benchmark_format=json", "--benchmark_min_time=0.01"});
+  const ProgramResult run = bench(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
   std::map<std::string, nlohmann::json> found;
-  const auto json = nlohmann::json::parse(run.output);
+  const auto json = nlohmann::json::parse(run.out);
   for (const auto& one : json["benchmarks"]) found[one["name"]] = one;
   return found;
 }
@@ -44,14 +35,14 @@ std::map<std::string, nlohmann::json> measured(const std::string& arguments) {
 }  // namespace
 
 TEST(Bench, EachSizeIsThereWithItsMeasures) {
-  const std::string names = bench("--benchmark_list_tests").output;
+  const std::string names = bench({"--benchmark_list_tests"}).out;
   for (const char* size : {"500x20", "500x300", "2009x167", "20000x100", "50000x300"})
     for (const char* who : {"palpate", "eigen_f32", "plain_read"})
       EXPECT_THAT(names, HasSubstr(std::string("field/") + size + "/" + who + "\n"));
 }
 
 TEST(Bench, FieldReportsTimesBytesAndTheErrorOfItsStorage) {
-  auto found = measured("--benchmark_filter=field/2009x167/");
+  auto found = measured({"--benchmark_filter=field/2009x167/"});
   ASSERT_EQ(found.size(), 3U);
   for (const auto& [name, one] : found) {
     EXPECT_GT(one["p50_us"], 0.0) << name;
@@ -71,7 +62,7 @@ TEST(Bench, FieldReportsTimesBytesAndTheErrorOfItsStorage) {
 TEST(Bench, StepAndLoadUseTheModelGiven) {
   const TemporaryFile file("bench.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 3, .modes = 8});
-  auto found = measured(file.path().string() + " '--benchmark_filter=step|load'");
+  auto found = measured({file.path().string(), "--benchmark_filter=step|load"});
   ASSERT_EQ(found.size(), 3U);
   for (const char* name : {"step/default/one_tool", "step/default/two_tools", "load/default"}) {
     ASSERT_TRUE(found.contains(name)) << name;
@@ -83,27 +74,27 @@ TEST(Bench, StepAndLoadUseTheModelGiven) {
 }
 
 TEST(Bench, ScaleNamesTheLargestModelThatFits) {
-  const Outcome run = bench("--scale --modes 20");
-  EXPECT_EQ(run.code, 0);
-  EXPECT_THAT(run.output, HasSubstr("    20000     20 "));
-  EXPECT_THAT(run.output,
+  const ProgramResult run = bench({"--scale", "--modes", "20"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("    20000     20 "));
+  EXPECT_THAT(run.out,
               MatchesRegex("(.|\n)*largest at 1 kHz: [0-9]+ surface nodes x 20 modes with near field\n"));
 }
 
 TEST(Bench, RunsWithThePriorityOfTheTickOrSaysThatItMayNot) {
-  const Outcome run = bench("--realtime --benchmark_list_tests", "2>&1 >/dev/null");
-  if (run.code == 0) return;
-  EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.output, HasSubstr("palpate-bench: --realtime: SCHED_FIFO 80 is not granted"));
+  const ProgramResult run = bench({"--realtime", "--benchmark_list_tests"});
+  if (run.exit_code == 0) return;
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("palpate-bench: --realtime: SCHED_FIFO 80 is not granted"));
 }
 
-TEST(Bench, RefusesAProcessorThatIsNotThereAndAModelThatIsNone) {
-  const Outcome cpu = bench("--cpu 1000 --benchmark_list_tests", "2>&1 >/dev/null");
-  EXPECT_EQ(cpu.code, 1);
-  EXPECT_THAT(cpu.output, HasSubstr("palpate-bench: --cpu is 1000, where this process may not run"));
-  const Outcome model = bench("/no/such.h5 --benchmark_list_tests", "2>&1 >/dev/null");
-  EXPECT_EQ(model.code, 1);
-  EXPECT_THAT(model.output, HasSubstr("/no/such.h5"));
+TEST(Bench, RefusesAProcessorAndAModelThatAreNotThere) {
+  const ProgramResult cpu = bench({"--cpu", "1000", "--benchmark_list_tests"});
+  EXPECT_EQ(cpu.exit_code, 1);
+  EXPECT_THAT(cpu.err, HasSubstr("palpate-bench: --cpu is 1000, where this process may not run"));
+  const ProgramResult model = bench({"/no/such.h5", "--benchmark_list_tests"});
+  EXPECT_EQ(model.exit_code, 1);
+  EXPECT_THAT(model.err, HasSubstr("/no/such.h5"));
 }
 
 }  // namespace palpate::testing

@@ -2,15 +2,12 @@
 // tools/latency-report as a whole, against a real server on a synthetic model.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "palpate/test/paths.h"
+#include "palpate/testing/paths.h"
+#include "palpate/testing/run_program.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {
@@ -18,16 +15,6 @@ namespace palpate::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string contentOf(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-int run(const std::string& command) {
-  return WEXITSTATUS(std::system(command.c_str()));
-}
 
 void expectTimes(const nlohmann::json& times, const std::string& name) {
   ASSERT_TRUE(times.contains("p50") && times.contains("p99")) << name;
@@ -39,15 +26,15 @@ void expectTimes(const nlohmann::json& times, const std::string& name) {
 
 TEST(LatencyReport, MeasuresAllInTurnAndWritesTableFigureAndJson) {
   for (const char* program : {"cyclictest", "ddsperf"})
-    if (run(std::string("command -v ") + program + " >/dev/null") != 0)
-      GTEST_SKIP() << program << " is not installed (rt-tests, cyclonedds-tools)";
-  const TemporaryFile model("report.h5"), out("report");
+    if (!isInstalled(program)) GTEST_SKIP() << program << " is not installed (rt-tests, cyclonedds-tools)";
+  const TemporaryFile model("report.h5");
+  const TemporaryFolder out;
   writeSyntheticModel(model.path(), {.subdivisions = 3, .modes = 8});
   const std::filesystem::path json_file = out.path() / "report.json";
-  const std::string command = std::string(PALPATE_TOOLS_DIR) + "/latency-report --quick --bin " +
-                              palpate::testing::binDir() + " --model " + model.path().string() + " --out " +
-                              out.path().string() + " --json " + json_file.string() + " >/dev/null";
-  ASSERT_EQ(run(command), 0);
+  const ProgramResult made = runProgram(std::string(PALPATE_TOOLS_DIR) + "/latency-report",
+                                        {"--quick", "--bin", binDir(), "--model", model.path().string(),
+                                         "--out", out.path().string(), "--json", json_file.string()});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto json = nlohmann::json::parse(contentOf(json_file));
   for (const nlohmann::json& state : {json, json["loaded"]}) {
     for (const char* key :
@@ -62,11 +49,9 @@ TEST(LatencyReport, MeasuresAllInTurnAndWritesTableFigureAndJson) {
   }
   EXPECT_THAT(contentOf(out.path() / "report.txt"), HasSubstr("== other processors busy"));
   EXPECT_THAT(contentOf(out.path() / "report.md"), HasSubstr("| wake-up lateness: tick | "));
-  if (run("command -v gnuplot >/dev/null") == 0) {
+  if (isInstalled("gnuplot")) {
     EXPECT_THAT(contentOf(out.path() / "report.svg"), HasSubstr("</svg>"));
   }
-  std::error_code ignored;
-  std::filesystem::remove_all(out.path(), ignored);
 }
 
 }  // namespace palpate::testing

@@ -11,7 +11,7 @@
 namespace palpate::mesh::test {
 namespace {
 
-class DamagedFile : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+class DamagedFile : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
 
 bool survives(const std::filesystem::path& file) {
   const std::string message = errorOf([&] { (void)readMesh(file); });
@@ -22,7 +22,7 @@ bool survives(const std::filesystem::path& file) {
 
 TEST_P(DamagedFile, CutAnywhereIsRefusedUnlessOnlyTheTailIsGone) {
   const auto& [name, text] = GetParam();
-  const Folder folder;
+  const TemporaryFolder folder;
   // Past the last tetrahedron's last digit there is nothing that a reader needs.
   std::size_t taken = 0;
   for (std::size_t size = 0; size < text.size(); ++size)
@@ -32,7 +32,7 @@ TEST_P(DamagedFile, CutAnywhereIsRefusedUnlessOnlyTheTailIsGone) {
 
 TEST_P(DamagedFile, RandomBytesNeverCrashAReader) {
   const auto& [name, text] = GetParam();
-  const Folder folder;
+  const TemporaryFolder folder;
   std::mt19937 random(20);
   std::uniform_int_distribution<std::size_t> place(0, text.size() - 1);
   std::uniform_int_distribution<int> byte(0, 255);
@@ -47,7 +47,7 @@ TEST_P(DamagedFile, RandomBytesNeverCrashAReader) {
 
 TEST_P(DamagedFile, RandomDigitsNeverCrashAReader) {
   const auto& [name, text] = GetParam();
-  const Folder folder;
+  const TemporaryFolder folder;
   std::mt19937 random(21);
   std::uniform_int_distribution<std::size_t> place(0, text.size() - 1);
   for (int i = 0; i < 300; ++i) {
@@ -60,11 +60,11 @@ TEST_P(DamagedFile, RandomDigitsNeverCrashAReader) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, DamagedFile,
-                         testing::Values(std::pair("1.msh", kMsh1),
-                                         std::pair("2.msh", kMsh2.substr(0, kMsh2.find("$NodeData"))),
-                                         std::pair("4.msh", kMsh4),
-                                         std::pair("3.vtk", kVtk.substr(0, kVtk.find("CELL_DATA"))),
-                                         std::pair("5.vtk", kVtk5), std::pair("a.mesh", kMedit)));
+                         ::testing::Values(std::pair("1.msh", kMsh1),
+                                           std::pair("2.msh", kMsh2.substr(0, kMsh2.find("$NodeData"))),
+                                           std::pair("4.msh", kMsh4),
+                                           std::pair("3.vtk", kVtk.substr(0, kVtk.find("CELL_DATA"))),
+                                           std::pair("5.vtk", kVtk5), std::pair("a.mesh", kMedit)));
 
 }  // namespace
 }  // namespace palpate::mesh::test

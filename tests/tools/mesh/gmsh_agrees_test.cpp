@@ -22,7 +22,7 @@ struct Format {
   bool binary;
 };
 
-class GmshFormat : public testing::TestWithParam<Format> {};
+class GmshFormat : public ::testing::TestWithParam<Format> {};
 
 // A ball with its surface and one point as named groups.
 TetMesh saveBall(const GmshSession& session, const std::filesystem::path& file, const Format& format) {
@@ -48,7 +48,7 @@ TetMesh saveBall(const GmshSession& session, const std::filesystem::path& file, 
 }
 
 TEST_P(GmshFormat, IsRead) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const GmshSession session;
   const auto file = folder / GetParam().name;
   const TetMesh expected = saveBall(session, file, GetParam());
@@ -74,11 +74,11 @@ TEST_P(GmshFormat, IsRead) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GmshFormat,
-                         testing::Values(Format{"1.msh", 1, false}, Format{"2.msh", 2.2, false},
-                                         Format{"2b.msh", 2.2, true}, Format{"40.msh", 4.0, false},
-                                         Format{"41.msh", 4.1, false}, Format{"41b.msh", 4.1, true},
-                                         Format{"a.vtk", 4.1, false}, Format{"b.vtk", 4.1, true},
-                                         Format{"a.mesh", 4.1, false}),
+                         ::testing::Values(Format{"1.msh", 1, false}, Format{"2.msh", 2.2, false},
+                                           Format{"2b.msh", 2.2, true}, Format{"40.msh", 4.0, false},
+                                           Format{"41.msh", 4.1, false}, Format{"41b.msh", 4.1, true},
+                                           Format{"a.vtk", 4.1, false}, Format{"b.vtk", 4.1, true},
+                                           Format{"a.mesh", 4.1, false}),
                          [](const auto& format) {
                            std::string name = format.param.name;
                            name[name.find('.')] = '_';
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(All, GmshFormat,
                          });
 
 TEST(GmshAgrees, ReadsWhatWeWrite) {
-  const Folder folder;
+  const TemporaryFolder folder;
   TetMesh box = makeBox({1, 1, 1}, {4, 4, 4});
   box.groups["mixed"] = {0, 1, 4, 5, 16, 42, 63};  // whole triangles, one inner and one single node
   writeMsh(folder / "a.msh", box, boundaryOf(box));

@@ -2,43 +2,20 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 
 #include "palpate/mesh/mesh_error.h"
 #include "palpate/mesh/tet_mesh.h"
 #include "palpate/mesh/triangle_surface.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::mesh::test {
 
-/// A folder of this test alone, gone when it ends.
-class Folder {
- public:
-  Folder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("palpate-" + std::string(info->test_suite_name()) +
-                                                      '-' + info->name() + '-' + std::to_string(getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  std::filesystem::path write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using palpate::testing::contentOf;
+using palpate::testing::TemporaryFolder;
 
 /// The message of the MeshError that `work` throws; empty if it throws none.
 inline std::string errorOf(const std::function<void()>& work) {

@@ -10,7 +10,7 @@ namespace {
 using Nodes = std::vector<std::int32_t>;
 
 TetMesh readText(const std::string& text) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return readMesh(folder.write("a.mesh", text));
 }
 

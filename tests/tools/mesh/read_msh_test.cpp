@@ -2,7 +2,7 @@
 #include "helpers.h"
 #include "palpate/mesh/checks.h"
 #include "palpate/mesh/read_mesh.h"
-#include "palpate/test/paths.h"
+#include "palpate/testing/paths.h"
 #include "samples.h"
 
 namespace palpate::mesh::test {
@@ -11,7 +11,7 @@ namespace {
 using Nodes = std::vector<std::int32_t>;
 
 TetMesh readText(const std::string& name, const std::string& text) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return readMesh(folder.write(name, text));
 }
 
@@ -96,7 +96,7 @@ TEST(ReadMsh, TakesCarriageReturns) {
 }
 
 TEST(ReadMsh, RefusesMissingFileFolderAndEmptyFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_REFUSED(readMesh(folder / "none.msh"), "none.msh", "no such file");
   std::filesystem::create_directory(folder / "folder.msh");
   EXPECT_REFUSED(readMesh(folder / "folder.msh"), "folder.msh", "not a regular file");

@@ -4,13 +4,13 @@
 #include <sstream>
 
 #include "helpers.h"
-#include "palpate/test/paths.h"
+#include "palpate/testing/paths.h"
 
 namespace palpate::mesh::test {
 namespace {
 
 TriangleSurface readText(const std::string& name, const std::string& text) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return readSurface(folder.write(name, text));
 }
 

@@ -2,14 +2,14 @@
 #include "helpers.h"
 #include "palpate/mesh/checks.h"
 #include "palpate/mesh/read_mesh.h"
-#include "palpate/test/paths.h"
+#include "palpate/testing/paths.h"
 #include "samples.h"
 
 namespace palpate::mesh::test {
 namespace {
 
 TetMesh readText(const std::string& text) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return readMesh(folder.write("a.vtk", text));
 }
 

@@ -11,12 +11,12 @@
 namespace palpate::mesh::test {
 namespace {
 
-std::ptrdiff_t entriesOf(const Folder& folder) {
+std::ptrdiff_t entriesOf(const TemporaryFolder& folder) {
   return std::distance(std::filesystem::directory_iterator(folder / "."), {});
 }
 
 TetMesh throughFile(const TetMesh& mesh) {
-  const Folder folder;
+  const TemporaryFolder folder;
   writeMsh(folder / "a.msh", mesh, boundaryOf(mesh));
   EXPECT_EQ(entriesOf(folder), 1);  // nothing is left beside it
   return readMesh(folder / "a.msh");
@@ -69,14 +69,14 @@ TEST(WriteMsh, KeepsCoordinatesToTheLastBit) {
 
 TEST(WriteMsh, RefusesAPlaceThatCannotBeWritten) {
   const TetMesh mesh = oneTetrahedron();
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_REFUSED(writeMsh(folder / "none/a.msh", mesh, boundaryOf(mesh)), "none/a.msh",
                  "cannot be written: No such file or directory");
 }
 
 TEST(WriteMsh, AFolderOfThatNameStaysAndNothingIsLeftBesideIt) {
   const TetMesh mesh = oneTetrahedron();
-  const Folder folder;
+  const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "a.msh");
   EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)),
                  "a.msh: cannot be written: Is a directory");
@@ -85,7 +85,7 @@ TEST(WriteMsh, AFolderOfThatNameStaysAndNothingIsLeftBesideIt) {
 
 TEST(WriteMsh, TellsThatTheDiskIsFull) {
   const TetMesh mesh = makeBeam();
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string beside = "a.msh.tmp-" + std::to_string(getpid());
   std::filesystem::create_symlink("/dev/full", folder / beside);
   EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)),
@@ -95,7 +95,7 @@ TEST(WriteMsh, TellsThatTheDiskIsFull) {
 
 TEST(WriteMsh, RefusesGroupNamesThatTheFormatCannotHold) {
   TetMesh mesh = oneTetrahedron();
-  const Folder folder;
+  const TemporaryFolder folder;
   mesh.groups["a \" quote"] = {0};
   EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)), "a \" quote");
   mesh.groups = {{"organ", {0}}};

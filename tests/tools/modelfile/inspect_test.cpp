@@ -2,14 +2,11 @@
 // palpate-inspect as its own process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "palpate/test/paths.h"
+#include "palpate/testing/run_program.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {
@@ -18,31 +15,18 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Outcome {
-  int code{-1};
-  std::string output;
-};
-
-/// Runs palpate-inspect; `redirect` chooses the stream that is caught.
-Outcome inspect(const std::string& arguments, const std::string& redirect = "2>/dev/null") {
-  const std::string command = palpate::testing::binDir() + "/palpate-inspect " + arguments + " " + redirect;
-  FILE* const pipe = ::popen(command.c_str(), "r");
-  Outcome run;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) run.output += static_cast<char>(c);
-  run.code = WEXITSTATUS(::pclose(pipe));
-  return run;
+ProgramResult inspect(const std::vector<std::string>& arguments) {
+  return runProgram("palpate-inspect", arguments);
 }
-
-constexpr const char* kErrorsOnly = "2>&1 >/dev/null";
 
 }  // namespace
 
 TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   const TemporaryFile file("inspect.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 2, .modes = 4});
-  const Outcome run = inspect("--json " + file.path().string());
-  ASSERT_EQ(run.code, 0);
-  const auto json = nlohmann::json::parse(run.output);
+  const ProgramResult run = inspect({"--json", file.path().string()});
+  ASSERT_EQ(run.exit_code, 0);
+  const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["parameters"], "displacement");
   EXPECT_EQ(json["nodes"], 163);
   EXPECT_EQ(json["tetrahedra"], 320);
@@ -66,7 +50,7 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
 TEST(Inspect, TellsWhatAForceModelIsTrustedFor) {
   const TemporaryFile file("inspect-force.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 1, .parameters = Parameters::kForce});
-  const auto json = nlohmann::json::parse(inspect("--json " + file.path().string()).output);
+  const auto json = nlohmann::json::parse(inspect({"--json", file.path().string()}).out);
   EXPECT_EQ(json["parameters"], "force");
   EXPECT_EQ(json["order"], 3);
   EXPECT_DOUBLE_EQ(json["reference_force"], 0.8);
@@ -79,7 +63,7 @@ TEST(Inspect, TellsWhatAForceModelIsTrustedFor) {
 TEST(Inspect, TellsTheLoadOfALevelModel) {
   const TemporaryFile file("inspect-level.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 1, .parameters = Parameters::kLevel});
-  const auto json = nlohmann::json::parse(inspect("--json " + file.path().string()).output);
+  const auto json = nlohmann::json::parse(inspect({"--json", file.path().string()}).out);
   EXPECT_EQ(json["parameters"], "level");
   EXPECT_DOUBLE_EQ(json["load"]["size"], 1.5);
   EXPECT_EQ(json["load"]["direction"], nlohmann::json({0.0, 0.6, -0.8}));
@@ -88,35 +72,31 @@ TEST(Inspect, TellsTheLoadOfALevelModel) {
   EXPECT_EQ(json["coefficients"], 3);
   EXPECT_DOUBLE_EQ(json["level_radius"]["median"], 0.85);
   EXPECT_TRUE(json["order"].is_null());
-  const Outcome table = inspect(file.path().string());
-  EXPECT_THAT(table.output, HasSubstr("parameters                level\n"));
-  EXPECT_THAT(table.output, HasSubstr("load.direction            [0.0,0.6,-0.8]\n"));
+  const ProgramResult table = inspect({file.path().string()});
+  EXPECT_THAT(table.out, HasSubstr("parameters                level\n"));
+  EXPECT_THAT(table.out, HasSubstr("load.direction            [0.0,0.6,-0.8]\n"));
 }
 
 TEST(Inspect, TableIsForPeople) {
   const TemporaryFile file("inspect-table.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 1});
-  const Outcome run = inspect(file.path().string());
-  EXPECT_EQ(run.code, 0);
-  EXPECT_THAT(run.output, HasSubstr("surface_nodes             42\n"));
-  EXPECT_THAT(run.output, HasSubstr("material.law              stvk\n"));
+  const ProgramResult run = inspect({file.path().string()});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("surface_nodes             42\n"));
+  EXPECT_THAT(run.out, HasSubstr("material.law              stvk\n"));
 }
 
 TEST(Inspect, TruncatedModelGivesOneClearLineAndFails) {
   const TemporaryFile file("inspect-truncated.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 1});
   std::filesystem::resize_file(file.path(), 5000);
-  const Outcome run = inspect("--json " + file.path().string(), kErrorsOnly);
-  EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.output,
-              HasSubstr("palpate-inspect: " + file.path().string() + ": HDF5 cannot open its 5000 bytes"));
-  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1);
-  EXPECT_EQ(inspect("--json " + file.path().string()).output, "") << "nothing on standard output";
+  expectOneLineError(inspect({"--json", file.path().string()}),
+                     "palpate-inspect: " + file.path().string() + ": HDF5 cannot open its 5000 bytes");
 }
 
 TEST(Inspect, NeedsAModel) {
-  EXPECT_NE(inspect("").code, 0);
-  EXPECT_EQ(inspect("--help").code, 0);
+  EXPECT_NE(inspect({}).exit_code, 0);
+  EXPECT_EQ(inspect({"--help"}).exit_code, 0);
 }
 
 }  // namespace palpate::testing

@@ -29,11 +29,6 @@ std::string complaint(const std::filesystem::path& path, const ModelData& data) 
   }
 }
 
-std::string text(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::size_t count(const std::string& in, const std::string& what) {
   std::size_t found = 0;
   for (std::size_t at = in.find(what); at != std::string::npos; at = in.find(what, at + 1)) ++found;
@@ -110,7 +105,7 @@ TEST(WriteXdmf, ShowsTheModesOfALoadDrivenModel) {
   const TemporaryFile model("level.h5"), xdmf("level.xdmf");
   writeSyntheticModel(model.path(), {.subdivisions = 1, .modes = 2, .parameters = Parameters::kLevel});
   modelfile::writeXdmf(model.path());
-  EXPECT_EQ(count(text(xdmf.path()), "AttributeType=\"Vector\""), 2U);
+  EXPECT_EQ(count(contentOf(xdmf.path()), "AttributeType=\"Vector\""), 2U);
   EXPECT_EQ(modelfile::readVolumeMesh(model.path()).node_tag.size(), 43U);
 }
 
@@ -148,7 +143,7 @@ TEST(WriteXdmf, RefersToTheModelsOwnData) {
   const TemporaryFile model("view.h5"), xdmf("view.xdmf");
   writeSyntheticModel(model.path(), small());
   EXPECT_EQ(modelfile::writeXdmf(model.path()), xdmf.path());
-  const std::string written = text(xdmf.path());
+  const std::string written = contentOf(xdmf.path());
   const std::string name = model.path().filename().string();
   EXPECT_THAT(written, HasSubstr("Dimensions=\"80 3\" NumberType=\"Int\" Precision=\"4\">" + name +
                                  ":/surface/triangles<"));

@@ -11,6 +11,7 @@
 #include "palpate/mesh/box_mesh.h"
 #include "palpate/modelfile/write_model.h"
 #include "palpate/offline/newton.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::offline {
 namespace {
@@ -31,19 +32,15 @@ class SolvedBlock : public ::testing::Test {
           buildModel(c, organ, {2, std::filesystem::temp_directory_path(), true}, report);
       data.attributes.model_id = "b10c";
       data.attributes.provenance = "{}";
-      path = std::filesystem::temp_directory_path() / ("palpate_block_" + std::to_string(getpid()) + ".h5");
-      modelfile::writeModel(path, data);
+      modelfile::writeModel(file.path(), data);
       fe = std::make_unique<FeModel>(organ.nodes, organ.tetrahedra, organ.groups.at("fixed"),
                                      StVenantKirchhoff{c.E, c.nu});
       surface = std::make_unique<PatchSurface>(SolverSetup(c, organ).surface);
     }
-    ~World() { std::filesystem::remove(path); }
-    World(const World&) = delete;
-    World& operator=(const World&) = delete;
 
     mesh::TetMesh organ;
     Case c;
-    std::filesystem::path path;
+    palpate::testing::TemporaryFile file{"block.h5"};
     std::unique_ptr<FeModel> fe;
     std::unique_ptr<PatchSurface> surface;
   };
@@ -81,7 +78,7 @@ class SolvedBlock : public ::testing::Test {
 std::unique_ptr<SolvedBlock::World> SolvedBlock::world_;
 
 TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
-  const MetaModel model = MetaModel::load(world_->path);
+  const MetaModel model = MetaModel::load(world_->file.path());
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 8; ++i) {
@@ -97,7 +94,7 @@ TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
 
 // No point between the nodes was in the fit; there, three patches stand for one.
 TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
-  const MetaModel model = MetaModel::load(world_->path);
+  const MetaModel model = MetaModel::load(world_->file.path());
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 8; ++i) {
@@ -113,7 +110,7 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
 
 // So that what is stored for the tick ends before the clamped nodes (PackedModes).
 TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
-  const MetaModel model = MetaModel::load(world_->path);
+  const MetaModel model = MetaModel::load(world_->file.path());
   const ModelView& view = model.view();
   bool clamped = false;
   for (std::size_t i = 0; i < view.surfaceNodes(); ++i) {
@@ -128,7 +125,7 @@ TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
 }
 
 TEST_F(SolvedBlock, HelpersAreNotAccessible) {
-  const MetaModel model = MetaModel::load(world_->path);
+  const MetaModel model = MetaModel::load(world_->file.path());
   int helpers = 0;
   for (std::size_t p = 0; p < model.view().positions(); ++p) {
     const auto node = static_cast<std::size_t>(model.view().contact_node[p]);

@@ -3,21 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include "palpate/testing/files.h"
 
 namespace palpate::offline {
 namespace {
 
 class CaseFile : public ::testing::Test {
  protected:
-  std::filesystem::path write(const std::string& text) const {
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() /
-        (std::string("palpate_case_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-         ".toml");
-    std::ofstream(path) << text;
-    return path;
-  }
+  std::filesystem::path write(const std::string& text) const { return folder_.write("case.toml", text); }
 
   std::string refusal(const std::string& text) const {
     try {
@@ -34,6 +27,8 @@ class CaseFile : public ::testing::Test {
     EXPECT_NE(message.find(why), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+
+  const testing::TemporaryFolder folder_;
 };
 
 TEST_F(CaseFile, ReadsEveryKey) {
@@ -53,7 +48,7 @@ near_radius = 0.02
 sweeps = 3
 )"));
   EXPECT_EQ(c.mesh.filename(), "organ.msh");
-  EXPECT_EQ(c.mesh.parent_path(), std::filesystem::temp_directory_path());
+  EXPECT_EQ(c.mesh.parent_path(), folder_.path());
   EXPECT_EQ(c.fixed, "back");
   EXPECT_EQ(c.accessible.value(), "front");
   EXPECT_EQ(c.E, 2000.0);

@@ -11,6 +11,7 @@
 #include "palpate/modelfile/write_model.h"
 #include "palpate/offline/build_model.h"
 #include "palpate/offline/newton.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::offline {
 namespace {
@@ -29,16 +30,15 @@ class Block : public ::testing::Test {
     c_.nu = 0.4;
     c_.modes = 2000;  // as many as there can be
   }
-  ~Block() override { std::filesystem::remove(path_); }
 
   MetaModel solve(BuildReport& report) {
     modelfile::ModelData data =
         buildModel(c_, organ_, {2, std::filesystem::temp_directory_path(), true}, report);
     data.attributes.model_id = "b10c";
     data.attributes.provenance = "{}";
-    modelfile::writeModel(path_, data);
+    modelfile::writeModel(file_.path(), data);
     setup_ = std::make_unique<SolverSetup>(c_, organ_);
-    return MetaModel::load(path_);
+    return MetaModel::load(file_.path());
   }
   MetaModel solve() {
     BuildReport report;
@@ -86,10 +86,7 @@ class Block : public ::testing::Test {
   mesh::TetMesh organ_;
   Case c_;
   std::unique_ptr<SolverSetup> setup_;
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() /
-      (std::string("palpate_load_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-       ".h5");
+  const palpate::testing::TemporaryFile file_{"load_driven.h5"};
 };
 
 TEST_F(Block, ForceSeriesFindsTheForceOfAnImposedDisplacement) {

@@ -11,10 +11,10 @@
 namespace palpate::organ::test {
 namespace {
 
-using mesh::test::Folder;
+using mesh::test::TemporaryFolder;
 
 TEST(ImportOrgan, ScalesAndKeepsTheOrderOfTheNodes) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ImportOptions options;
   options.scale = 0.1;
   ImportedOrgan organ = importOrgan(folder.write("a.msh", mesh::test::kMsh1), options);
@@ -26,14 +26,14 @@ TEST(ImportOrgan, ScalesAndKeepsTheOrderOfTheNodes) {
 }
 
 TEST(ImportOrgan, TellsThatNothingIsFixed) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ImportedOrgan organ = importOrgan(folder.write("a.msh", mesh::test::kMsh1), {});
   ASSERT_EQ(organ.notes.size(), 2U);
   EXPECT_NE(organ.notes[1].find("nothing is fixed"), std::string::npos);
 }
 
 TEST(ImportOrgan, NamesTheGroupsThatAreNotKept) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto file = folder.write("a.msh", mesh::test::kMsh1);
   EXPECT_EQ(importOrgan(file, {}).notes.front(), "groups of the file that are not kept: 5, 6, 7");
   ImportOptions options;
@@ -43,7 +43,7 @@ TEST(ImportOrgan, NamesTheGroupsThatAreNotKept) {
 }
 
 TEST(ImportOrgan, LiverComesBackWithItsGroups) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const mesh::TetMesh liver = makeLiver();
   const auto boundary = mesh::boundaryOf(liver);
   mesh::writeMsh(folder / "liver.msh", liver, boundary);
@@ -55,7 +55,7 @@ TEST(ImportOrgan, LiverComesBackWithItsGroups) {
 }
 
 TEST(ImportOrgan, TurnsAnInvertedMeshOverAndSaysSo) {
-  const Folder folder;
+  const TemporaryFolder folder;
   mesh::TetMesh box = mesh::makeBox({1, 1, 1}, {3, 3, 3});
   const auto boundary = mesh::boundaryOf(box);
   for (auto& t : box.tetrahedra) std::swap(t[0], t[1]);
@@ -68,14 +68,14 @@ TEST(ImportOrgan, TurnsAnInvertedMeshOverAndSaysSo) {
 }
 
 TEST(ImportOrgan, RefusesOneInvertedTetrahedronByFileAndNumber) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = mesh::test::kMsh1;
   text.replace(text.find("2 30 4 50"), 9, "30 2 4 50");
   EXPECT_REFUSED(importOrgan(folder.write("a.msh", text), {}), "a.msh: tetrahedron 8 is inverted");
 }
 
 TEST(ImportOrgan, FillsASurface) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text;
   const mesh::TriangleSurface cube = mesh::test::cube();
   for (const auto& x : cube.vertices) {
@@ -97,7 +97,7 @@ TEST(ImportOrgan, FillsASurface) {
 }
 
 TEST(ImportOrgan, RefusesOptionsOutOfRange) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto file = folder.write("a.msh", mesh::test::kMsh1);
   for (const double wrong : {0.0, -1.0, 1.0 / 0.0}) {
     ImportOptions options;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <functional>
@@ -14,26 +13,12 @@
 #include "palpate/offline/build_model.h"
 #include "palpate/query/full_solution.h"
 #include "palpate/query/query_error.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::query::test {
 
-/// A folder of this test alone, gone when it ends.
-class Folder {
- public:
-  Folder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("palpate-" + std::string(info->test_suite_name()) +
-                                                      '-' + info->name() + '-' + std::to_string(getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using palpate::testing::contentOf;
+using palpate::testing::TemporaryFolder;
 
 /// Cells of 20 mm, 6 x 4 x 3 nodes, held at x = 0, to be touched from x = 40 mm on. Its numbers have gaps and
 /// run backwards, so that a number taken for an index is found out.
@@ -76,7 +61,7 @@ inline void writeBoxModel(const std::filesystem::path& path) {
 
 /// The model of the box, loaded, and its full problem.
 struct BoxModel {
-  Folder folder;
+  TemporaryFolder folder;
   std::filesystem::path path{(writeBoxModel(folder / "box.h5"), folder / "box.h5")};
   MetaModel model{MetaModel::load(path)};
   Organ organ{organOf(model, modelfile::readVolumeMesh(path))};

@@ -9,6 +9,7 @@
 #include "box_model.h"
 #include "palpate/program/write_file.h"
 #include "palpate/query/ccx_deck.h"
+#include "palpate/testing/run_program.h"
 
 namespace palpate::query::test {
 namespace {
@@ -28,7 +29,7 @@ std::map<std::int64_t, Vec3> printedBy(const std::filesystem::path& dat) {
 }
 
 TEST(CalculixValidation, EveryNodeMovesAsInNewton) {
-  if (std::system("command -v ccx >/dev/null") != 0) GTEST_SKIP() << "ccx (package calculix-ccx) is missing";
+  if (!palpate::testing::isInstalled("ccx")) GTEST_SKIP() << "ccx (package calculix-ccx) is missing";
   const BoxModel box;
   const Vec3 d(0.003, -0.004, -0.012);
   const FullSolution truth = box.solve(anchorNear(box.model, {0.083, 0.031, 0.06}), d);

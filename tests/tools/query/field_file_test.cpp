@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "box_model.h"
-#include "well_formed.h"
+#include "palpate/testing/xml_fault.h"
 
 namespace palpate::query::test {
 namespace {

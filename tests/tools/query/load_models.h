@@ -31,7 +31,7 @@ class LoadModel {
     modelfile::writeModel(path, data_);
   }
 
-  Folder folder;
+  TemporaryFolder folder;
   std::filesystem::path path{folder / "load.h5"};
 
  private:

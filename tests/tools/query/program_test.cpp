@@ -8,13 +8,14 @@
 #include "box_model.h"
 #include "load_models.h"
 #include "palpate/query/together.h"
+#include "palpate/testing/run_program.h"
+#include "palpate/testing/xml_fault.h"
 #include "parsed_deck.h"
-#include "run_program.h"
-#include "well_formed.h"
 
 namespace palpate::query::test {
 namespace {
 
+using palpate::testing::expectOneLineError;
 using palpate::testing::ProgramResult;
 using palpate::testing::runProgram;
 
@@ -24,21 +25,9 @@ ProgramResult query(const Model& model, std::vector<std::string> arguments) {
   return runProgram("palpate-query", arguments);
 }
 
-void expectOneLineError(const ProgramResult& result, const std::string& part) {
-  EXPECT_GT(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(result.out.empty()) << result.out;
-  EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
-  EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
-}
-
 Vec3 vectorOf(const nlohmann::json& list) {
   EXPECT_EQ(list.size(), 3U);
   return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
-}
-
-std::string contentOf(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(Program, AnswersInJson) {

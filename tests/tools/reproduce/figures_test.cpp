@@ -2,12 +2,9 @@
 #include "palpate/reproduce/figures.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <string>
+#include "palpate/testing/files.h"
+#include "palpate/testing/run_program.h"
 
 namespace palpate::reproduce {
 namespace {
@@ -15,24 +12,15 @@ namespace {
 class Figures : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (std::system("command -v gnuplot > /dev/null") != 0) GTEST_SKIP() << "gnuplot is not installed";
-    std::filesystem::create_directories(folder_);
+    if (!palpate::testing::isInstalled("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string text(const std::string& name) const {
-    std::ifstream file(folder_ / name, std::ios::binary);
-    std::ostringstream out;
-    out << file.rdbuf();
-    return out.str();
-  }
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("palpate_figures_test_" + std::to_string(getpid()));
+  const palpate::testing::TemporaryFolder folder_;
 };
 
 TEST_F(Figures, ChartNamesItsCurvesAndAxes) {
   const Chart chart{"Error", "step", "error", true, true, {{"ten \"terms\"", {{0.1, 1e-3}, {0.01, 1e-5}}}}};
   ASSERT_TRUE(drawChart(folder_ / "chart.svg", chart));
-  const std::string svg = text("chart.svg");
+  const std::string svg = palpate::testing::contentOf(folder_ / "chart.svg");
   EXPECT_NE(svg.find("ten terms"), std::string::npos);
   EXPECT_NE(svg.find("step"), std::string::npos);
 }
@@ -50,7 +38,7 @@ TEST_F(Figures, SurfaceIsAPng) {
   SurfaceFigure figure;
   figure.panels = {panel, panel};
   ASSERT_TRUE(drawSurfaces(folder_ / "surface.png", figure));
-  EXPECT_EQ(text("surface.png").substr(1, 3), "PNG");
+  EXPECT_EQ(palpate::testing::contentOf(folder_ / "surface.png").substr(1, 3), "PNG");
 }
 
 TEST_F(Figures, FolderThatIsNotThereIsReported) {

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "palpate/test/paths.h"
-#include "run_program.h"
+#include "palpate/testing/files.h"
+#include "palpate/testing/paths.h"
+#include "palpate/testing/run_program.h"
 
 namespace palpate {
 namespace {
@@ -20,25 +19,18 @@ using testing::runProgram;
 
 class Reproduce : public ::testing::Test {
  protected:
-  ~Reproduce() override { fs::remove_all(folder_); }
-
   Json run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(), {"-o", folder_.string(), "-q"});
+    arguments.insert(arguments.end(), {"-o", folder_.path().string(), "-q"});
     const ProgramResult result = runProgram("palpate-reproduce", arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return Json::parse(text("results.json"));
   }
-  [[nodiscard]] std::string text(const std::string& name) const {
-    std::ifstream file(folder_ / name);
-    std::ostringstream out;
-    out << file.rdbuf();
-    return out.str();
-  }
+  [[nodiscard]] std::string text(const std::string& name) const { return testing::contentOf(folder_ / name); }
   /// Every picture that the report shows is there.
   void expectPictures() const {
     const std::string report = text("report.md");
     ASSERT_FALSE(report.empty());
-    if (std::system("command -v gnuplot > /dev/null") != 0) return;
+    if (!testing::isInstalled("gnuplot")) return;
     int pictures = 0;
     for (std::size_t at = report.find("]("); at != std::string::npos; at = report.find("](", at + 1)) {
       const std::string name = report.substr(at + 2, report.find(')', at) - at - 2);
@@ -48,9 +40,7 @@ class Reproduce : public ::testing::Test {
     EXPECT_GT(pictures, 0);
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() /
-      (std::string("palpate_reproduce_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  const testing::TemporaryFolder folder_;
 };
 
 TEST_F(Reproduce, RodConvergesWithTheOrdersOfItsSchemes) {
@@ -144,7 +134,6 @@ TEST_F(Reproduce, QuickHasEveryFigureAndLeavesGivenOptionsAlone) {
 TEST_F(Reproduce, PairsOfARealLiverAreAsGoodAsCanBe) {
   const fs::path mesh = fs::path(palpate::testing::dataDir()) / "sofa-liver" / "liver2.msh";
   if (!fs::exists(mesh)) GTEST_SKIP() << mesh << " is not there";
-  fs::create_directories(folder_);
   const std::string organ = (folder_ / "organ.msh").string();
   ASSERT_EQ(runProgram("palpate-organ", {"import", mesh.string(), "--scale", "0.0933", "--fixed",
                                          "lowest-z:0.08", "-o", organ})
@@ -170,10 +159,9 @@ TEST(ReproduceProgram, NamesWhatItDoesNotKnow) {
 }
 
 TEST(ReproduceProgram, RefusesAMeshThatIsNotThere) {
-  const fs::path folder = fs::temp_directory_path() / "palpate_reproduce_nothing";
-  const ProgramResult result =
-      runProgram("palpate-reproduce", {"liver", "--mesh", "/nonexistent.msh", "-o", folder.string(), "-q"});
-  fs::remove_all(folder);
+  const testing::TemporaryFolder folder;
+  const ProgramResult result = runProgram(
+      "palpate-reproduce", {"liver", "--mesh", "/nonexistent.msh", "-o", folder.path().string(), "-q"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("/nonexistent.msh"), std::string::npos) << result.err;
 }

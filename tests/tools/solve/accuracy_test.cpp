@@ -5,19 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <sstream>
 
 #include "palpate/mesh/read_mesh.h"
 #include "palpate/mesh/topology.h"
-#include "run_program.h"
+#include "palpate/testing/files.h"
+#include "palpate/testing/run_program.h"
 
 namespace palpate {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::runProgram;
 
@@ -36,19 +36,18 @@ double p95(std::vector<double> errors) {
 class CoarseLiver : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::temp_directory_path() / ("palpate_liver_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
+    folder_.emplace();
     const auto made = runProgram(
-        "palpate-organ", {"liver", "--element-size", "0.011", "-o", (folder_ / "liver.msh").string()});
+        "palpate-organ", {"liver", "--element-size", "0.011", "-o", (*folder_ / "liver.msh").string()});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const auto solved = runProgram(
-        "palpate-solve", {(folder_ / "liver.msh").string(), "-o", (folder_ / "liver.h5").string(), "-q"});
+        "palpate-solve", {(*folder_ / "liver.msh").string(), "-o", (*folder_ / "liver.h5").string(), "-q"});
     ASSERT_EQ(solved.exit_code, 0) << solved.err;
   }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
+  static void TearDownTestSuite() { folder_.reset(); }
 
   void SetUp() override {
-    organ_ = mesh::readMesh(folder_ / "liver.msh");
+    organ_ = mesh::readMesh(*folder_ / "liver.msh");
     accessible_ = organ_.groups.at("accessible");
   }
 
@@ -58,7 +57,7 @@ class CoarseLiver : public ::testing::Test {
 
   void compare(const std::vector<std::string>& where, std::vector<double>& force,
                std::vector<double>& field) {
-    std::vector<std::string> arguments{(folder_ / "liver.h5").string(), "--displacement", text(touch()),
+    std::vector<std::string> arguments{(*folder_ / "liver.h5").string(), "--displacement", text(touch()),
                                        "--newton", "--json"};
     arguments.insert(arguments.end(), where.begin(), where.end());
     const auto result = runProgram("palpate-query", arguments);
@@ -68,14 +67,14 @@ class CoarseLiver : public ::testing::Test {
     field.push_back(answer.at("newton").at("field_error_max"));
   }
 
-  static fs::path folder_;
+  static std::optional<testing::TemporaryFolder> folder_;
   mesh::TetMesh organ_;
   std::vector<std::int32_t> accessible_;
   std::mt19937 random_{7};
   std::normal_distribution<double> normal_;
 };
 
-fs::path CoarseLiver::folder_;
+std::optional<testing::TemporaryFolder> CoarseLiver::folder_;
 
 TEST_F(CoarseLiver, AtNodesForceIsWithin1PercentAndFieldWithin5) {
   std::vector<double> force, field;
@@ -114,7 +113,7 @@ TEST_F(CoarseLiver, BetweenNodesForceIsWithin3PercentAndFieldWithin8) {
 }
 
 TEST_F(CoarseLiver, DomainOfAllButFivePercentReaches4Millimetres) {
-  const auto result = runProgram("palpate-inspect", {(folder_ / "liver.h5").string(), "--json"});
+  const auto result = runProgram("palpate-inspect", {(*folder_ / "liver.h5").string(), "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GE(json::parse(result.out).at("domain_radius").at("p05"), 4e-3);
 }

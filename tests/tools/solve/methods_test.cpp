@@ -11,7 +11,8 @@
 #include "palpate/mesh/box_mesh.h"
 #include "palpate/mesh/topology.h"
 #include "palpate/mesh/write_msh.h"
-#include "run_program.h"
+#include "palpate/testing/files.h"
+#include "palpate/testing/run_program.h"
 
 namespace palpate {
 namespace {
@@ -24,8 +25,6 @@ using testing::runProgram;
 class SolveMethods : public ::testing::Test {
  protected:
   SolveMethods() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
     const mesh::BoundarySurface boundary = mesh::boundaryOf(block);
     for (const std::int32_t node : boundary.nodes)
@@ -33,7 +32,6 @@ class SolveMethods : public ::testing::Test {
           node);
     mesh::writeMsh(folder_ / "block.msh", block, boundary);
   }
-  ~SolveMethods() override { fs::remove_all(folder_); }
 
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
   [[nodiscard]] ProgramResult solve(const std::vector<std::string>& more) const {
@@ -60,9 +58,7 @@ class SolveMethods : public ::testing::Test {
     EXPECT_FALSE(fs::exists(folder_ / "out.h5"));
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() /
-      (std::string("palpate_methods_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  const testing::TemporaryFolder folder_;
 };
 
 TEST_F(SolveMethods, EveryMethodSolvesABareMesh) {

@@ -9,7 +9,8 @@
 #include "palpate/mesh/box_mesh.h"
 #include "palpate/mesh/topology.h"
 #include "palpate/mesh/write_msh.h"
-#include "run_program.h"
+#include "palpate/testing/files.h"
+#include "palpate/testing/run_program.h"
 
 namespace palpate {
 namespace {
@@ -22,8 +23,6 @@ using testing::runProgram;
 class SolveProgram : public ::testing::Test {
  protected:
   SolveProgram() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(block.nodes.size()); ++node) {
       const bool held = block.nodes[static_cast<std::size_t>(node)].x() < 1e-9;
@@ -31,7 +30,6 @@ class SolveProgram : public ::testing::Test {
     }
     writeBlock("block.msh", block);
   }
-  ~SolveProgram() override { fs::remove_all(folder_); }
 
   void writeBlock(const std::string& name, mesh::TetMesh block) const {
     const mesh::BoundarySurface boundary = mesh::boundaryOf(block);
@@ -60,13 +58,11 @@ class SolveProgram : public ::testing::Test {
     EXPECT_EQ(result.err.rfind("palpate-solve: ", 0), 0U) << result.err;
     EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
     EXPECT_FALSE(fs::exists(folder_ / "out.h5"));
-    for (const auto& entry : fs::directory_iterator(folder_))
+    for (const auto& entry : fs::directory_iterator(folder_.path()))
       EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry.path();
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() /
-      (std::string("palpate_solve_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  const testing::TemporaryFolder folder_;
 };
 
 TEST_F(SolveProgram, MakesAModelThatInspectReads) {

@@ -65,7 +65,7 @@ export class Program {
   }
 }
 
-/** A domain held by a lock on a file, as the C++ tests do (tests/idl/test_domain.h), until this process ends. */
+/** A domain held by a lock on a file, as the C++ tests do (tests/support/src/test_domain.cpp), until this process ends. */
 async function exclusiveDomain() {
   for (let attempt = 0; attempt < 200; ++attempt) {
     const domain = 1 + Math.floor(Math.random() * 200);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/testing/synthetic_model.h"
 
-#include <unistd.h>
-
 #include <cmath>
 
 #include "icosphere.h"
@@ -216,15 +214,6 @@ double syntheticEnergy(const SyntheticOptions& o, const Vec3& X, const Vec3& d) 
   for (int k = 0; k < basis.size(); ++k)
     energy += energyCoefficient(o, X, basis[k]) * monomial[static_cast<std::size_t>(k)];
   return energy;
-}
-
-TemporaryFile::TemporaryFile(const std::string& name)
-    : path_(std::filesystem::temp_directory_path() / ("palpate-" + std::to_string(::getpid()) + "-" + name)) {
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace palpate::testing

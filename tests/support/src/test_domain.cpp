@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#include "palpate/testing/test_domain.h"
 
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -7,29 +7,16 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <cstdlib>
 #include <random>
 #include <stdexcept>
 #include <string>
 
 namespace palpate::testing {
+namespace {
 
-/// Keeps Cyclone on loopback without multicast, unless the environment already says otherwise: works in a
-/// sandbox without a network and keeps tests of two machines apart. Child processes inherit it.
-inline void useLoopback() {
-  setenv("CYCLONEDDS_URI",
-         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
-         "multicast=\"false\"/></Interfaces>"
-         "<AllowMulticast>false</AllowMulticast></General>"
-         "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30</"
-         "MaxAutoParticipantIndex>"
-         "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
-         0);
-}
-
-/// Whether a participant is in the domain on this machine: it listens on UDP port 7400 + 250 * domain + 10.
-inline bool inUse(std::uint32_t domain) {
+// Whether a participant is in the domain on this machine: it listens on UDP port 7400 + 250 * domain + 10.
+bool inUse(std::uint32_t domain) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -41,10 +28,20 @@ inline bool inUse(std::uint32_t domain) {
   return taken;
 }
 
-/// A domain id between 1 and 100 (above, its ports are those that Linux gives out by itself) that this process holds
-/// until it ends, by a lock on a file: two tests that run at once never see each other's samples, nor those of a
-/// server that somebody runs.
-inline std::uint32_t exclusiveDomain() {
+}  // namespace
+
+void useLoopback() {
+  setenv("CYCLONEDDS_URI",
+         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
+         "multicast=\"false\"/></Interfaces>"
+         "<AllowMulticast>false</AllowMulticast></General>"
+         "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30</"
+         "MaxAutoParticipantIndex>"
+         "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
+         0);
+}
+
+std::uint32_t exclusiveDomain() {
   static const std::uint32_t domain = [] {
     useLoopback();
     std::random_device random;

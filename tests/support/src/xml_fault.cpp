@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#include "palpate/testing/xml_fault.h"
 
-#include <cctype>
-#include <string>
 #include <vector>
 
 namespace palpate::testing {
 
-/// Why a text is not well-formed XML as far as our writers use it (elements, attributes in double quotes, the
-/// five entities, a declaration); empty when it is.
-inline std::string xmlFault(const std::string& text) {
+std::string xmlFault(const std::string& text) {
   std::vector<std::string> open;
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] == '&') {

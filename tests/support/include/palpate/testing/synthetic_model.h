@@ -5,6 +5,7 @@
 
 #include "palpate/core/types.h"
 #include "palpate/modelfile/model_data.h"
+#include "palpate/testing/files.h"
 
 namespace palpate::testing {
 
@@ -43,19 +44,5 @@ void writeSyntheticModel(const std::filesystem::path& path, const SyntheticOptio
 /// The energy W_s(d) at surface point X, J, whose gradient the model's force is at a node that lies at X; of a
 /// "force" model the complementary energy W*_s(f), whose gradient the displacement is. @param d  m, or f, N
 [[nodiscard]] double syntheticEnergy(const SyntheticOptions& options, const Vec3& X, const Vec3& d);
-
-/// A file name in the system's temporary folder that is this process's own; what lies there is removed at the
-/// end.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& name);
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile();
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace palpate::testing
