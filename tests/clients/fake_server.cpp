@@ -79,6 +79,7 @@ void FakeServer::answer(const dds::ToolPose& pose, std::uint64_t seq) {
   force.penetration = depth;
   force.wakeup_ns = 50'000;
   force.tick_ns = 70'000;
+  if (options_.overrun_every > 0) force.overruns = seq / options_.overrun_every;
   if (depth > 0.0) {
     force.flags = dds::flag::kInContact;
     force.state = dds::tool_state::kStick;

@@ -14,11 +14,12 @@ namespace palpate::testing {
 
 /// How a FakeServer behaves.
 struct FakeServerOptions {
-  double stiffness{500.0};       ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
-  double tip_radius{0.005};      ///< m
-  std::uint64_t drop_every{0};   ///< leaves out every n-th ToolForce, to be found as lost; 0: none
-  std::uint64_t stall_every{0};  ///< stands still for 40 ms after every n-th ToolForce; 0: never
-  std::uint64_t leave_after{0};  ///< flags kShuttingDown from this ToolForce on; 0: never
+  double stiffness{500.0};         ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
+  double tip_radius{0.005};        ///< m
+  std::uint64_t drop_every{0};     ///< leaves out every n-th ToolForce, to be found as lost; 0: none
+  std::uint64_t overrun_every{0};  ///< counts an overrun with every n-th ToolForce; 0: none
+  std::uint64_t stall_every{0};    ///< stands still for 40 ms after every n-th ToolForce; 0: never
+  std::uint64_t leave_after{0};    ///< flags kShuttingDown from this ToolForce on; 0: never
 };
 
 /// Speaks the server's side of the wire, with a spring for an organ: the client programs can be judged

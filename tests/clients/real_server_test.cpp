@@ -91,7 +91,6 @@ TEST(RealServer, LatencyAndWatchReportTheSameRun) {
   EXPECT_GT(report["pose_to_force_us"]["count"].get<int>(), 500);
   EXPECT_GT(report["tick_us"]["p50"].get<double>(), 0.0);
   EXPECT_LE(report["lost"].get<double>(), 0.01 * report["received"].get<double>());
-  EXPECT_GE(report["overruns"].get<int>(), 0);
   EXPECT_GT(watched["received"].get<int>(), 500);
   EXPECT_EQ(watched["refused"], 0);
   EXPECT_EQ(watched["model_id"], report["model_id"]);

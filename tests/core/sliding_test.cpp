@@ -50,7 +50,7 @@ TEST(Sliding, FrictionIsWhatCoulombAllows) {
     ASSERT_EQ(r.state, static_cast<std::uint32_t>(ContactState::kSlide)) << mu;
     const Vec3 f = vec(r.force), n = normalAt(r);
     const double pressing = f.dot(n);
-    EXPECT_NEAR((f - n * pressing).norm() / pressing, mu, 0.06) << "dW/ds may add to it";
+    EXPECT_NEAR((f - n * pressing).norm() / pressing, mu, 0.05 * mu) << "dW/ds adds a little to it";
   }
 }
 

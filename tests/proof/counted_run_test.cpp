@@ -26,10 +26,11 @@ class CountedServer : public ::testing::Test {
 };
 
 TEST_F(CountedServer, ItsToolsAreInContactAndSlideWhileItIsCounted) {
+  ASSERT_EQ(run_.tools.size(), 2U);
   for (const Answers& tool : run_.tools) {
     EXPECT_GT(tool.in_contact, tool.all / 2) << run_.log;
     EXPECT_GT(tool.sliding, tool.all / 10);
-    EXPECT_GT(tool.free, 0U) << "contact never began anew";
+    EXPECT_GT(tool.free, 0U) << "contact never began again";
   }
 }
 

@@ -41,7 +41,9 @@ TEST_F(TickTest, SaysHowLongThePoseHadWaited) {
   send(poseAtDepth(0, 0.001));
   const std::int64_t arrived_ns = now_ns_;
   for (int i = 0; i < 2; ++i) runOneTick();
-  for (const ForceRecord& record : takeForces()) EXPECT_EQ(record.pose_wait_ns, record.stamp_ns - arrived_ns);
+  const auto forces = takeForces();
+  ASSERT_EQ(forces.size(), 2U);
+  for (const ForceRecord& record : forces) EXPECT_EQ(record.pose_wait_ns, record.stamp_ns - arrived_ns);
 }
 
 TEST_F(TickTest, PushesBackAndMovesTheSurface) {
@@ -109,7 +111,9 @@ TEST_F(TickTest, FlagsASecondPublisherForAsLongAsItSends) {
     return takeForces();
   };
   EXPECT_EQ(run(20, false).back().result.flags & kTwoPublishers, 0U);
-  for (const ForceRecord& record : run(20, true)) {
+  const auto both = run(20, true);
+  ASSERT_EQ(both.size(), 20U);
+  for (const ForceRecord& record : both) {
     EXPECT_NE(record.result.flags & kTwoPublishers, 0U);
     EXPECT_EQ(record.result.flags & kInContact, 0U) << "the second one's pose was used";
     EXPECT_EQ(record.superseded, 0U);

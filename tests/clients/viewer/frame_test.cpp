@@ -27,6 +27,7 @@ TEST(ViewerFrame, FieldIsWithinHalfAStepOfWhatItWas) {
 TEST(ViewerFrame, AFieldOfZerosStaysZeroAndHasAScale) {
   const EncodedField field = encodeField(std::vector<float>(6, 0.0F));
   EXPECT_GT(field.scale, 0.0F);
+  ASSERT_EQ(field.values.size(), 6U);
   for (const std::int16_t unit : field.values) EXPECT_EQ(unit, 0);
 }
 

@@ -24,7 +24,9 @@ feel::LoopOptions aDozen() {
 
 TEST(Loops, AHeldAnchorGivesBackWhatItGot) {
   int counted = 0;
-  for (const feel::LoopResult& loop : feel::heldLoops(unevenOrgan(), aDozen())) {
+  const auto loops = feel::heldLoops(unevenOrgan(), aDozen());
+  ASSERT_EQ(static_cast<int>(loops.size()), aDozen().loops);
+  for (const feel::LoopResult& loop : loops) {
     EXPECT_GT(loop.stored, 1e-4) << "J: it was pressed";
     if (loop.releases > 0) continue;
     EXPECT_LT(std::abs(loop.share()), 1e-3);
@@ -38,7 +40,9 @@ class SlidingLoops : public ::testing::TestWithParam<double> {};
 TEST_P(SlidingLoops, BetweenSoftAndStiffPlacesGiveNoEnergy) {
   constexpr double kDepth = 0.002;  // m
   double least = INFINITY;
-  for (const feel::LoopResult& loop : feel::slidingLoops(unevenOrgan(), aDozen(), kDepth, GetParam())) {
+  const auto loops = feel::slidingLoops(unevenOrgan(), aDozen(), kDepth, GetParam());
+  ASSERT_EQ(static_cast<int>(loops.size()), aDozen().loops);
+  for (const feel::LoopResult& loop : loops) {
     EXPECT_GT(loop.stored, 1e-4) << "J: it was pressed";
     least = std::min(least, loop.share());
   }

@@ -18,17 +18,24 @@ feel::SlideOptions aDozen(double friction) {
   return options;
 }
 
+std::vector<feel::SlideResult> slidesAt(double friction) {
+  const feel::SlideOptions options = aDozen(friction);
+  const auto slides = feel::slides(unevenOrgan(), options);
+  EXPECT_EQ(static_cast<int>(slides.size()), options.paths);
+  return slides;
+}
+
 class SlidesWithFriction : public ::testing::TestWithParam<double> {};
 
 }  // namespace
 
 TEST(Slides, ForceWithoutFrictionNeverClicks) {
-  for (const feel::SlideResult& slide : feel::slides(unevenOrgan(), aDozen(0.0)))
+  for (const feel::SlideResult& slide : slidesAt(0.0))
     EXPECT_LE(slide.largest_ratio, 1.0) << "step of the force / (3 x the median step + 1 % of the force)";
 }
 
 TEST_P(SlidesWithFriction, ForceNeitherLagsNorClicksOnceItSlides) {
-  for (const feel::SlideResult& slide : feel::slides(unevenOrgan(), aDozen(GetParam()))) {
+  for (const feel::SlideResult& slide : slidesAt(GetParam())) {
     EXPECT_EQ(slide.releases, 0);
     EXPECT_GT(slide.mean_force, 0.3);
     EXPECT_LE(slide.largest_lag, 1.0) << "distance to the settled force / its own last step";

@@ -30,6 +30,7 @@ TEST(BoxMesh, BeamFillsItsBoxExactly) {
 
 TEST(BoxMesh, EveryTetrahedronLiesOnTheDiagonalOfItsCell) {
   const TetMesh beam = makeBeam();
+  ASSERT_FALSE(beam.tetrahedra.empty());
   for (const auto& t : beam.tetrahedra) {
     const auto [low, high] = std::minmax_element(t.begin(), t.end());
     const Eigen::Vector3d diagonal =

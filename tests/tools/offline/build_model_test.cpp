@@ -87,8 +87,8 @@ TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
     while (world_->surface->positions[static_cast<std::size_t>(node)].x() < 0.02);
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
     const Errors errors = compare(model, world_->surface->atNode(node), d);
-    EXPECT_LT(errors.force, 1e-3);
-    EXPECT_LT(errors.field, 0.03);
+    EXPECT_LT(errors.force, 2e-5);
+    EXPECT_LT(errors.field, 0.02);
   }
 }
 
@@ -103,8 +103,8 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
     while (world_->surface->position(s).x() < 0.02);
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
     const Errors errors = compare(model, s, d);
-    EXPECT_LT(errors.force, 0.1);
-    EXPECT_LT(errors.field, 0.15);
+    EXPECT_LT(errors.force, 0.02);
+    EXPECT_LT(errors.field, 0.07);
   }
 }
 

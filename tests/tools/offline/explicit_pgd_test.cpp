@@ -167,6 +167,7 @@ TEST(LoadStepping, PairsAreBornWhenNeeded) {
   EXPECT_GT(fine.born[0], fine.pairs / 2);  // the first step finds the linear solution
   EXPECT_GT(fine.pairs, fine.born[0]);      // rotation asks for more as the load grows
   EXPECT_NE(std::count(fine.born.begin(), fine.born.end(), 0), 0);  // and most steps need none
+  ASSERT_EQ(fine.residual.size(), 10U);
   for (const double residual : fine.residual) EXPECT_LE(residual, 0.05);
 }
 

@@ -38,6 +38,7 @@ class Block : public ::testing::Test {
     data.attributes.provenance = "{}";
     modelfile::writeModel(file_.path(), data);
     setup_ = std::make_unique<SolverSetup>(c_, organ_);
+    EXPECT_GT(accessible(), 50U) << "too few positions to compare at";
     return MetaModel::load(file_.path());
   }
   MetaModel solve() {

@@ -50,6 +50,7 @@ TEST(Liver, HasNoSharpCrease) {
     for (std::size_t i = 0; i < 3; ++i) normals[{t[i], t[(i + 1) % 3]}] = normal;
   }
   const double cos_limit = std::cos(30 * 3.14159265358979 / 180);
+  ASSERT_FALSE(normals.empty());
   for (const auto& [edge, normal] : normals)
     EXPECT_GT(normal.dot(normals.at({edge.second, edge.first})), cos_limit);
 }

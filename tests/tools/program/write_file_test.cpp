@@ -4,28 +4,22 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <filesystem>
 #include <iterator>
+
+#include "palpate/testing/files.h"
 
 namespace palpate::program {
 namespace {
 
-// A folder of its own, gone at the end.
-class WriteFile : public testing::Test {
+class WriteFile : public ::testing::Test {
  protected:
-  WriteFile() { std::filesystem::create_directories(folder_); }
-  ~WriteFile() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string content(const char* name) const {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  [[nodiscard]] std::string content(const char* name) const { return testing::contentOf(folder_ / name); }
   [[nodiscard]] std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
   }
 
-  const std::filesystem::path folder_{std::filesystem::temp_directory_path() /
-                                      ("palpate-write-" + std::to_string(getpid()))};
+  const testing::TemporaryFolder folder_;
 };
 
 TEST_F(WriteFile, ReplacesTheOldFileByTheNewOne) {

@@ -81,10 +81,12 @@ TEST_F(Reproduce, LiverErrorsFallAsPairsAreAdded) {
   const Json liver = run({"liver", "--element-size", "0.02", "--coarse-element-size", "0.02", "--pairs",
                           "10,20,40", "--samples", "10"});
   double last = 1e9;
+  ASSERT_EQ(liver.at("modes_table").size(), 3U);
   for (const Json& row : liver.at("modes_table")) {
     EXPECT_LT(row.at("field_error_p95").get<double>(), last);
     last = row.at("field_error_p95");
   }
+  ASSERT_EQ(liver.at("linear").at("pairs_table").size(), 3U);
   for (const Json& row : liver.at("linear").at("pairs_table")) {
     EXPECT_LE(row.at("ratio").get<double>(), 1.1);
     EXPECT_GE(row.at("ratio").get<double>(), 1.0 - 1e-6);
@@ -141,6 +143,7 @@ TEST_F(Reproduce, PairsOfARealLiverAreAsGoodAsCanBe) {
             0);
   const Json liver = run({"liver", "--mesh", organ, "--coarse-element-size", "0", "--pairs", "20,50,100,167",
                           "--samples", "10"});
+  ASSERT_EQ(liver.at("linear").at("pairs_table").size(), 4U);
   for (const Json& row : liver.at("linear").at("pairs_table")) {
     EXPECT_LE(row.at("ratio").get<double>(), 1.1) << row;
     EXPECT_LE(row.at("greedy_pairs").get<double>(), 1.5 * row.at("pairs").get<double>());
