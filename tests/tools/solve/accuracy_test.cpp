@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From an organ to errors against Newton, through the programs, with what the default organ must show; on a
-// coarser liver, since every comparison is a full solution.
+// From an organ to errors against Newton, through the programs, as the default organ shows them. On a coarser liver,
+// since every comparison is a full solution. Bounds are about 1.5 times what was measured.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,9 +28,11 @@ std::string text(const Eigen::Vector3d& x) {
   return out.str();
 }
 
-double p95(std::vector<double> errors) {
-  std::sort(errors.begin(), errors.end());
-  return errors[static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(errors.size()))) - 1];
+constexpr std::size_t kTouches = 12;
+
+double worst(const std::vector<double>& errors) {
+  EXPECT_EQ(errors.size(), kTouches);
+  return *std::max_element(errors.begin(), errors.end());
 }
 
 class CoarseLiver : public ::testing::Test {
@@ -38,7 +40,7 @@ class CoarseLiver : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_.emplace();
     const auto made = runProgram(
-        "palpate-organ", {"liver", "--element-size", "0.011", "-o", (*folder_ / "liver.msh").string()});
+        "palpate-organ", {"liver", "--element-size", "0.017", "-o", (*folder_ / "liver.msh").string()});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const auto solved = runProgram(
         "palpate-solve", {(*folder_ / "liver.msh").string(), "-o", (*folder_ / "liver.h5").string(), "-q"});
@@ -76,21 +78,21 @@ class CoarseLiver : public ::testing::Test {
 
 std::optional<testing::TemporaryFolder> CoarseLiver::folder_;
 
-TEST_F(CoarseLiver, AtNodesForceIsWithin1PercentAndFieldWithin5) {
+TEST_F(CoarseLiver, AtNodesForceIsExactAndFieldWithin3Percent) {
   std::vector<double> force, field;
-  for (int i = 0; i < 20; ++i) {
+  for (std::size_t i = 0; i < kTouches; ++i) {
     const std::int32_t node = accessible_[random_() % accessible_.size()];
     compare({"--node", std::to_string(organ_.node_tags[static_cast<std::size_t>(node)])}, force, field);
   }
-  EXPECT_LT(p95(force), 0.01);
-  EXPECT_LT(p95(field), 0.05);
+  EXPECT_LT(worst(force), 1e-5);
+  EXPECT_LT(worst(field), 0.03);
 }
 
-TEST_F(CoarseLiver, BetweenNodesForceIsWithin3PercentAndFieldWithin8) {
+TEST_F(CoarseLiver, BetweenNodesForceIsWithin1PercentAndFieldWithin7) {
   const mesh::BoundarySurface boundary = mesh::boundaryOf(organ_);
   std::uniform_real_distribution<double> uniform;
   std::vector<double> force, field;
-  while (force.size() < 20) {
+  while (force.size() < kTouches) {
     Eigen::Vector3d x = Eigen::Vector3d::Zero();
     double a = uniform(random_), b = uniform(random_);
     if (a + b > 1.0) {
@@ -108,8 +110,8 @@ TEST_F(CoarseLiver, BetweenNodesForceIsWithin3PercentAndFieldWithin8) {
     if (all) compare({"--at", text(x)}, force, field);
     if (HasFatalFailure()) return;
   }
-  EXPECT_LT(p95(force), 0.03);
-  EXPECT_LT(p95(field), 0.08);
+  EXPECT_LT(worst(force), 0.01);
+  EXPECT_LT(worst(field), 0.07);
 }
 
 TEST_F(CoarseLiver, DomainOfAllButFivePercentReaches4Millimetres) {
