@@ -20,10 +20,16 @@ struct StabilityCase {
   bool friction{true};  ///< of the device; without it only hand and coupling damp
 };
 
+/// Where the search for the largest stable coupling ends, N/m: thirty times what the stiffest device renders. Damping in
+/// proportion to it stays within what StepConfig takes.
+inline constexpr double kStiffestCoupling = 3e4;
+
 /// The largest stable coupling, and whether the preset's own is stable.
 struct StabilityResult {
   device::Verdict at_default;
-  double largest_stable{0.0};  ///< N/m, of those tried up to the preset's stiffness limit; 0: none
+  /// N/m, within 3 %; 0: none; kStiffestCoupling: all that were tried. The search goes on beyond the preset's stiffness
+  /// limit, so that it tells how much the limit leaves.
+  double largest_stable{0.0};
 };
 
 /// One press through step(), closed loop at 1 kHz; the answer arrives one period later.
@@ -31,7 +37,8 @@ struct StabilityResult {
 [[nodiscard]] device::Verdict press(const MetaModel& model, const StabilityCase& which,
                                     double coupling_stiffness);
 
-/// Tries the preset's coupling, then bisects 8 times for the largest stable one.
+/// Tries the preset's coupling and its doubles up to the first unstable one, then bisects 5 times. A coupling that is
+/// stable beyond an unstable one is not found.
 [[nodiscard]] StabilityResult stability(const MetaModel& model, const StabilityCase& which);
 
 }  // namespace palpate::feel
