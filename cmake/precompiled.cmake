@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# Headers that most sources include, read once a build instead of once a file. Sources name what they use all the same;
+# -DPALPATE_PRECOMPILE=OFF builds without and shows those that do not.
+option(PALPATE_PRECOMPILE "Precompile the headers that sources share" ON)
+set(PALPATE_STANDARD_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
+  <optional> <span> <sstream> <string> <thread> <vector>)
+
+if(PALPATE_PRECOMPILE)
+  find_package(Eigen3 REQUIRED NO_MODULE)
+  add_library(palpate_headers STATIC EXCLUDE_FROM_ALL ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
+  target_link_libraries(palpate_headers PRIVATE palpate_options Eigen3::Eigen)
+  target_precompile_headers(palpate_headers PRIVATE <Eigen/Core> <Eigen/Geometry> ${PALPATE_STANDARD_HEADERS})
+endif()
+
+# palpate_precompiled(library...): static libraries whose sources mostly include Eigen or the standard library.
+function(palpate_precompiled)
+  if(PALPATE_PRECOMPILE)
+    foreach(library IN LISTS ARGN)
+      target_precompile_headers(${library} REUSE_FROM palpate_headers)
+    endforeach()
+  endif()
+endfunction()
