@@ -220,7 +220,7 @@ TEST(SeparatedField, WhatIsLeftOutMovesNoNodeByMoreThanIsUnseen) {
   }
 }
 
-TEST(SeparatedField, AmplitudesThatAreNoNumbersShow) {
+TEST(SeparatedField, NonFiniteAmplitudesShow) {
   for (const ModeCounts& counts : {ModeCounts{0, 4, 0, 0}, {0, 0, 4, 0}, {0, 0, 0, 4}}) {
     const PackedField packed(20, counts);
     const SeparatedField field(packed.view());

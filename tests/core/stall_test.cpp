@@ -68,7 +68,7 @@ TEST(Stall, OfATickWithoutAGoodPoseIsNotForgotten) {
   EXPECT_LT((vec(driver.at(above(0.005)).force) - held).norm(), 0.15);
 }
 
-TEST(Stall, APeriodThatIsNoneOrAbsurdGivesABoundedForceAndNoStaleOne) {
+TEST(Stall, AnAbsurdPeriodGivesABoundedForceAndNoStaleOne) {
   for (const std::int64_t period : {std::int64_t{0}, -kMs, std::numeric_limits<std::int64_t>::min(),
                                     std::numeric_limits<std::int64_t>::max()}) {
     Driver driver(organ());

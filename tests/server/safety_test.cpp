@@ -45,7 +45,7 @@ class Safety : public ServerEndToEnd {
   }
 };
 
-TEST_F(Safety, NumbersThatAreNone) {
+TEST_F(Safety, NonFiniteAndHugeNumbers) {
   ASSERT_NO_FATAL_FAILURE(start());
   for (const double number :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
@@ -139,7 +139,7 @@ TEST_F(Safety, NumbersThatGoBackOrRepeatAreFlaggedAndUsed) {
     const auto flagged =
         client_->waitFor([](const auto& f) { return (f.flags & dds::flag::kPoseOutOfOrder) != 0; });
     ASSERT_TRUE(flagged.has_value()) << step_back;
-    EXPECT_EQ(flagged->pose_seq, pose.seq) << "a sender that counts anew is not locked out";
+    EXPECT_EQ(flagged->pose_seq, pose.seq) << "a sender that starts to count again is not locked out";
     expectBounded();
   }
   expectAlive();

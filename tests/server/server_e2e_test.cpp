@@ -233,7 +233,7 @@ TEST_P(ServerStops, WithZeroForceLastAndExitCodeZero) {
                   .has_value());
 }
 
-// Leaves no room in a pipe: whoever writes to it waits for a reader.
+// Leaves no room in a pipe: a writer waits for a reader.
 void fill(int pipe_end) {
   const int flags = fcntl(pipe_end, F_GETFL);
   fcntl(pipe_end, F_SETFL, flags | O_NONBLOCK);

@@ -87,7 +87,7 @@ TEST(LeaveCpuToTheTick, RefusesToLeaveNothing) {
   ASSERT_EQ(rt::useCpus(usable), 0);
 }
 
-// Files for whoever runs the server without root.
+// Files for users who run the server without root.
 std::string textOf(const std::string& path) {
   EXPECT_TRUE(std::filesystem::exists(path)) << path;
   return testing::contentOf(path);

@@ -50,7 +50,7 @@ test('garbage ends its connection', () => refused('garbage', () => intrude({ act
 test('binary ends its connection', () =>
   refused('binary', () => intrude({ act: (s) => s.send(Buffer.from([1, 2, 3])) }), (end) => end.code === 1003));
 
-test('a number that is none ends its connection', () =>
+test('a number that is not finite ends its connection', () =>
   refused('infinity', () => intrude({ act: (s) => s.send('{"type":"target","position":[0,0,1e999]}') }), (end) => end.code === 1008));
 
 test('a flood ends its connection', () =>

@@ -136,7 +136,7 @@ TEST_F(FeedOfManyServers, AServerThatSaidNoParametersHasNotThoseOfTheOneBefore) 
   EXPECT_FALSE(feed_.parameters());
 }
 
-TEST_F(FeedOfManyServers, AnswersAndPosesThatAreNoNumbersAreNotShown) {
+TEST_F(FeedOfManyServers, NonFiniteAnswersAndPosesAreNotShown) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
   const auto answer = [&](std::uint32_t tool_id, const std::function<void(dds::ToolForce&)>& spoil) {

@@ -45,7 +45,7 @@ TEST(FillSurface, MakesAFineSurfaceCoarser) {
   EXPECT_LT(boundaryOf(mesh).triangles.size(), surface.triangles.size() / 4);
 }
 
-TEST(FillSurface, RefusesASizeThatIsNone) {
+TEST(FillSurface, RefusesANegativeSize) {
   EXPECT_REFUSED(fillSurface(cube(), -1), "element size");
 }
 

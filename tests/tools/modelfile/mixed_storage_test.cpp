@@ -268,7 +268,7 @@ TEST(StoreMixed, MoreTilesThanTheSurfaceHasAreRefused) {
   }
 }
 
-TEST(StoreMixed, CountsOfModesThatAreNoneAreRefused) {
+TEST(StoreMixed, NegativeAndHugeCountsOfModesAreRefused) {
   const auto kinds = [](std::vector<std::int32_t> values) {
     return complaintAbout("modes/kinds", H5T_NATIVE_INT32, values);
   };

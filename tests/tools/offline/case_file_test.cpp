@@ -156,7 +156,7 @@ TEST_F(CaseFile, RefusesAnUnknownMethodAndListsThoseThereAre) {
   expectRefusal("mesh = \"a\"\n[model]\nmethod = \"pod\"\n", ".toml:3: model.method",
                 "\"pod\" is not known (known: series-displacement, series-force, pgd-linear");
 }
-TEST_F(CaseFile, RefusesADirectionThatIsNone) {
+TEST_F(CaseFile, RefusesAMalformedDirection) {
   for (const char* direction : {"[0, 0, 0]", "[1, 2]", "\"up\"", "[1, 2, \"x\"]", "[nan, 0, 1]", "4"})
     expectRefusal("mesh = \"a\"\n[load]\ndirection = " + std::string(direction) + "\n",
                   ".toml:3: load.direction", "neither three numbers, not all zero, nor \"any\"");

@@ -58,7 +58,7 @@ TEST(Json, IsRead) {
   EXPECT_THROW((void)json["a"][2], JsonError);
 }
 
-TEST(Json, RefusesWhatIsNone) {
+TEST(Json, RefusesMalformedText) {
   for (const char* text : {"", "{", "{\"a\":}", "nul", "{} x"}) {
     EXPECT_FALSE(Json::read(text)) << text;
     EXPECT_THROW((void)Json::parse(text), JsonError) << text;

@@ -27,7 +27,7 @@ TEST(Fill, RefusesAResultThatIsNotThere) {
   EXPECT_THROW((void)fill("{error:.1f}", Json{{"errors", 1.0}}), ReproduceError);
 }
 
-TEST(Fill, RefusesANumberThatIsNone) {
+TEST(Fill, RefusesAMissingNumber) {
   // NaN becomes null in a JSON file; a report must not print what was not computed.
   EXPECT_THROW((void)fill("{error:.1f}", Json{{"error", nullptr}}), ReproduceError);
 }

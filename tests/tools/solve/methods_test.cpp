@@ -152,7 +152,7 @@ TEST_F(SolveMethods, RefusesALoadOfASeries) {
 TEST_F(SolveMethods, PointsFromANonlinearPgdOfAnyDirectionToTheForceSeries) {
   expectRefusal({"--method", "pgd-explicit", "--load-direction", "any"}, "method series-force");
 }
-TEST_F(SolveMethods, RefusesADirectionThatIsNone) {
+TEST_F(SolveMethods, RefusesAMalformedDirection) {
   for (const char* direction : {"0,0,0", "1,2", "up", "1,2,3,4", "nan,0,1"})
     expectRefusal({"--method", "pgd-linear", "--load-direction", direction}, "--load-direction");
 }
