@@ -9,8 +9,9 @@ namespace palpate::reproduce {
 namespace {
 
 TEST(Fill, PutsEveryLeafUnderItsPath) {
-  const Json results{
-      {"pairs", 167}, {"order", {{"ten_term", 1.998}}}, {"rows", {{{"x", 2.5}}, {{"x", 3.5}}}}};
+  const Json results{{"pairs", 167},
+                     {"order", {{"ten_term", 1.998}}},
+                     {"rows", std::vector<Json>{{{"x", 2.5}}, {{"x", 3.5}}}}};
   EXPECT_EQ(fill("{pairs:.0f} pairs, order {order_ten_term:.2f}, {rows_1_x:g}", results),
             "167 pairs, order 2.00, 3.5");
 }
@@ -33,7 +34,7 @@ TEST(Fill, RefusesAMissingNumber) {
 }
 
 TEST(Table, HasALineForEveryRow) {
-  const Json rows{{{"pairs", 20}, {"error", 0.5}}, {{"pairs", 50}}};
+  const Json rows = std::vector<Json>{{{"pairs", 20}, {"error", 0.5}}, {{"pairs", 50}}};
   EXPECT_EQ(table(rows, {{"n", "pairs", "{:.0f}"}, {"error, %", "error", "{:.1f}", 100.0}}),
             "| n | error, % |\n|---|---|\n| 20 | 50.0 |\n| 50 | - |\n");
 }

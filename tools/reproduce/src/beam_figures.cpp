@@ -20,11 +20,12 @@ void writeCurve(const Json& results, Output& out) {
                                                        {"linear_mm", "linear"}};
   std::vector<std::vector<double>> rows;
   for (const Json& row : results["load_curve"])
-    rows.push_back({row["level"], row["newton_mm"], row["ten_term_mm"], row["forward_euler_mm"],
-                    row["linear_mm"], row["ten_term_l2_error"]});
+    rows.push_back(numbersOf(
+        row, {"level", "newton_mm", "ten_term_mm", "forward_euler_mm", "linear_mm", "ten_term_l2_error"}));
   for (const auto& [key, name] : names) {
     Curve curve{name, {{0.0, 0.0}}};
-    for (const Json& row : results["load_curve"]) curve.points.emplace_back(row["level"], row[key]);
+    for (const Json& row : results["load_curve"])
+      curve.points.emplace_back(row["level"].get<double>(), row[key].get<double>());
     curve.dashed = std::string(key) == "newton_mm";
     chart.curves.push_back(curve);
   }
@@ -106,8 +107,8 @@ void writePositions(const Json& results, Output& out) {
                {{"ten terms against full Newton", {}, false, true}}};
   std::vector<std::vector<double>> rows;
   for (const Json& p : results["positions"]) {
-    errors.curves[0].points.emplace_back(p["x_mm"], p["l2_error"]);
-    rows.push_back({p["node"], p["x_mm"], p["y_mm"], p["force_N"], p["newton_tip_mm"], p["l2_error"]});
+    errors.curves[0].points.emplace_back(p["x_mm"].get<double>(), p["l2_error"].get<double>());
+    rows.push_back(numbersOf(p, {"node", "x_mm", "y_mm", "force_N", "newton_tip_mm", "l2_error"}));
   }
   errors.curves[0].lines = false;
   out.writeCsv("figure-beam-positions.csv", {"node", "x_mm", "y_mm", "force_N", "newton_tip_mm", "l2_error"},

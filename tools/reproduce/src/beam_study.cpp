@@ -142,7 +142,7 @@ void addTip(const Beam& beam, const BeamSolutions& solutions, Json& results) {
     out[std::string(key) + "_mm"] = tipDown(beam, *u);
     out[std::string(key) + "_error"] = tipDown(beam, *u) / newton - 1.0;
   }
-  const double off = out["forward_euler_error"];
+  const double off = out["forward_euler_error"].get<double>();
   out["forward_euler_size"] = std::abs(off);
   out["forward_euler_word"] = off < 0.0 ? "short" : "long";
   // Tension of the stretched axis.

@@ -13,16 +13,16 @@ namespace {
 using Arguments = fmt::dynamic_format_arg_store<fmt::format_context>;
 
 void addLeaves(const std::string& name, const Json& json, Arguments& arguments) {
-  if (json.is_number()) {
+  if (json.isNumber()) {
     const auto x = json.get<double>();
     arguments.push_back(fmt::arg(name.c_str(), x));
     arguments.push_back(fmt::arg(("pct_" + name).c_str(), 100.0 * x));
-  } else if (json.is_string()) {
-    arguments.push_back(fmt::arg(name.c_str(), json.get<std::string>()));
-  } else if (json.is_object()) {
-    for (const auto& [key, value] : json.items())
+  } else if (json.isString()) {
+    arguments.push_back(fmt::arg(name.c_str(), json.text()));
+  } else if (json.isObject()) {
+    for (const auto& [key, value] : json.members())
       addLeaves(name.empty() ? key : name + "_" + key, value, arguments);
-  } else if (json.is_array() && json.size() <= 32) {  // longer ones are data, not prose
+  } else if (json.isArray() && json.size() <= 32) {  // longer ones are data, not prose
     for (std::size_t i = 0; i < json.size(); ++i)
       addLeaves(name + "_" + std::to_string(i), json[i], arguments);
   }
@@ -49,8 +49,8 @@ std::string table(const Json& rows, const std::vector<Column>& columns) {
   out << "|\n";
   for (const Json& row : rows) {
     for (const Column& column : columns) {
-      const auto found = row.find(column.key);
-      const bool number = found != row.end() && found->is_number();
+      const Json* const found = row.find(column.key);
+      const bool number = found != nullptr && found->isNumber();
       out << "| "
           << (number ? fmt::format(fmt::runtime(column.format), column.factor * found->get<double>()) : "-")
           << ' ';

@@ -163,7 +163,7 @@ offline::ScalarPairs studyLinear(const offline::SolverSetup& setup, const offlin
     shown =
         offline::recompress(first, offline::energyProduct(problem.stiffness()), problem.weights(), n).pairs;
     Json row = rowOf(problem, truth, first, shown, n);
-    row.update(pointErrors(setup, points, shown.X * (shown.Y * truth.mix), truth.points));
+    addAll(row, pointErrors(setup, points, shown.X * (shown.Y * truth.mix), truth.points));
     linear["pairs_table"].push_back(row);
   }
   results["linear"] = linear;

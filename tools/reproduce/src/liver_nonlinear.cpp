@@ -54,7 +54,8 @@ modelfile::ModelData cut(const offline::SolverSetup& setup, const modelfile::Mod
 MetaModel writeAndLoad(const std::filesystem::path& path, modelfile::ModelData data, const std::string& id) {
   data.attributes.model_id = "reproduce-" + id;
   data.attributes.provenance =
-      Json{{"program", "palpate-reproduce"}, {"version", PALPATE_VERSION}, {"model", id}}.dump();
+      Json{{"program", "palpate-reproduce"}, {"version", PALPATE_VERSION}, {"model", id}}.dump(
+          -1, program::Keys::kAsWritten);
   modelfile::writeModel(path, data);
   return MetaModel::load(path);
 }
@@ -111,7 +112,7 @@ Json rowOf(const LiverStudy& study, const modelfile::ModelData& data, const mode
            const std::vector<Touch>& touches, const Output& out, int n) {
   const std::filesystem::path scratch = out.file("liver.tmp.h5");
   Json row{{"pairs", n}};
-  row.update(quantiles(errorsOf(writeAndLoad(scratch, data, "force"), touches)));
+  addAll(row, quantiles(errorsOf(writeAndLoad(scratch, data, "force"), touches)));
   const MetaModel optimum = writeAndLoad(scratch, cut(study.setup, best, n), "force-svd");
   const std::vector<TouchError> errors = errorsOf(optimum, touches);
   row["svd_field_error_p95"] = quantile(errors, &TouchError::field, 0.95);

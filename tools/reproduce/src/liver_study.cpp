@@ -115,18 +115,19 @@ void writeErrors(const Json& results, Output& out) {
       {"force_error_p95", "force"}};
   std::vector<std::vector<double>> rows;
   for (const Json& row : results["modes_table"])
-    rows.push_back({row["pairs"], row["field_error_p95"], row["svd_field_error_p95"],
-                    row["contact_error_p95"], row["contact_error_max"], row["force_error_p95"]});
+    rows.push_back(numbersOf(row, {"pairs", "field_error_p95", "svd_field_error_p95", "contact_error_p95",
+                                   "contact_error_max", "force_error_p95"}));
   for (const auto& [key, name] : names) {
     Curve curve{name, {}};
-    for (const Json& row : results["modes_table"]) curve.points.emplace_back(row["pairs"], row[key]);
+    for (const Json& row : results["modes_table"])
+      curve.points.emplace_back(row["pairs"].get<double>(), row[key].get<double>());
     chart.curves.push_back(curve);
   }
   for (const auto& [key, name] : {std::pair{"field_error_p95", "field, three-part model"},
                                   {"contact_error_p95", "contact, three-part model"}}) {
     Curve curve{name, {}, true, false};
     for (const Json& row : results["modes_table"])
-      curve.points.emplace_back(row["pairs"], results["three_part"][key]);
+      curve.points.emplace_back(row["pairs"].get<double>(), results["three_part"][key].get<double>());
     chart.curves.push_back(curve);
   }
   out.writeCsv("figure-liver-errors.csv",

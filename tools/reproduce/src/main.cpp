@@ -7,7 +7,6 @@
 //               palpate-reproduce all --quick -o quick
 #include <sys/utsname.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <ctime>
 #include <fstream>
@@ -15,6 +14,8 @@
 #include <thread>
 
 #include "palpate/offline/parallel.h"
+#include "palpate/program/command_line.h"
+#include "palpate/program/run.h"
 #include "palpate/reproduce/beam_study.h"
 #include "palpate/reproduce/liver_study.h"
 #include "palpate/reproduce/report.h"
@@ -46,59 +47,35 @@ void chooseQuickCases(Options& options) {
   options.liver.samples = 20;
 }
 
-void describe(CLI::App& app, Options& options) {
-  app.set_version_flag("--version", PALPATE_VERSION);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return "palpate-reproduce: " + std::string(error.what()) + " (see palpate-reproduce --help)\n";
-  });
-  app.add_option("what", options.what, "rod (4.1), beam (4.2), liver (4.3) or all")
-      ->required()
-      ->check(CLI::IsMember({"rod", "beam", "liver", "all"}));
-  app.add_option("-o,--output", options.output, "folder for results.json, tables, figures and report.md")
-      ->capture_default_str();
-  app.add_flag(
-      "--quick", options.quick,
-      "smaller cases, with every figure and table, marked in the report: 20 elements for the rod, "
-      "17 x 7 x 7 nodes and 25 steps for the beam, elements of 10.5 and 20 mm, at most 167 pairs and "
-      "20 points for the liver; an option below still sets its own value");
-  app.add_option("--threads", options.threads, "worker threads")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_option("--rod-elements", options.rod.elements, "elements of the rod")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--beam-load", options.beam.load, "load of the beam, N")
-      ->check(CLI::Range(1e-3, 10.0))
-      ->capture_default_str();
-  app.add_option("--beam-steps", options.beam.steps, "load steps of the beam")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app.add_option("--beam-tolerance", options.beam.tolerance,
-                 "relative residual at which a load step of the beam ends")
-      ->check(CLI::Range(1e-6, 1.0))
-      ->capture_default_str();
-  app.add_option("--beam-nodes", options.beam.nodes, "nodes of the beam along length, width, height")
-      ->delimiter(',')
-      ->check(CLI::Range(2, 200))
-      ->capture_default_str();
-  app.add_option("--mesh", options.liver.mesh,
-                 "organ for the liver, in metres, with a group `fixed` (default: the default organ)");
-  app.add_option("--element-size", options.liver.element_size, "of the default organ, m")
-      ->check(CLI::Range(0.003, 0.02))
-      ->capture_default_str();
-  app.add_option("--coarse-element-size", options.liver.coarse_element_size,
-                 "of the liver-like organ for the ten terms, m; 0 leaves them out")
-      ->check(CLI::Validator(CLI::Range(0.008, 0.02)) | CLI::IsMember({"0"}))
-      ->capture_default_str();
-  app.add_option("--samples", options.liver.samples, "held-out points of the liver")
-      ->check(CLI::Range(2, 10000))
-      ->capture_default_str();
-  app.add_option("--pairs", options.liver.pairs, "numbers of pairs to tabulate")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "also print results.json on standard output");
-  app.add_flag("-q,--quiet", options.quiet, "no progress");
+void describe(program::Options line, Options& options) {
+  line.add("what", &options.what, "rod (4.1), beam (4.2), liver (4.3) or all")
+      .required()
+      .oneOf({"rod", "beam", "liver", "all"});
+  line.add("-o,--output", &options.output, "folder for results.json, tables, figures and report.md");
+  line.flag("--quick", &options.quick,
+            "smaller cases, with every figure and table, marked in the report: 20 elements for the rod, "
+            "17 x 7 x 7 nodes and 25 steps for the beam, elements of 10.5 and 20 mm, at most 167 pairs and "
+            "20 points for the liver; an option below still sets its own value");
+  line.add("--threads", &options.threads, "worker threads").range(1, 1024);
+  line.add("--rod-elements", &options.rod.elements, "elements of the rod").range(1, 1000);
+  line.add("--beam-load", &options.beam.load, "load of the beam, N").range(1e-3, 10.0);
+  line.add("--beam-steps", &options.beam.steps, "load steps of the beam").range(1, 10000);
+  line.add("--beam-tolerance", &options.beam.tolerance,
+           "relative residual at which a load step of the beam ends")
+      .range(1e-6, 1.0);
+  line.add("--beam-nodes", &options.beam.nodes, "nodes of the beam along length, width, height")
+      .list(',')
+      .range(2, 200);
+  line.add("--mesh", &options.liver.mesh,
+           "organ for the liver, in metres, with a group `fixed` (default: the default organ)");
+  line.add("--element-size", &options.liver.element_size, "of the default organ, m").range(0.003, 0.02);
+  line.add("--coarse-element-size", &options.liver.coarse_element_size,
+           "of the liver-like organ for the ten terms, m; 0 leaves them out")
+      .rangeOr(0.008, 0.02, {"0"});
+  line.add("--samples", &options.liver.samples, "held-out points of the liver").range(2, 10000);
+  line.add("--pairs", &options.liver.pairs, "numbers of pairs to tabulate").list(',').range(1, 1000);
+  line.flag("--json", &options.json, "also print results.json on standard output");
+  line.flag("-q,--quiet", &options.quiet, "no progress");
 }
 
 std::string today() {
@@ -153,30 +130,28 @@ void run(Options options) {
   }
   // 3. The path of the report.
   std::cerr << "report: " << out.file("report.md").string() << '\n';
-  if (options.json) std::cout << (all ? results : results[options.what]).dump(2) << '\n';
+  if (options.json)
+    std::cout << (all ? results : results[options.what]).dump(2, program::Keys::kAsWritten) << '\n';
+}
+
+int body(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // gnuplot may be absent: then its pipe is closed
+  program::CommandLine line("palpate-reproduce",
+                            "Reproduces the benchmarks of Niroomandi et al. 2013: rod, beam, liver.");
+  Options options;
+  describe(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
+  if (options.quick) {
+    // The smaller cases replace the defaults; options on the command line replace them in turn.
+    chooseQuickCases(options);
+    if (!line.read(argc, argv)) return 0;
+  }
+  run(options);
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // gnuplot may be absent: then its pipe is closed
-  CLI::App app("Reproduces the benchmarks of Niroomandi et al. 2013: rod, beam, liver.", "palpate-reproduce");
-  Options options;
-  describe(app, options);
-  CLI11_PARSE(app, argc, argv);
-  if (options.quick) {
-    // The smaller cases replace the defaults; options on the command line replace them in turn.
-    chooseQuickCases(options);
-    CLI11_PARSE(app, argc, argv);
-  }
-  try {
-    run(options);
-  } catch (const std::bad_alloc&) {
-    std::cerr << "palpate-reproduce: out of memory\n";
-    return 1;
-  } catch (const std::exception& error) {
-    std::cerr << "palpate-reproduce: " << error.what() << '\n';
-    return 1;
-  }
-  return std::cout.flush() ? 0 : 1;
+  return program::runProgram("palpate-reproduce", &body, argc, argv);
 }

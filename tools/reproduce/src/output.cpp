@@ -3,15 +3,24 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
+#include "palpate/program/write_file.h"
+
 namespace palpate::reproduce {
+
+std::vector<double> numbersOf(const Json& result, std::initializer_list<const char*> keys) {
+  std::vector<double> numbers;
+  for (const char* key : keys) numbers.push_back(result.at(key).get<double>());
+  return numbers;
+}
+
+void addAll(Json& result, const Json& more) {
+  for (const auto& [key, value] : more.members()) result[key] = value;
+}
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -33,20 +42,11 @@ void Output::step(const std::string& text) {
 }
 
 void Output::writeText(const std::string& name, const std::string& text) const {
-  const std::filesystem::path target = file(name);
-  const std::filesystem::path beside = target.string() + ".tmp-" + std::to_string(getpid());
-  std::ofstream out(beside, std::ios::binary);
-  out << text;
-  out.close();
-  if (out && std::rename(beside.c_str(), target.c_str()) == 0) return;
-  const int reason = errno;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  throw ReproduceError("cannot write " + target.string() + ": " + std::strerror(reason));
+  program::writeFile(file(name), text);
 }
 
 void Output::writeJson(const std::string& name, const Json& json) const {
-  writeText(name, json.dump(2) + "\n");
+  writeText(name, json.dump(2, program::Keys::kAsWritten) + "\n");
 }
 
 void Output::writeCsv(const std::string& name, std::initializer_list<const char*> columns,

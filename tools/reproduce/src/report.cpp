@@ -47,7 +47,8 @@ constexpr const char* kSettled = R"(
 
 std::string report(const Json& results, bool nested) {
   std::string text = fill(kHead, results.at("run"));
-  if (results.at("run").value("quick", false)) text += kQuick;
+  const Json* const quick = results.at("run").find("quick");
+  if (quick != nullptr && quick->get<bool>()) text += kQuick;
   text += kSettled;
   const auto folder = [&](const char* name) { return nested ? std::string(name) + "/" : std::string(); };
   if (results.contains("rod")) text += rodChapter(results["rod"], folder("rod")) + "\n";

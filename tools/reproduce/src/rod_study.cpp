@@ -105,8 +105,9 @@ void writeFigure(const Json& results, Output& out) {
   for (const Scheme& scheme : kSchemes) {
     Curve curve{scheme.name, {}};
     for (const Json& row : results.at(scheme.key)) {
-      curve.points.emplace_back(row["dt"], row["tip_error"]);
-      rows.push_back({double(scheme.scheme), row["dt"], row["tip_error"], row["field_error"], row["pairs"]});
+      curve.points.emplace_back(row["dt"].get<double>(), row["tip_error"].get<double>());
+      rows.push_back(numbersOf(row, {"dt", "tip_error", "field_error", "pairs"}));
+      rows.back().insert(rows.back().begin(), double(scheme.scheme));
     }
     chart.curves.push_back(curve);
   }

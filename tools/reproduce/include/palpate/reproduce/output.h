@@ -3,14 +3,15 @@
 
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "palpate/program/json.h"
+
 namespace palpate::reproduce {
 
-using Json = nlohmann::ordered_json;
+using program::Json;
 
 /// An option, a file or a folder stops the run. what() is one line that names it.
 class ReproduceError : public std::runtime_error {
@@ -29,7 +30,7 @@ class Output {
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }
 
-  /// Writes a file beside the target and renames it. @throw ReproduceError naming the file
+  /// Writes a file beside the target and renames it. @throw program::WriteError naming the file
   void writeText(const std::string& name, const std::string& text) const;
   void writeJson(const std::string& name, const Json& json) const;
   /// One line of column names, then the rows. @param rows  each as long as columns
@@ -42,6 +43,12 @@ class Output {
   int steps_{0};
   double start_;
 };
+
+/// The numbers of a result, in the order of the keys. @throw program::JsonError naming a missing key
+[[nodiscard]] std::vector<double> numbersOf(const Json& result, std::initializer_list<const char*> keys);
+
+/// Copies the members of `more` into `result`. @throw program::JsonError unless both are objects
+void addAll(Json& result, const Json& more);
 
 /// Seconds of a steady clock.
 [[nodiscard]] double now();
