@@ -6,7 +6,7 @@ set(PALPATE_STANDARD_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <fil
   <optional> <span> <sstream> <string> <thread> <vector>)
 
 # What comes from a precompiled header is no system header to gcc 12, which then finds copies inside std::string out of bounds.
-set(PALPATE_PRECOMPILED_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
+set(PALPATE_PRECOMPILED_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow>")
 
 if(PALPATE_PRECOMPILE)
   find_package(Eigen3 REQUIRED NO_MODULE)
