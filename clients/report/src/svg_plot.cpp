@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "palpate/program/xml.h"
+
 namespace palpate::report {
 namespace {
 
@@ -27,23 +29,6 @@ std::string joined(const Parts&... parts) {
   std::string text;
   (text.append(parts), ...);
   return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
 }
 
 // One axis: from its values to pixels.
@@ -117,7 +102,7 @@ Axis yAxis(const SvgPlot& plot) {
 std::string textAt(double x, double y, const char* anchor, const std::string& text,
                    const std::string& extra = {}) {
   return joined("<text x=\"", number(x), "\" y=\"", number(y), "\" text-anchor=\"", anchor, "\"", extra, ">",
-                escaped(text), "</text>\n");
+                program::xmlEscaped(text), "</text>\n");
 }
 
 std::string lineAt(double x1, double y1, double x2, double y2, const std::string& style) {

@@ -9,25 +9,11 @@
 #include "palpate/core/meta_model.h"
 #include "palpate/modelfile/model_data.h"
 #include "palpate/program/write_file.h"
+#include "palpate/program/xml.h"
 
 namespace palpate::modelfile {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 /// A reference to a whole dataset of the model file.
 template <class T>
@@ -78,7 +64,7 @@ std::filesystem::path writeXdmf(const std::filesystem::path& model) {
   try {
     program::writeFile(path, [&](std::ostream& out) {
       out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
-      writeGrid(out, escaped(model.filename().string()), loaded.view());
+      writeGrid(out, program::xmlEscaped(model.filename().string()), loaded.view());
       out << "  </Domain>\n</Xdmf>\n";
     });
   } catch (const program::WriteError&) {
