@@ -35,20 +35,10 @@ std::string keyOf(const std::string& field) {
   return "tool." + field;
 }
 
-// The engine names the first bad field of its own parameters: "StepConfig.tip_radius is 0.2, expected 0 to
-// 0.05 m".
 std::optional<Complaint> firstToolComplaint(const StepConfig& step) {
-  try {
-    check(step);
-    return std::nullopt;
-  } catch (const std::invalid_argument& error) {
-    const std::string sentence = error.what();
-    const std::size_t dot = sentence.find('.');
-    const std::size_t space = sentence.find(' ');
-    if (dot == std::string::npos || space == std::string::npos || dot > space)
-      return Complaint{"tool", sentence};
-    return Complaint{keyOf(sentence.substr(dot + 1, space - dot - 1)), sentence.substr(space + 1)};
-  }
+  const auto found = palpate::firstComplaint(step);
+  if (!found) return std::nullopt;
+  return Complaint{keyOf(found->field), found->text};
 }
 
 // A force is held for a period. If the period exceeds stale_timeout, the answer to a fresh pose goes stale.

@@ -56,7 +56,7 @@ std::string ParameterBook::complaintAbout(const dds::ParameterRequest& request,
                                           const LiveParameters& wanted) const {
   const std::uint32_t unknown = request.fields & ~dds::parameter::kAll;
   if (unknown != 0) return "fields has bits " + std::to_string(unknown) + " that this server does not know";
-  if (std::string complaint = firstComplaint(wanted); !complaint.empty()) return complaint;
+  if (const auto found = firstComplaint(wanted)) return found->sentence();
   return tooLarge(wanted, most_, "what device " + device_ + " and the start of the server allow");
 }
 

@@ -146,7 +146,7 @@ TEST(LiveBlend, TheDampingFitsTheCouplingOnTheWayToo) {
   live.coupling_damping = 0.05;
   for (int ms = 0; ms < 110; ++ms) {
     blend.advance(live, 1e-3, 0.0);
-    ASSERT_EQ(firstComplaint(blend.now()), "") << ms << " ms";
+    ASSERT_FALSE(firstComplaint(blend.now())) << ms << " ms";
   }
   EXPECT_EQ(blend.now().coupling_damping, 0.05);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -13,9 +14,16 @@ namespace palpate {
 /// where no numbers lie between, it blends the force over (LiveBlend).
 using LiveParameters = LiveFields<double>;
 
-/// @return one sentence about the first field out of its range, "friction is 3, expected 0 to 2", or about a damping that is
-/// too much for the coupling (kLongestCouplingTime); empty: all good
-[[nodiscard]] std::string firstComplaint(const LiveParameters& parameters);
+/// What is wrong with one field of LiveParameters or StepConfig.
+struct FieldComplaint {
+  std::string field;  ///< e.g. "friction"
+  std::string text;   ///< e.g. "is 3, expected 0 to 2"
+
+  [[nodiscard]] std::string sentence() const { return field + " " + text; }
+};
+
+/// @return the first field out of its range, or a damping that is too much for the coupling (kLongestCouplingTime)
+[[nodiscard]] std::optional<FieldComplaint> firstComplaint(const LiveParameters& parameters);
 
 static_assert(std::is_trivially_copyable_v<LiveParameters>);
 

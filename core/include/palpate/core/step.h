@@ -34,7 +34,7 @@ struct StepInput {
   /// not 0: skip the surface in this tick; Workspace::displacement() stays the last one evaluated. Forces, anchors and
   /// proxies are the same, with one exception: for ramp_time after a jump, proxies blend from the last surface evaluated
   std::uint32_t skip_surface{0};
-  LiveParameters live;  ///< checked by the caller: firstComplaint() is empty
+  LiveParameters live;  ///< checked by the caller: firstComplaint() finds nothing
 };
 
 /// What one tool gets. Plain: it crosses threads.

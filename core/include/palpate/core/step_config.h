@@ -36,8 +36,11 @@ struct StepConfig {
   int tools{4};  ///< tools that are answered, in [1, kMaxTools]
 };
 
-/// @throw std::invalid_argument naming the first field out of its range, its value and the range; a damping that is
-/// too much for the coupling with both numbers
+/// @return the first field out of its range, with its value and the range; a damping that is too much for the coupling
+/// with both numbers
+[[nodiscard]] std::optional<FieldComplaint> firstComplaint(const StepConfig& config);
+
+/// @throw std::invalid_argument saying what firstComplaint() found
 void check(const StepConfig& config);
 
 /// What of it may change while the loop runs.
