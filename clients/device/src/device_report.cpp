@@ -2,10 +2,9 @@
 #include "device_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "palpate/program/printed.h"
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
 #include "palpate/report/text_chart.h"
@@ -14,13 +13,7 @@ namespace palpate::device {
 namespace {
 
 using program::Json;
-
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
+using program::printed;
 
 double depthOf(const Motion& motion, const Point& tip) {
   return motion.tip_radius - dot(tip - motion.surface, motion.normal);
@@ -36,7 +29,8 @@ Json couplingOf(const dds::ServerStatus& status) {
 }
 
 std::string settled(const Verdict& verdict) {
-  return verdict.settle_s ? line("settles within %.3f s of the hold", *verdict.settle_s) : "does not settle";
+  return verdict.settle_s ? printed("settles within %.3f s of the hold", *verdict.settle_s)
+                          : "does not settle";
 }
 
 }  // namespace
@@ -44,19 +38,19 @@ std::string settled(const Verdict& verdict) {
 std::string textOf(const Session& s) {
   const Recording& recording = s.recording;
   std::string text =
-      line("%s of a %s (%.3f kg, %.3f N s/m, %.2f N) held by a hand (%.3f kg, %.2f N s/m, %.0f N/m)\n",
-           s.kind.c_str(), s.preset.c_str(), s.mechanics.mass, s.mechanics.damping, s.mechanics.friction,
-           s.hand.mass, s.hand.damping, s.hand.stiffness);
+      printed("%s of a %s (%.3f kg, %.3f N s/m, %.2f N) held by a hand (%.3f kg, %.2f N s/m, %.0f N/m)\n",
+              s.kind.c_str(), s.preset.c_str(), s.mechanics.mass, s.mechanics.damping, s.mechanics.friction,
+              s.hand.mass, s.hand.damping, s.hand.stiffness);
   std::vector<double> t, depth;
   for (std::size_t i = 0; i < recording.trace.position.size(); ++i) {
     t.push_back(static_cast<double>(i) * recording.trace.dt);
     depth.push_back(std::max(0.0, 1e3 * depthOf(s.motion, recording.trace.position[i])));
   }
   text += report::textChart(t, depth, "s", "tip below the rest surface / mm") + '\n';
-  text += line("%s; oscillation %.4f mm (without organ %.4f mm); %s\n",
-               s.verdict.stable ? "stable" : "UNSTABLE", 1e3 * s.verdict.oscillation_pp,
-               1e3 * s.verdict.oscillation_without_organ_pp, settled(s.verdict).c_str());
-  text += line(
+  text += printed("%s; oscillation %.4f mm (without organ %.4f mm); %s\n",
+                  s.verdict.stable ? "stable" : "UNSTABLE", 1e3 * s.verdict.oscillation_pp,
+                  1e3 * s.verdict.oscillation_without_organ_pp, settled(s.verdict).c_str());
+  text += printed(
       "largest force %.4f N, penetration %.3f mm; work on the organ %.6f J in all; waited %llu ms; flags: ",
       s.verdict.max_force, 1e3 * largest(recording.penetration), recording.work.back(),
       static_cast<unsigned long long>(recording.waited));

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "latency_report.h"
 
-#include <array>
-#include <cstdio>
-
 #include "palpate/client/time_summary.h"
+#include "palpate/program/printed.h"
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
 #include "palpate/report/text_chart.h"
@@ -15,10 +13,8 @@ namespace {
 using client::summaryOf;
 
 std::string rowOf(const char* name, const client::TimeSummary& s) {
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(), "%-28s %9.1f %9.1f %9.1f %9.1f %9llu\n", name, s.p50, s.p99, s.p999,
-                s.max, static_cast<unsigned long long>(s.count));
-  return text.data();
+  return program::printed("%-28s %9.1f %9.1f %9.1f %9.1f %9llu\n", name, s.p50, s.p99, s.p999, s.max,
+                          static_cast<unsigned long long>(s.count));
 }
 
 const char* phaseName(const dds::ServerStatus& server) {
@@ -56,15 +52,12 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
   text += rowOf("tick, compute time", summaryOf(log.tick()));
   text += rowOf("tick, woke late by", summaryOf(log.wakeup()));
   text += rowOf("sender, woke late by", summaryOf(sender.wakeup));
-  std::array<char, 256> counters{};
-  std::snprintf(
-      counters.data(), counters.size(),
+  text += program::printed(
       "%.2f s at %g Hz: %llu poses, %llu forces, lost %llu, late %llu, superseded %llu, overruns %llu\n",
       sender.seconds, server.rate_hz, static_cast<unsigned long long>(sender.sent),
       static_cast<unsigned long long>(log.received()), static_cast<unsigned long long>(log.lost()),
       static_cast<unsigned long long>(log.late()), static_cast<unsigned long long>(log.superseded()),
       static_cast<unsigned long long>(log.overruns()));
-  text += counters.data();
   text += std::string("real-time priority: server ") + (server.realtime ? "yes" : "no") + ", sender " +
           (sender.realtime ? "yes" : "no") +
           "; server's memory locked: " + (server.memory_locked ? "yes" : "no") + "\n";

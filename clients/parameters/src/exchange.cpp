@@ -3,11 +3,11 @@
 
 #include <array>
 #include <optional>
-#include <random>
 #include <string>
 #include <thread>
 
 #include "palpate/client/error.h"
+#include "palpate/client/request_id.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
@@ -16,11 +16,6 @@ namespace palpate::parameters {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::uint64_t freshId() {
-  std::random_device random;
-  return (static_cast<std::uint64_t>(random()) << 32 | random()) | 1U;  // never 0
-}
 
 std::optional<dds::ServerParameters> answerTo(std::uint64_t request_id,
                                               const dds::Reader<dds::ServerParameters>& answers) {
@@ -45,7 +40,7 @@ dds::ServerParameters exchange(const dds::Participant& participant, dds::Paramet
                                std::chrono::milliseconds patience) {
   dds::Writer<dds::ParameterRequest> requests(participant);
   const dds::Reader<dds::ServerParameters> answers(participant);
-  request.request_id = freshId();
+  request.request_id = client::firstRequestId();
   const Clock::time_point end = Clock::now() + patience;
   Clock::time_point next = Clock::now();
   while (Clock::now() <= end && !client::stopRequested()) {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
+#include "palpate/program/printed.h"
 #include "palpate/program/xml.h"
 
 namespace palpate::report {
@@ -18,9 +18,7 @@ constexpr double kLeft = 70, kRight = 20, kTop = 48, kBottom = 52;
 constexpr double kFloor = 0.5;  // where a count of 0 sits on a logarithmic axis
 
 std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
+  return program::printed("%.6g", value);
 }
 
 // Parts one after the other.

@@ -4,20 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "palpate/client/time_summary.h"
+#include "palpate/program/printed.h"
 
 namespace palpate::report {
 namespace {
 
-constexpr std::array<const char*, 9> kBlocks{" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+using program::printed;
 
-std::string number(const char* format, double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
+constexpr std::array<const char*, 9> kBlocks{" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
 
 std::vector<double> columnsOf(const std::vector<double>& x, const std::vector<double>& y, std::size_t width) {
   std::vector<double> columns(width, 0.0);
@@ -40,7 +36,7 @@ std::string textChart(const std::vector<double>& x, const std::vector<double>& y
   const double top = *std::max_element(columns.begin(), columns.end());
   std::string text = "  " + y_label + "\n";
   for (std::size_t row = height; row-- > 0;) {
-    text += row + 1 == height ? number("%9.3g ┤", top) : row == 0 ? "        0 ┤" : "          │";
+    text += row + 1 == height ? printed("%9.3g ┤", top) : row == 0 ? "        0 ┤" : "          │";
     for (const double value : columns) {
       const double filled =
           top > 0.0 ? value / top * static_cast<double>(height) - static_cast<double>(row) : 0.0;
@@ -48,7 +44,7 @@ std::string textChart(const std::vector<double>& x, const std::vector<double>& y
     }
     text += '\n';
   }
-  return text + "           " + number("%.3g", x.front()) + " to " + number("%.3g ", x.back()) + x_label +
+  return text + "           " + printed("%.3g", x.front()) + " to " + printed("%.3g ", x.back()) + x_label +
          '\n';
 }
 
@@ -61,8 +57,8 @@ std::string textHistogram(const rt::CycleStats& histogram, int per_decade) {
     const double share =
         bar.count == 0 ? 0.0
                        : std::log1p(static_cast<double>(bar.count)) / std::log1p(static_cast<double>(most));
-    text += number("%10.1f", bar.from_ns * 1e-3) + number(" .. %8.1f us ", bar.to_ns * 1e-3) +
-            number("%9.0f ", static_cast<double>(bar.count));
+    text += printed("%10.1f", bar.from_ns * 1e-3) + printed(" .. %8.1f us ", bar.to_ns * 1e-3) +
+            printed("%9.0f ", static_cast<double>(bar.count));
     for (long i = 0; i < std::lround(share * 40.0); ++i) text += "█";
     text += '\n';
   }

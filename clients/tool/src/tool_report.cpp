@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
+#include "palpate/program/printed.h"
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
 #include "palpate/report/text_chart.h"
@@ -13,6 +13,7 @@ namespace palpate::tool {
 namespace {
 
 using client::Point;
+using program::printed;
 
 Point forceOf(const Sample& sample) {
   return {sample.force.force[0], sample.force.force[1], sample.force.force[2]};
@@ -35,26 +36,19 @@ std::uint32_t flagsOf(const Recording& recording) {
   return flags;
 }
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
 std::string rowOf(const Played& played, const Sample& sample) {
   static constexpr std::array<const char*, 3> kStates{"free", "stick", "slide"};
   const Point f = forceOf(sample);
   const char* state = sample.force.state < kStates.size() ? kStates[sample.force.state] : "?";
-  return line("%7.3f  %-9s %8.3f  %8.4f %8.4f %8.4f  %8.4f  %-6s ", sample.t_s,
-              played.path.legAt(sample.t_s).c_str(), depthOf(played, sample) * 1e3, f[0], f[1], f[2],
-              length(f), state) +
+  return printed("%7.3f  %-9s %8.3f  %8.4f %8.4f %8.4f  %8.4f  %-6s ", sample.t_s,
+                 played.path.legAt(sample.t_s).c_str(), depthOf(played, sample) * 1e3, f[0], f[1], f[2],
+                 length(f), state) +
          report::flagNames(sample.force.flags) + '\n';
 }
 
 std::string summaryOf(const Played& played, const Recording& recording) {
   const Sample& peak = peakOf(recording);
-  return line(
+  return printed(
              "peak force %.4f N at %.3f s, %.3f mm deep; %llu poses sent, %llu answered, %llu superseded, "
              "%llu unanswered, %llu forces lost\n",
              length(forceOf(peak)), peak.t_s, depthOf(played, peak) * 1e3,
@@ -86,7 +80,7 @@ std::vector<double> workOf(const Recording& recording) {
 std::string tableOf(const Played& played, const Recording& recording) {
   constexpr std::size_t kRows = 24;
   const Point& X = played.spot.position;
-  std::string text = line(
+  std::string text = printed(
       "%s at node %lld (%.4f, %.4f, %.4f) m, tip radius %.1f mm, depth %.1f mm; force on the tool, world "
       "frame\n",
       played.script.c_str(), static_cast<long long>(played.spot.mesh_tag), X[0], X[1], X[2],

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parameter_desk.h"
 
-#include <random>
+#include "palpate/client/request_id.h"
 
 namespace palpate::viewer {
-namespace {
-
-std::uint64_t freshId() {
-  std::random_device random;
-  return (static_cast<std::uint64_t>(random()) << 32 | random()) >> 1 |
-         1U;  // rises by one per request, never 0
-}
-
-}  // namespace
 
 SetParameters merged(const SetParameters& earlier, const SetParameters& later) {
   SetParameters result = earlier;
@@ -35,7 +26,7 @@ dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs
 }
 
 ParameterDesk::ParameterDesk(const dds::Participant& participant)
-    : writer_(participant), next_id_(freshId()) {}
+    : writer_(participant), next_id_(client::firstRequestId()) {}
 
 void ParameterDesk::set(std::uint64_t page_id, const SetParameters& wanted) {
   Wish& wish = wishes_[page_id];

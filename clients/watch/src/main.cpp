@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-watch: a viewer without a screen; follows the displacement of an organ's surface.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <iostream>
 #include <optional>
 
@@ -13,6 +11,7 @@
 #include "palpate/client/stop_signal.h"
 #include "palpate/program/command_line.h"
 #include "palpate/program/json.h"
+#include "palpate/program/printed.h"
 #include "palpate/program/run.h"
 #include "palpate/report/vtk_surface.h"
 #include "palpate/rt/clock.h"
@@ -49,12 +48,10 @@ void addOptions(program::Options line, Options& options) {
 void printLine(std::ostream& out, double t, double rate, const client::Surface& surface,
                const NodeDisplacement& largest) {
   const client::Point& X = surface.positions[largest.node];
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "%7.1f s  %7.1f fields/s  largest %8.4f mm at node %lld (%.4f, %.4f, %.4f) m\n", t, rate,
-                largest.size * 1e3, static_cast<long long>(surface.mesh_tags[largest.node]), X[0], X[1],
-                X[2]);
-  out << text.data() << std::flush;
+  out << program::printed("%7.1f s  %7.1f fields/s  largest %8.4f mm at node %lld (%.4f, %.4f, %.4f) m\n", t,
+                          rate, largest.size * 1e3, static_cast<long long>(surface.mesh_tags[largest.node]),
+                          X[0], X[1], X[2])
+      << std::flush;
 }
 
 // Prints a line a second until the time is over or the user stops. @return seconds watched
