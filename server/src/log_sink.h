@@ -10,7 +10,7 @@
 namespace palpate::server {
 
 /// Log lines to standard error that never wait: a line that its reader has no room for is lost.
-/// Whoever started the server may have stopped reading our pipe; the server still has to end.
+/// The program that started the server may have stopped reading our pipe; the server still has to end.
 class LogSink : public spdlog::sinks::base_sink<std::mutex> {
  protected:
   void sink_it_(const spdlog::details::log_msg& message) override {

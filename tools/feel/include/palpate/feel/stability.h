@@ -27,8 +27,8 @@ inline constexpr double kStiffestCoupling = 3e4;
 /// The largest stable coupling, and whether the preset's own is stable.
 struct StabilityResult {
   device::Verdict at_default;
-  /// N/m, within 3 %; 0: none; kStiffestCoupling: all that were tried. The search goes on beyond the preset's stiffness
-  /// limit, so that it tells how much the limit leaves.
+  /// N/m, within 3 % of the larger of it and the preset's coupling; 0: none; kStiffestCoupling: all that were tried.
+  /// The search goes on beyond the preset's stiffness limit, so that it tells how much the limit leaves.
   double largest_stable{0.0};
 };
 

@@ -50,7 +50,7 @@ class Option {
   Option& oneOf(const std::vector<std::string>& words);
   /// A list in one word, its entries parted by `separator`.
   Option& list(char separator);
-  /// A list that takes one word each time the option stands there.
+  /// A list that takes one word each time the option is given.
   Option& oneWordEach();
   /// What --help calls its value.
   Option& valueName(const std::string& name);
@@ -95,7 +95,7 @@ class CommandLine {
   void footer(const std::string& text);
 
   /// Fills the targets. The value behind an option may be a negative number, also as the first of several: -1,0,0.
-  /// @return false when --help or --version was asked for: the answer stands on standard output
+  /// @return false after --help or --version, answered on standard output
   /// @throw UsageError
   [[nodiscard]] bool read(int argc, const char* const* argv);
 

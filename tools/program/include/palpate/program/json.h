@@ -15,7 +15,7 @@
 
 namespace palpate::program {
 
-/// A text that is no JSON, or a value of another kind than the one asked for.
+/// Text that is not JSON, or a value of another kind than the one asked for.
 class JsonError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
