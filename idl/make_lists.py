@@ -69,6 +69,11 @@ class Parameter(NamedTuple):
         return "k" + "".join(part.capitalize() for part in self.name.split("_"))
 
     @property
+    def range(self) -> str:
+        beyond = {"or inf": " or inf", "or 0": ", or 0: the model's own"}.get(self.beyond, "")
+        return (self.unit + ", " if self.unit else "") + f"{self.low} to {self.high}" + beyond
+
+    @property
     def json(self) -> str:
         unit = self.unit.replace(" ", "").replace("/", "_per_")
         return self.option.replace("-", "_") + ("_" + unit if unit else "")
@@ -169,7 +174,7 @@ def parameter_header(parameters: list) -> str:
     rows = "".join(
         f"    {{{p.bit}, {quoted(p.field)}, {p.low}, {p.high}, {quoted(p.unit)}, "
         f"{str(p.beyond == 'or inf').lower()}, {str(p.beyond == 'or 0').lower()},\n     {quoted(p.key)}, "
-        f"{quoted('--' + p.option)}, {quoted(p.json)}, {quoted(p.help)}}},\n" for p in parameters)
+        f"{quoted('--' + p.option)}, {quoted(p.json)}, {quoted(p.help + ', ' + p.range)}}},\n" for p in parameters)
     bits = "".join(f"/// {p.meaning}\ninline constexpr std::uint32_t {p.constant} = {p.bit};\n" for p in parameters)
     members = ", ".join(f"&T::{p.field}" for p in parameters)
     return (f"// {HEAD}\n// {MADE}\n#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n\n"
@@ -185,7 +190,7 @@ def parameter_header(parameters: list) -> str:
             "  const char* key;        ///< in the server's configuration file\n"
             "  const char* option;     ///< of palpate-server and palpate-parameters\n"
             "  const char* json;       ///< key in what palpate-parameters prints\n"
-            "  const char* help;\n};\n\n"
+            "  const char* help;       ///< what it is, unit and range\n};\n\n"
             "/// All of them, in the order of their bits.\n"
             f"inline constexpr std::array<LiveParameterInfo, {len(parameters)}> kLiveParameters{{{{\n{rows}}}}};\n\n"
             "/// The fields of these names in a structure that has them, in the same order.\n"

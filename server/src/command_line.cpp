@@ -35,16 +35,6 @@ struct Given {
   LiveOverrides live;
 };
 
-// "N, 0.01 to 50 or inf".
-std::string rangeOf(const LiveParameterInfo& info) {
-  std::ostringstream text;
-  if (*info.unit != '\0') text << info.unit << ", ";
-  text << info.low << " to " << info.high;
-  if (info.may_be_infinite) text << " or inf";
-  if (info.zero_is_models) text << ", or 0: the model's own";
-  return text.str();
-}
-
 // What holds where neither the file nor the command line names a value.
 std::string defaultOf(std::size_t parameter) {
   double StepConfig::*const field = kLiveFields<StepConfig>[parameter];
@@ -64,7 +54,7 @@ void declareContact(program::Options line, Given& given) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
     line.add(info.option, &(given.live.*kLiveFields<LiveOverrides>[i]),
-             std::string(info.help) + ", " + rangeOf(info) + ", default " + defaultOf(i));
+             std::string(info.help) + ", default " + defaultOf(i));
   }
   line.add("--speed-limit", &given.speed_limit,
            "A pose that moves faster counts as a jump, m/s, 0.01 to 100 or inf, default 2");

@@ -4,7 +4,6 @@
 #include <iomanip>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "exchange.h"
@@ -24,21 +23,10 @@ struct Options {
   bool json{false};
 };
 
-// "N, 0.01 to 50 or inf". The server's device and what the server started with may allow less.
-std::string rangeOf(const LiveParameterInfo& info) {
-  std::ostringstream text;
-  if (*info.unit != '\0') text << info.unit << ", ";
-  text << info.low << " to " << info.high;
-  if (info.may_be_infinite) text << " or inf";
-  if (info.zero_is_models) text << ", or 0: the model's own";
-  return text.str();
-}
-
 void addOptions(program::Options line, Options& options) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
-    line.add(info.option, &(options.values.*kLiveFields<LiveFields<std::optional<double>>>[i]),
-             std::string(info.help) + ", " + rangeOf(info));
+    line.add(info.option, &(options.values.*kLiveFields<LiveFields<std::optional<double>>>[i]), info.help);
   }
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--server-id", &options.server_id, "which server of the domain");

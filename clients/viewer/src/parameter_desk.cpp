@@ -21,7 +21,7 @@ dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs
     request.fields |= kLiveParameters[i].bit;
     request.*kLiveFields<dds::ParameterRequest>[i] = *value;
   }
-  request.youngs_modulus *= model_youngs_modulus;
+  if (wanted.youngs_modulus) request.youngs_modulus *= model_youngs_modulus;
   return request;
 }
 

@@ -12,7 +12,7 @@
 namespace palpate::viewer {
 namespace {
 
-constexpr std::int64_t kTickUs = 20'000;
+constexpr std::int64_t kPeriodUs = 20'000;
 constexpr std::size_t kMoreConnections = 64;  // beside the pages: files under way, handshakes, refusals
 constexpr int kGoOn = 0;
 constexpr int kHangUp = -1;
@@ -102,12 +102,12 @@ void WebServer::wake(void* server) noexcept {
 
 void WebServer::run(Viewer& viewer) {
   viewer_ = &viewer;
-  tick_.server = this;
-  onTick(&tick_.timer);
+  timer_.server = this;
+  onTimer(&timer_.timer);
   bool serves = true;
   while (serves && !client::stopRequested()) serves = lws_service(context_, 0) >= 0;
   const bool failed = !serves && !client::stopRequested();
-  lws_sul_cancel(&tick_.timer);
+  lws_sul_cancel(&timer_.timer);
   lws_context* context = nullptr;
   {
     const std::lock_guard lock(context_mutex_);
@@ -118,10 +118,10 @@ void WebServer::run(Viewer& viewer) {
   if (failed) throw client::ClientError("libwebsockets gave up serving " + address());
 }
 
-void WebServer::onTick(lws_sorted_usec_list_t* timer) {
-  WebServer* self = reinterpret_cast<Tick*>(timer)->server;  // timer is its first member
+void WebServer::onTimer(lws_sorted_usec_list_t* timer) {
+  WebServer* self = reinterpret_cast<Timer*>(timer)->server;  // timer is its first member
   self->tend();
-  lws_sul_schedule(self->context_, 0, timer, &WebServer::onTick, kTickUs);
+  lws_sul_schedule(self->context_, 0, timer, &WebServer::onTimer, kPeriodUs);
 }
 
 // Catches all: an error in data from DDS must not close a connection.

@@ -48,12 +48,12 @@ class WebServer {
 
  private:
   struct Connection;
-  struct Tick {
+  struct Timer {
     lws_sorted_usec_list_t timer;
     WebServer* server;
   };
   static int onEvent(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length);
-  static void onTick(lws_sorted_usec_list_t* timer);
+  static void onTimer(lws_sorted_usec_list_t* timer);
 
   int handle(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length);
   int handlePage(lws* wsi, lws_callback_reasons reason, Connection* connection, void* in, std::size_t length);
@@ -71,7 +71,7 @@ class WebServer {
   std::unique_ptr<AccessRules> rules_;  // made once the port is known
   std::mutex context_mutex_;            // wake() against the destructor
   lws_context* context_{nullptr};
-  Tick tick_{};
+  Timer timer_{};
   Viewer* viewer_{nullptr};
   std::set<lws*> connections_;
   std::set<lws*> pages_;

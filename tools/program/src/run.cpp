@@ -11,7 +11,8 @@ namespace palpate::program {
 int runProgram(const char* name, int (*body)(int argc, char** argv), int argc, char** argv) {
   try {
     const int code = body(argc, argv);
-    return code == 0 && !std::cout.flush() ? 1 : code;
+    if (code != 0 || std::cout.flush()) return code;
+    std::cerr << name << ": standard output cannot be written\n";
   } catch (const UsageError& error) {
     std::cerr << name << ": " << error.what() << " (--help tells more)\n";
     return error.exitCode();

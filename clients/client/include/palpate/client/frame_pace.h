@@ -7,7 +7,8 @@
 namespace palpate::client {
 
 /// Times the frames: `rate` per second in the mean. A frame may go up to half a period early, so a source of the same rate
-/// with jitter passes whole. A new rate holds at once. Threads: one.
+/// with jitter passes whole; the first after a pause makes the next one wait a whole period. A new rate holds at once.
+/// Threads: one.
 class FramePace {
  public:
   static constexpr std::int64_t kLongestNs = 10'000'000'000;  ///< between frames; the slowest rate
@@ -27,7 +28,8 @@ class FramePace {
   }
   /// A frame goes now.
   void went(std::int64_t now_ns) noexcept {
-    planned_ns_ = std::max(planned_ns_ + period_ns_, now_ns - period_ns_ / 2);
+    const bool paused = now_ns - planned_ns_ > 2 * period_ns_;
+    planned_ns_ = paused ? now_ns + period_ns_ / 2 : planned_ns_ + period_ns_;
     went_ns_ = now_ns;
   }
   /// due(), and then went(). @param[in] now_ns  on any clock that does not go back
