@@ -54,7 +54,7 @@ class Json {
   Json(std::same_as<bool> auto truth) : value_(truth) {}
   Json(JsonNumber auto number) : value_(widened(number)) {}
   template <JsonList List>
-  Json(const List& list) : value_(Array{}) {
+  Json(const List& list) : Json(array()) {
     for (const auto& entry : list) push_back(Json(entry));
   }
   Json(const Json&);
