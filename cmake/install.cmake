@@ -24,6 +24,9 @@ install(FILES idl/palpate.idl DESTINATION ${PALPATE_DATA_DIR} COMPONENT haptic)
 install(FILES clients/driver_template/driver.cpp clients/driver_template/README.md
   DESTINATION ${PALPATE_DATA_DIR}/driver_template COMPONENT haptic)
 
+install(FILES clients/examples/CMakeLists.txt clients/examples/README.md clients/examples/touch.c clients/examples/touch.py
+  clients/examples/palpate_qos.xml DESTINATION ${PALPATE_DATA_DIR}/examples COMPONENT haptic)
+
 set(PALPATE_PROGRAMS palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
   palpate-viewer
   palpate-organ palpate-solve palpate-inspect palpate-query palpate-reproduce palpate-replay)

@@ -67,7 +67,8 @@ struct Arguments {
 
 [[noreturn]] void usage(int code) {
   std::fprintf(code == 0 ? stdout : stderr,
-               "Usage: palpate-driver-template [--domain N] [--tool N] [--seconds N] [--origin X Y Z]\n");
+               "Usage: palpate-driver-template [--domain N] [--server-id N] [--tool N] [--seconds N] "
+               "[--origin X Y Z]\n");
   std::exit(code);
 }
 
@@ -89,6 +90,8 @@ Arguments parse(int argc, char** argv) {
     if (std::strcmp(argv[i], "--help") == 0) usage(0);
     if (std::strcmp(argv[i], "--domain") == 0) {
       arguments.tool.domain = static_cast<std::uint32_t>(number(argc, argv, i));
+    } else if (std::strcmp(argv[i], "--server-id") == 0) {
+      arguments.tool.server_id = static_cast<std::uint32_t>(number(argc, argv, i));
     } else if (std::strcmp(argv[i], "--tool") == 0) {
       arguments.tool.tool_id = static_cast<std::uint32_t>(number(argc, argv, i));
     } else if (std::strcmp(argv[i], "--seconds") == 0) {
@@ -130,6 +133,9 @@ int run(const Arguments& arguments) {
       break;
     std::this_thread::sleep_until(next);
   }
+  if (tool.leftOut() > 0)
+    std::printf("%llu forces of another server were left out\n",
+                static_cast<unsigned long long>(tool.leftOut()));
   std::printf("largest force %.4f N; %ld periods with a force\n", largest, answered);
   return answered > 0 ? 0 : 1;
 }

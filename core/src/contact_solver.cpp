@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/contact_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "equilibrium.h"
+#include "tip_sweep.h"
 
 namespace palpate {
 
@@ -35,43 +37,82 @@ bool beganSoftly(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   return depth <= kDeep && contact.coupled.response.force.norm() <= owed + kSmallForce;
 }
 
+/// What the patch moved as the model shows it: no farther than what others do by themselves and the tool's own domain. At the border
+/// of the accessible part an anchor waits, with a displacement along the surface that no friction would hold.
+Vec3 shown(const Contact& contact) noexcept PALPATE_NONBLOCKING {
+  const Response& response = contact.coupled.response;
+  Vec3 d = response.displacement;
+  if (contact.carried.constant != Vec3::Zero()) {
+    const double most = response.domain_radius + contact.carried.constant.norm();
+    d = contact.coupled.displacement;
+    d *= std::min(1.0, most / std::max(d.norm(), most));
+  }
+  return contact.at_border ? Vec3(contact.normal * contact.normal.dot(d)) : d;
+}
+
 }  // namespace
 
-void ContactSolver::update(const MetaModel& model, const ContactLaw& law, const Vec3& c,
+void ContactSolver::update(const MetaModel& model, const ContactLaw& law, const Vec3& c, Budget& budget,
                            Contact& contact) const noexcept PALPATE_NONBLOCKING {
   contact.jumped = false;
   if (contact.state == ContactState::kFree)
-    tryCapture(model, law, c, contact);
-  else if (hasLeft(model, c, contact))
-    letGo(contact);
+    tryCapture(model, law, c, budget, contact);
   else
-    follow(model, law, c, contact);
+    follow(model, law, c, budget, contact);
+  if (budget.cut()) contact.flags |= kAnswerCutShort;
 }
 
-void ContactSolver::follow(const MetaModel& model, const ContactLaw& law, const Vec3& c,
+/// Nobody saw where the tool went: round the organ, if it is clear of it; else it is taken to have stayed where it was if it
+/// is not farther from there than a tool may go unseen.
+void ContactSolver::loseWay(const MetaModel& model, const Vec3& c,
+                            Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  constexpr double kUnseen = 0.04;  // m
+  contact.jumped = false;
+  const bool held = contact.state != ContactState::kFree;
+  const Vec3 at_rest = c - contact.carried.constant;
+  const bool clear = !TipSweep(model, tip_radius_).at(at_rest).below;
+  if (clear && held) letGo(contact);
+  if (clear || (!held && (at_rest - contact.from).norm() > kUnseen)) contact.has_side = false;
+}
+
+/// Where the tip would be at d = 0.
+Vec3 ContactSolver::touching(const MetaModel& model,
+                             const Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  return model.contactSurface().mesh().position(contact.fine) + tip_radius_ * contact.normal;
+}
+
+void ContactSolver::follow(const MetaModel& model, const ContactLaw& law, const Vec3& c, Budget& budget,
                            Contact& contact) const noexcept PALPATE_NONBLOCKING {
   constexpr double kFar = 1e-3;          // m
   constexpr double kOfTheTipsWay = 5.0;  // a slide follows the tip
-  const auto touching = [&] {            // where the tip is at d = 0
-    return Vec3(model.contactSurface().mesh().position(contact.fine) + tip_radius_ * contact.normal);
-  };
-  const Vec3 there = touching(), tip = there + contact.imposed;
-  hold(model, law, c, contact);
-  const double way = (touching() - there).norm();
-  if (way > kFar && way > kOfTheTipsWay * (c - tip).norm()) contact.jumped = true;
+  const Vec3 there = touching(model, contact), tip = there + contact.imposed;
+  contact.from = there;
+  contact.clearance = 0.0;
+  contact.has_side = true;
+  hold(model, law, c, budget, contact);
+  if (contact.state == ContactState::kFree) return;
+  contact.from = touching(model, contact);
+  const double way = (contact.from - there).norm();
+  contact.jumped = way > kFar && way > kOfTheTipsWay * (c - tip).norm();
+  const Vec3 at_rest = c - shown(contact);
+  if (!hasLeft(model, at_rest, contact)) return;
+  letGo(contact);
+  contact.from = at_rest;
 }
 
-bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& c,
+/// Whether the tip has left what the anchor is on: lowered from above the anchor's tangent plane to where it is, along n(s), it
+/// touches nothing. So not by being on the other side of what it presses.
+bool ContactSolver::hasLeft(const MetaModel& model, const Vec3& at_rest,
                             const Contact& contact) const noexcept PALPATE_NONBLOCKING {
   constexpr double kHysteresis = 5e-4;  // m beyond the capture distance, so that noise does not toggle
   const double reach = tip_radius_ + kHysteresis;
-  const Vec3 at_rest = c - contact.carried.at(contact.coupled.displacement);
-  const SurfaceMesh& surface = model.contactSurface().mesh();
-  if ((at_rest - surface.position(contact.fine)).norm() < reach) return false;
-  const double distance = model.surface().closestPoint(at_rest).signed_distance;
-  const double bulge = model.contactSurface().bulge();
-  if (std::abs(distance - reach) > bulge) return distance > reach;
-  return surface.closestPoint(at_rest).signed_distance >= reach;
+  const Vec3 gap = at_rest - model.contactSurface().mesh().position(contact.fine);
+  const double above = gap.dot(contact.normal);
+  const bool touches_anchor =
+      gap.norm() < reach || (above < reach && gap.cross(contact.normal).norm() < reach);
+  if (touches_anchor) return false;
+  const Vec3 up = contact.normal * std::max(0.0, reach - above);
+  return !TipSweep(model, reach).touches(at_rest + up, at_rest);
 }
 
 void ContactSolver::release(Contact& contact) noexcept PALPATE_NONBLOCKING {
@@ -84,49 +125,71 @@ void ContactSolver::release(Contact& contact) noexcept PALPATE_NONBLOCKING {
   contact.at_border = false;
 }
 
-/// Where the tip would touch: found on the rest surface, whose search costs a tenth, where the contact surface cannot
-/// be near enough to matter. @return how high above that point, along its normal there, m
-double ContactSolver::lookFor(const MetaModel& model, const Vec3& c,
-                              Contact& contact) const noexcept PALPATE_NONBLOCKING {
-  const SurfaceMesh& surface = model.contactSurface().mesh();
-  const double near = tip_radius_ + model.contactSurface().bulge();
-  NearestPoint nearest = model.surface().closestPoint(c);
-  contact.fine = model.contactSurface().fine(nearest.s);
-  const bool is_near = std::abs(nearest.signed_distance) < near;
-  if (is_near) {
-    nearest = surface.closestPoint(c);
-    contact.fine = nearest.s;
-  }
-  double height = nearest.signed_distance;
-  if (is_near && height < tip_radius_) (void)surface.project(c, contact.fine, height);
-  contact.s = model.contactSurface().rest(contact.fine);
-  contact.anchor = model.surface().position(contact.s);
-  contact.normal = surface.normal(contact.fine);
-  return height;
+void ContactSolver::forget(Contact& contact) noexcept PALPATE_NONBLOCKING {
+  release(contact);
+  contact.has_side = false;
+  contact.carried = {};  // it is that of the old anchor
 }
 
-void ContactSolver::tryCapture(const MetaModel& model, const ContactLaw& law, const Vec3& c,
+/// Goes on to a place of the surface at rest. @return whether the tip touches there, at `fine`, or went through it
+bool ContactSolver::arrivesBelow(const MetaModel& model, const Vec3& at_rest, bool was_below,
+                                 Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  const TipSweep sweep(model, tip_radius_);
+  TipPlace place = sweep.at(at_rest);
+  const double length = (at_rest - contact.from).norm();
+  const bool cannot_touch =
+      !place.below && (was_below || length < contact.clearance + std::max(0.0, place.clearance));
+  if (contact.has_side && !cannot_touch)
+    place = sweep.along(contact.from, {contact.fine, contact.clearance, was_below}, at_rest, place);
+  contact.from = at_rest;
+  contact.clearance = place.below ? 0.0 : place.clearance;
+  contact.has_side = contact.has_side || !place.below;
+  contact.fine = place.fine;
+  return place.below;
+}
+
+/// Puts the anchor of a tip that touches where it lies straight above or below. @return whether that is nearer than R
+bool ContactSolver::settlesBelow(const MetaModel& model, const Vec3& at_rest,
+                                 Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  const SurfaceMesh& surface = model.contactSurface().mesh();
+  ContactPoint straight = contact.fine;
+  double height = 0.0;
+  if (!surface.project(at_rest, straight, height)) return true;
+  if (surface.normal(straight).dot(surface.normal(contact.fine)) <= 0.0) return true;  // round a rim
+  contact.fine = straight;
+  return height < tip_radius_;
+}
+
+void ContactSolver::tryCapture(const MetaModel& model, const ContactLaw& law, const Vec3& c, Budget& budget,
                                Contact& contact) const noexcept PALPATE_NONBLOCKING {
   const bool was_overlapping = contact.overlapping;
   release(contact);
-  const double height =
-      lookFor(model, c - contact.carried.constant, contact);  // as other tools displaced the surface
-  contact.overlapping = height < tip_radius_;
+  const Vec3 at_rest = c - contact.carried.constant;  // as other tools displaced the surface
+  contact.overlapping =
+      arrivesBelow(model, at_rest, was_overlapping, contact) && settlesBelow(model, at_rest, contact);
+  contact.s = model.contactSurface().rest(contact.fine);
+  contact.anchor = model.surface().position(contact.s);
+  contact.normal = model.contactSurface().mesh().normal(contact.fine);
   if (!contact.overlapping) return;
   if (!model.surface().reachable(contact.s.triangle)) {
     contact.flags = kNotAccessible;
     return;
   }
+  const ContactPoint sheet = contact.fine;
   contact.coupled.displacement.setZero();
-  hold(model, law, c, contact);
-  if (contact.state == ContactState::kFree) return;
-  contact.overlapping = false;
+  hold(model, law, c, budget, contact);
+  contact.overlapping = contact.state == ContactState::kFree;
+  if (contact.overlapping) {
+    contact.fine = sheet;
+    contact.jumped = false;  // the force was zero, and is
+    return;
+  }
   contact.jumped = was_overlapping || !beganSoftly(contact);
 }
 
-void ContactSolver::hold(const MetaModel& model, const ContactLaw& law, const Vec3& c,
+void ContactSolver::hold(const MetaModel& model, const ContactLaw& law, const Vec3& c, Budget& budget,
                          Contact& contact) const noexcept PALPATE_NONBLOCKING {
-  Equilibrium equilibrium(model, law, tip_radius_, c, contact);
+  Equilibrium equilibrium(model, law, tip_radius_, c, budget, contact);
   if (!equilibrium.slide() || pulls(contact)) return letGo(contact);
   contact.stiffness = equilibrium.stiffness();
   if (contact.at_border) contact.flags |= kNotAccessible;

@@ -119,7 +119,8 @@ ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
   constexpr int kMostLevels = 4;
   constexpr std::size_t kMostTriangles = 300'000;
   Draft draft = draftOf(view, rest);
-  while (levels_ < kMostLevels && 4 * draft.triangle.size() <= kMostTriangles) {
+  const auto wanted = [&] { return levels_ == 0 || 4 * draft.triangle.size() <= kMostTriangles; };
+  while (levels_ < kMostLevels && wanted()) {
     Draft finer = divided(draft);
     if (!isSound(finer)) break;
     draft = std::move(finer);

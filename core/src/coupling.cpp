@@ -11,15 +11,15 @@ namespace {
 class Balance {
  public:
   Balance(const PatchResponse& patch, const Vec3& g, const Carried& carried,
-          double compliance) noexcept PALPATE_NONBLOCKING : patch_(patch),
+          double compliance) noexcept PALPATE_NONBLOCKING : patch_(&patch),
                                                             g_(g),
                                                             carried_(carried),
                                                             compliance_(compliance) {}
 
   /// Evaluates at d. @return whether the organ has an answer
-  bool moveTo(const Vec3& d) noexcept PALPATE_NONBLOCKING {
+  bool moveTo(const Vec3& d, Budget& budget) noexcept PALPATE_NONBLOCKING {
     displacement = d;
-    status = patch_.at(d, response);
+    status = patch_->at(d, budget, response);
     response.force -= response.stiffness * carried_.at(d);
     response.stiffness -= (response.stiffness * carried_.slope).eval();
     residual = d + compliance_ * response.force - g_;
@@ -35,37 +35,40 @@ class Balance {
   ResponseStatus status{ResponseStatus::kOk};
 
  private:
-  const PatchResponse& patch_;
+  const PatchResponse* patch_;
   Vec3 g_;
   Carried carried_;
   double compliance_;
 };
 
-/// One Newton step, halved until the residual falls. @return false when it does not
-bool improve(Balance& balance) noexcept PALPATE_NONBLOCKING {
+/// One Newton step, halved until the residual falls. An answer that is cut short does not count.
+/// @return false when it does not fall
+bool improve(Balance& balance, Budget& budget) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxHalvings = 4;
   const Balance before = balance;
   Vec3 step = before.slope().inverse() * before.residual;
-  for (int halving = 0; halving <= kMaxHalvings; ++halving, step *= 0.5) {
-    balance.moveTo(before.displacement - step);
-    if (balance.residual.norm() < before.residual.norm()) return true;
+  for (int halving = 0; halving <= kMaxHalvings && budget.allows(); ++halving, step *= 0.5) {
+    balance.moveTo(before.displacement - step, budget);
+    if (!budget.cut() && balance.residual.norm() < before.residual.norm()) return true;
   }
-  balance.moveTo(before.displacement);
+  balance = before;
   return false;
 }
 
 }  // namespace
 
 ResponseStatus couple(const PatchResponse& patch, const Vec3& g, const Carried& carried,
-                      const ContactLaw& law, CoupledResponse& out) noexcept PALPATE_NONBLOCKING {
+                      const ContactLaw& law, Budget& budget,
+                      CoupledResponse& out) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxSteps = 8;
   constexpr double kTolerance = 1e-9;  // of |g|
   const double compliance = law.compliance * law.stiffness_scale;
   Balance balance(patch, g, carried, compliance);
-  balance.moveTo(compliance > 0.0 ? out.displacement : g);
+  balance.moveTo(compliance > 0.0 ? out.displacement : g, budget);
+  if (budget.cut()) return balance.status;
   if (compliance > 0.0)
     for (int i = 0; i < kMaxSteps && balance.residual.norm() > kTolerance * g.norm(); ++i)
-      if (!improve(balance)) break;
+      if (!improve(balance, budget)) break;
   out.displacement = balance.displacement;
   out.response = balance.response;
   out.response.force *= law.stiffness_scale;

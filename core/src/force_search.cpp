@@ -23,36 +23,40 @@ bool isPositiveDefinite(const Mat3& A) noexcept PALPATE_NONBLOCKING {
 /// solution for each direction of d if it has one at the domain's edge.
 class ForceSearch {
  public:
-  explicit ForceSearch(const ContactSeries& series) noexcept PALPATE_NONBLOCKING
+  ForceSearch(const ContactSeries& series, Budget& budget) noexcept PALPATE_NONBLOCKING
       : series_(series),
+        budget_(budget),
         at_rest_(series.gradient(Vec3::Zero()).inverse()) {}
 
   /// False when the model has no answer to a small d.
   [[nodiscard]] bool valid() const noexcept PALPATE_NONBLOCKING { return at_rest_.allFinite(); }
   /// f with d(f) = d, on a branch with a positive definite dd/df. @return false when f is only what comes nearest
-  [[nodiscard]] bool find(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool find(const Vec3& d, Vec3& f) noexcept PALPATE_NONBLOCKING;
   /// Derivative of the continued d(f).
-  [[nodiscard]] Mat3 gradient(const Vec3& f) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Mat3 gradient(const Vec3& f) noexcept PALPATE_NONBLOCKING;
 
  private:
   [[nodiscard]] bool beyond(const Vec3& f) const noexcept PALPATE_NONBLOCKING {
     return f.norm() > series_.limit();
   }
-  [[nodiscard]] Vec3 value(const Vec3& f) const noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool newton(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING;
-  void descend(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Vec3 value(const Vec3& f) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool newton(const Vec3& d, Vec3& f) noexcept PALPATE_NONBLOCKING;
+  void descend(const Vec3& d, Vec3& f) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool improve(const Vec3& d, Vec3& f, Vec3& residual) noexcept PALPATE_NONBLOCKING;
 
   const ContactSeries& series_;
+  Budget& budget_;
   Mat3 at_rest_;  // df/dd at f = 0
 };
 
-Vec3 ForceSearch::value(const Vec3& f) const noexcept PALPATE_NONBLOCKING {
+Vec3 ForceSearch::value(const Vec3& f) noexcept PALPATE_NONBLOCKING {
+  budget_.spend(1);
   if (!beyond(f)) return series_.value(f);
   return series_.value(clampToDomain(f, series_.limit())) * (f.norm() / series_.limit());
 }
 
-Mat3 ForceSearch::gradient(const Vec3& f) const noexcept PALPATE_NONBLOCKING {
+Mat3 ForceSearch::gradient(const Vec3& f) noexcept PALPATE_NONBLOCKING {
+  budget_.spend(1);
   if (!beyond(f)) return series_.gradient(f);
   const Vec3 edge = clampToDomain(f, series_.limit()), e = edge / series_.limit();
   const Mat3 across = Mat3::Identity() - e * e.transpose();
@@ -60,7 +64,7 @@ Mat3 ForceSearch::gradient(const Vec3& f) const noexcept PALPATE_NONBLOCKING {
 }
 
 /// One step, halved until the residual falls. @return false when it does not
-bool ForceSearch::improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept PALPATE_NONBLOCKING {
+bool ForceSearch::improve(const Vec3& d, Vec3& f, Vec3& residual) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxHalvings = 5;
   Vec3 step = gradient(f).inverse() * residual;
   for (int halving = 0; halving <= kMaxHalvings; ++halving, step *= 0.5) {
@@ -73,26 +77,28 @@ bool ForceSearch::improve(const Vec3& d, Vec3& f, Vec3& residual) const noexcept
   return false;
 }
 
-bool ForceSearch::newton(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING {
+bool ForceSearch::newton(const Vec3& d, Vec3& f) noexcept PALPATE_NONBLOCKING {
   constexpr int kMaxIterations = 12;
   constexpr double kTolerance = 1e-11;  // of |d|
   Vec3 residual = value(f) - d;
   for (int i = 0; i < kMaxIterations; ++i) {
     if (residual.norm() <= kTolerance * d.norm()) return true;
-    if (!improve(d, f, residual)) return false;
+    if (!budget_.allows() || !improve(d, f, residual)) return false;
   }
   return residual.norm() <= kTolerance * d.norm();
 }
 
 /// From f = 0, so that of several branches that of small forces is found.
-void ForceSearch::descend(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING {
+void ForceSearch::descend(const Vec3& d, Vec3& f) noexcept PALPATE_NONBLOCKING {
   constexpr int kSteps = 30;
   constexpr double kFirst = 1e-3, kLeast = 1e-12;  // damping, of the diagonal
   constexpr double kFloor = 1e-6;                  // of the trace: keeps a singular matrix away
+  constexpr double kClose = 1e-12;                 // of |d|
   f.setZero();
   Vec3 residual = -d;
   double damping = kFirst;
-  for (int i = 0; i < kSteps; ++i) {
+  const double close = kClose * d.norm();
+  for (int i = 0; i < kSteps && !(residual.norm() <= close) && budget_.allows(); ++i) {
     const Mat3 J = gradient(f);
     Mat3 A = J.transpose() * J;
     A.diagonal() += damping * (A.diagonal() + Vec3::Constant(kFloor * A.trace()));
@@ -103,10 +109,11 @@ void ForceSearch::descend(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOC
   }
 }
 
-bool ForceSearch::find(const Vec3& d, Vec3& f) const noexcept PALPATE_NONBLOCKING {
+bool ForceSearch::find(const Vec3& d, Vec3& f) noexcept PALPATE_NONBLOCKING {
   constexpr double kTolerance = 1e-9;  // of |d|
   f = at_rest_ * d;
   if (newton(d, f) && isPositiveDefinite(gradient(f))) return true;
+  if (!budget_.allows()) return false;
   descend(d, f);
   return (value(f) - d).norm() <= kTolerance * d.norm() && isPositiveDefinite(gradient(f));
 }
@@ -144,11 +151,13 @@ ResponseStatus answerToForce(const ContactSeries& series, const Vec3& f,
   return checked(lengthOf(f) > series.limit() ? ResponseStatus::kClamped : ResponseStatus::kOk, out);
 }
 
-ResponseStatus findForce(const ContactSeries& series, const Vec3& d,
+ResponseStatus findForce(const ContactSeries& series, const Vec3& d, Budget& budget,
                          Response& out) noexcept PALPATE_NONBLOCKING {
-  constexpr double kFar = 1e3;  // m; beyond every domain, and its square is finite
+  constexpr double kFar = 1e3;       // m; beyond every domain, and its square is finite
+  constexpr int kRestAndAnswer = 4;  // evaluations
   const Vec3 target = clampToDomain(d, kFar);
-  const ForceSearch search(series);
+  ForceSearch search(series, budget);
+  budget.spend(kRestAndAnswer);
   if (!search.valid()) return noNumber(out);
   Vec3 f = Vec3::Zero();
   const bool found = search.find(target, f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "palpate/core/budget.h"
 #include "palpate/core/contact_response.h"
 #include "palpate/core/response.h"
 
@@ -24,8 +25,9 @@ namespace palpate {
 /// Where Newton fails, or ends where dd/df is not positive definite, at most 30 Levenberg-Marquardt steps from
 /// f = 0 lower |d(s, f) - d|^2; what they end at is answered, kClamped and without stiffness if it misses d or is
 /// not positive definite either.
-/// Cost: 3 to 5 Newton steps where it works; at most 12, of up to 6 evaluations each, and 30 more of one each.
-[[nodiscard]] ResponseStatus findForce(const ContactSeries& series, const Vec3& d,
+/// Cost: 3 to 5 Newton steps where it works; at most 12, of up to 7 evaluations each, and 30 more of two each. Where
+/// the budget ends before, what the search has come to by then is answered as what misses d.
+[[nodiscard]] ResponseStatus findForce(const ContactSeries& series, const Vec3& d, Budget& budget,
                                        Response& out) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

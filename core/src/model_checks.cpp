@@ -2,16 +2,14 @@
 #include "model_checks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "level_search.h"
+#include "checker.h"
+#include "load_driven_checks.h"
 #include "palpate/core/datasets.h"
-#include "palpate/core/load_error.h"
 #include "palpate/core/mode_selection.h"
 #include "palpate/core/multi_index.h"
 #include "palpate/core/packed_modes.h"
@@ -20,47 +18,6 @@
 namespace palpate {
 
 namespace {
-
-/// 12 digits: the last ones may be what is wrong.
-std::string text(double value) {
-  std::array<char, 32> digits{};
-  std::snprintf(digits.data(), digits.size(), "%.12g", value);
-  return digits.data();
-}
-
-/// Says what is wrong with the numbers of one file.
-class Checker {
- public:
-  explicit Checker(const std::string& name) : name_(name) {}
-
-  void require(bool good, const std::string& found, const std::string& expected) const {
-    if (!good) throw LoadError(name_ + ": " + found + ", expected " + expected);
-  }
-
-  template <typename T>
-  void finite(const std::string& dataset, std::span<const T> values) const {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i])) failAt(dataset, i, "is " + text(double(values[i])), "a finite number");
-  }
-
-  /// Each value is an index below `end`, and at least `begin` (0, or -1 where "none" is allowed).
-  void indices(const std::string& dataset, std::span<const std::int32_t> values, std::size_t end,
-               std::int32_t begin = 0) const {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (values[i] < begin || (values[i] >= 0 && static_cast<std::size_t>(values[i]) >= end))
-        failAt(dataset, i, "is " + std::to_string(values[i]),
-               std::to_string(begin) + " to " + std::to_string(end - 1));
-  }
-
-  [[noreturn]] void failAt(const std::string& dataset, std::size_t i, const std::string& found,
-                           const std::string& expected) const {
-    throw LoadError(name_ + ": " + dataset + " number " + std::to_string(i) + " " + found + ", expected " +
-                    expected);
-  }
-
- private:
-  const std::string& name_;
-};
 
 void checkOrders(const ModelAttributes& a, const Checker& check) {
   const int highest = a.parameters == Parameters::kForce ? a.order : MonomialBasis::kMaxOrder;
@@ -76,7 +33,7 @@ void checkOrders(const ModelAttributes& a, const Checker& check) {
 /// The largest |d|, |f| or t that is trusted.
 void checkDomain(Parameters parameters, std::span<const double> radius, const Checker& check) {
   for (std::size_t m = 0; m < radius.size(); ++m) {
-    const std::string found = "is " + text(radius[m]);
+    const std::string found = "is " + digitsOf(radius[m]);
     if (parameters == Parameters::kDisplacement && radius[m] < 0.0)
       check.failAt(dataset::kContactDomainRadius.name(), m, found, "at least 0");
     if (parameters == Parameters::kForce && !(radius[m] > 0.0))
@@ -86,55 +43,16 @@ void checkDomain(Parameters parameters, std::span<const double> radius, const Ch
   }
 }
 
-void checkLevels(const ModelView& v, const Checker& check) {
-  constexpr std::size_t kMaxSteps = 100'000;
-  constexpr auto kMaxFunctions = static_cast<std::size_t>(MonomialBasis::kMaxCoefficients);
-  const std::size_t C = v.level_functions;
-  check.require(C >= 1 && C <= kMaxFunctions,
-                dataset::kLevelsZ.name() + " has " + std::to_string(C) + " level functions",
-                "1 to " + std::to_string(kMaxFunctions));
-  const std::size_t points = v.levels_Z.size() / C;
-  check.require(points >= 2 && points <= kMaxSteps + 1,
-                dataset::kLevelsZ.name() + " has " + std::to_string(points) + " levels",
-                "2 to " + std::to_string(kMaxSteps + 1));
-  check.finite(dataset::kLevelsZ.name(), v.levels_Z);
-  for (std::size_t q = 0; q < C; ++q)
-    if (v.levels_Z[q * points] != 0.0)
-      check.failAt(dataset::kLevelsZ.name(), q * points, "is " + text(v.levels_Z[q * points]),
-                   "0 at level 0");
-}
-
-/// Displacement along the load, e . d(s, t), must rise up to t_max: a level is found by it.   docs/design.md, Reproduction
-void checkRising(const ModelAttributes& a, const ModelView& v, const Checker& check) {
-  const auto e = Eigen::Map<const Vec3>(a.load_direction.data());
-  const std::size_t C = v.level_functions, points = v.levels_Z.size() / C;
-  const int steps = static_cast<int>(points) - 1;
-  std::vector<double> along(points);
-  for (std::size_t m = 0; m < v.positions(); ++m) {
-    const auto last = static_cast<std::size_t>(lastStep(v.contact_domain_radius[m], steps));
-    std::fill(along.begin(), along.end(), 0.0);
-    for (std::size_t q = 0; q < C; ++q) {
-      const double d = e.dot(Eigen::Map<const Vec3>(v.contact_displacement.data() + 3 * (m * C + q)));
-      for (std::size_t j = 0; j <= last; ++j) along[j] += d * v.levels_Z[q * points + j];
-    }
-    for (std::size_t j = 0; j < last; ++j)
-      if (!(along[j + 1] > along[j]))
-        check.failAt(dataset::kContactDisplacement.name(), m,
-                     "along the load goes from " + text(along[j]) + " m to " + text(along[j + 1]) +
-                         " m between the levels " + text(double(j) / steps) + " and " +
-                         text(double(j + 1) / steps),
-                     "to rise up to t_max = " + text(v.contact_domain_radius[m]));
-  }
-}
-
-/// A load-driven model has modes only.                                           docs/design.md, Reproduction
-void checkNoNear(const ModelAttributes& a, const ModelView& v, const Checker& check) {
-  const std::string should =
-      "none: a model with parameters \"" + std::string(toString(a.parameters)) + "\" has no near field";
-  check.require(a.near_radius == 0.0, "attribute near_radius is " + text(a.near_radius), should);
-  check.require(v.near_node.empty(),
-                dataset::kNearNode.name() + " has " + std::to_string(v.near_node.size()) + " numbers",
-                should);
+/// Patches and mixtures look at all triangles round a node, for each of its neighbours.
+void checkTrianglesAtNodes(const ModelView& v, const Checker& check) {
+  constexpr int kMost = 1024;
+  std::vector<int> count(v.surfaceNodes());
+  for (const std::int32_t node : v.surface_triangles) ++count[static_cast<std::size_t>(node)];
+  const auto most = std::max_element(count.begin(), count.end());
+  check.require(*most <= kMost,
+                dataset::kSurfaceTriangles.name() + " has " + std::to_string(*most) + " triangles at node " +
+                    std::to_string(most - count.begin()),
+                "at most " + std::to_string(kMost));
 }
 
 void checkPositions(const ModelView& v, const Checker& check) {
@@ -198,15 +116,15 @@ void checkScales(const ModelView& v, const ModeCounts& counts, const Checker& ch
   for (std::size_t k = 0; k < v.modes_packed.scale.size(); ++k) {
     const float scale = v.modes_packed.scale[k];
     if (!(std::isfinite(scale) && scale > 0.0F))
-      check.failAt(dataset::kModesScale.name(), k, "is " + text(scale), "more than 0");
+      check.failAt(dataset::kModesScale.name(), k, "is " + digitsOf(scale), "more than 0");
     float most = 0.0F;
     for (const float x : v.modes_X.subspan((counts.f32 + k) * numbers, numbers))
       most = std::max(most, std::abs(x));
     const float top = k < counts.i16 ? 32767.0F : 94.0F;  // a shared byte takes 33 of 127
     const float largest = 1.1F * std::max(most / top, kLeastScale);
     if (scale > largest)
-      check.failAt(dataset::kModesScale.name(), k, "is " + text(scale),
-                   "at most " + text(largest) + ", as " + dataset::kModesX.name() + " is");
+      check.failAt(dataset::kModesScale.name(), k, "is " + digitsOf(scale),
+                   "at most " + digitsOf(largest) + ", as " + dataset::kModesX.name() + " is");
   }
 }
 
@@ -228,7 +146,7 @@ void checkPacked(const ModelView& v, const Checker& check) {
         check.failAt(mode < counts.f32 + counts.i16
                          ? dataset::kModesInt16.name() + ", of " + dataset::kModesX.name()
                          : dataset::kModesBytes.name() + ", of " + dataset::kModesX.name(),
-                     mode * numbers + i, "is " + text(found), text(x) + " within " + text(bound));
+                     mode * numbers + i, "is " + digitsOf(found), digitsOf(x) + " within " + digitsOf(bound));
     }
   }
 }
@@ -249,8 +167,8 @@ void checkFinite(const ModelView& v, const Checker& check) {
 void checkAttributes(const ModelAttributes& a, const std::string& name) {
   const Checker check(name);
   const auto range = [&](const char* attribute, double value, bool good, const char* expected) {
-    check.require(std::isfinite(value) && good, std::string("attribute ") + attribute + " is " + text(value),
-                  expected);
+    check.require(std::isfinite(value) && good,
+                  std::string("attribute ") + attribute + " is " + digitsOf(value), expected);
   };
   check.require(a.law == "stvk", "attribute law is \"" + a.law.substr(0, 40) + "\"", "\"stvk\"");
   if (a.parameters != Parameters::kLevel) checkOrders(a, check);
@@ -264,7 +182,8 @@ void checkAttributes(const ModelAttributes& a, const std::string& name) {
   if (a.parameters != Parameters::kLevel) return;
   range("load", a.load, a.load > 0.0, "more than 0 N");
   const double length = Eigen::Map<const Vec3>(a.load_direction.data()).stableNorm();
-  check.require(std::abs(length - 1.0) <= 1e-9, "attribute load_direction has length " + text(length), "1");
+  check.require(std::abs(length - 1.0) <= 1e-9, "attribute load_direction has length " + digitsOf(length),
+                "1");
 }
 
 void checkContents(const ModelAttributes& a, const ModelView& v, const std::string& name) {
@@ -272,16 +191,13 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   check.require(v.surfaceNodes() > 0 && v.triangles() > 0, "/surface is empty", "a closed surface");
   checkFinite(v, check);
   check.indices(dataset::kSurfaceTriangles.name(), v.surface_triangles, v.surfaceNodes());
+  checkTrianglesAtNodes(v, check);
   checkPacked(v, check);
   checkPositions(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
   checkNear(v, check);
   checkNearOnce(v, check);
-  if (a.parameters != Parameters::kDisplacement) checkNoNear(a, v, check);
-  if (a.parameters == Parameters::kLevel) {
-    checkLevels(v, check);
-    checkRising(a, v, check);
-  }
+  checkLoadDriven(a, v, check);
   const std::size_t N = v.mesh_node_tag.size();
   check.require(N > 0, dataset::kMeshNodes.name() + " is empty", "the volume mesh");
   check.indices(dataset::kMeshTetrahedra.name(), v.mesh_tetrahedra, N);

@@ -43,7 +43,6 @@ void readKind(const Hdf5Reader& file, ModelAttributes& a) {
 ModelAttributes readAttributes(const Hdf5Reader& file) {
   ModelAttributes a;
   a.parameters = readParameters(file);
-  a.model_id = file.text("model_id");
   a.law = file.text("law");
   a.provenance = file.text("provenance");
   a.E = file.number("E");
@@ -53,6 +52,14 @@ ModelAttributes readAttributes(const Hdf5Reader& file) {
   a.reference_displacement = file.number("reference_displacement");
   readKind(file, a);
   return a;
+}
+
+StoredDigests readDigests(const Hdf5Reader& file) {
+  for (const char* attribute : {"digest", "provenance_digest"})
+    if (!file.hasAttribute(attribute))
+      file.fail(std::string("attribute ") + attribute +
+                " is missing: the file is of an earlier palpate-solve, solve the model again");
+  return {file.text("digest"), file.text("provenance_digest")};
 }
 
 std::uint64_t sizeOf(int order) {
@@ -67,8 +74,16 @@ void readSurface(const Hdf5Reader& file, Lengths& size, ModelView& v) {
 }
 
 void readLevels(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  constexpr std::uint64_t kMaxSteps = 100'000;
   v.levels_Z = file.dataset(dataset::kLevelsZ, size);
   v.level_functions = static_cast<std::size_t>(size.value("C"));
+  const auto require = [&](const char* what, std::uint64_t found, std::uint64_t least, std::uint64_t most) {
+    if (found < least || found > most)
+      file.fail(dataset::kLevelsZ.name() + " has " + std::to_string(found) + what + ", expected " +
+                std::to_string(least) + " to " + std::to_string(most));
+  };
+  require(" level functions", size.value("C"), 1, MonomialBasis::kMaxCoefficients);
+  require(" levels", size.value("L + 1"), 2, kMaxSteps + 1);
 }
 
 void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size, ModelView& v) {
@@ -153,6 +168,7 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
   ModelContents contents;
   ModelAttributes& a = contents.attributes;
   a = readAttributes(file);
+  contents.stored = readDigests(file);
   checkAttributes(a, name);
   Lengths size;
   readSurface(file, size, contents.view);

@@ -8,9 +8,16 @@
 
 namespace palpate {
 
+/// The digests that the writer put into the file, as text.
+struct StoredDigests {
+  std::string content;
+  std::string provenance;
+};
+
 /// What HDF5 says about a model: its attributes, and where its arrays lie in the image.
 struct ModelContents {
   ModelAttributes attributes;
+  StoredDigests stored;
   ModelView view;
 };
 

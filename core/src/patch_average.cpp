@@ -36,8 +36,8 @@ PatchAverage::PatchAverage(const ModelView& view, const ModelAttributes& attribu
 }
 
 void PatchAverage::findPatches(const ModelView& view, double a) {
-  constexpr std::size_t kMost =
-      2048;  // a hostile file's patches would fill the memory; 25 edges from the centre
+  // A hostile file's patches would fill the memory and take all day, those over fixed nodes too.
+  std::size_t together = 0;
   const SurfaceGraph graph(view.surface_positions, view.surface_triangles);
   const std::vector<double> area = graph.lumpedAreas();
   const std::vector<bool> free = freeNodes(view);
@@ -48,7 +48,14 @@ void PatchAverage::findPatches(const ModelView& view, double a) {
     ContactPoint s{t, {}};
     for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
     double sum = 0.0;
-    for (const auto& [node, r] : front.from(s, 3.0 * a)) {
+    const auto& patch = front.from(s, 3.0 * a);
+    together += patch.size();
+    if (patch.size() > kMostNodes || together > kMostTogether)
+      throw std::invalid_argument("attribute patch_radius is " + std::to_string(a) +
+                                  " m, expected one of patches with at most " + std::to_string(kMostNodes) +
+                                  " nodes, found " + std::to_string(patch.size()) + ", and all together " +
+                                  std::to_string(kMostTogether) + ", found " + std::to_string(together));
+    for (const auto& [node, r] : patch) {
       if (!free[index(node)]) continue;
       const double weight = area[index(node)] * std::exp(-0.5 * r * r / (a * a));
       sum += weight;
@@ -56,10 +63,6 @@ void PatchAverage::findPatches(const ModelView& view, double a) {
       weight_.push_back(static_cast<float>(weight));
     }
     for (std::size_t i = first_.back(); i < weight_.size(); ++i) weight_[i] *= static_cast<float>(1.0 / sum);
-    if (node_.size() - first_.back() > kMost)
-      throw std::invalid_argument("attribute patch_radius is " + std::to_string(a) +
-                                  " m, expected one of patches with at most " + std::to_string(kMost) +
-                                  " nodes, found " + std::to_string(node_.size() - first_.back()));
     first_.push_back(node_.size());
   }
 }

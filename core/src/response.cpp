@@ -65,16 +65,19 @@ void continueTo(const ContactSeries& series, const Vec3& d, Response& out) noexc
 }
 
 /// f(s, d) of a "displacement" model.
-ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d,
+ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, Budget& budget,
                                     Response& out) noexcept PALPATE_NONBLOCKING {
-  constexpr double kFar = 1e3;  // m; beyond every domain, and what follows is finite
+  constexpr double kFar = 1e3;                // m; beyond every domain, and what follows is finite
+  constexpr int kInside = 1, kContinued = 4;  // evaluations; second derivatives and eigenvalues cost more
   out.domain_radius = series.limit();
   out.displacement = clampToDomain(d, out.domain_radius);
   out.parameter = out.displacement;
   if (!(lengthOf(d) > out.domain_radius)) {
+    budget.spend(kInside);
     series.evaluate(d, out.force, out.stiffness);
     return ResponseStatus::kOk;
   }
+  budget.spend(kContinued);
   continueTo(series, clampToDomain(d, kFar), out);
   return ResponseStatus::kClamped;
 }
@@ -120,14 +123,22 @@ double PatchResponse::energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
 }
 
 ResponseStatus PatchResponse::at(const Vec3& d, Response& out) const noexcept PALPATE_NONBLOCKING {
+  Budget endless = Budget::endless();
+  return at(d, endless, out);
+}
+
+ResponseStatus PatchResponse::at(const Vec3& d, Budget& budget,
+                                 Response& out) const noexcept PALPATE_NONBLOCKING {
+  constexpr int kLevelSearch = 20;  // evaluations, at most
   out = Response{};
   if (stencil_.count == 0) return ResponseStatus::kNoAnswer;
   switch (model_.attributes().parameters) {
     case Parameters::kDisplacement:
-      return answerToDisplacement(series_, d, out);
+      return answerToDisplacement(series_, d, budget, out);
     case Parameters::kForce:
-      return findForce(series_, d, out);
+      return findForce(series_, d, budget, out);
     case Parameters::kLevel:
+      budget.spend(kLevelSearch);
       return findLevel(series_, model_.attributes(), d, out);
   }
   return ResponseStatus::kNoAnswer;

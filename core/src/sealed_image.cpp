@@ -6,12 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "available_memory.h"
 #include "palpate/core/load_error.h"
 
 namespace palpate {
@@ -87,6 +89,7 @@ void SealedImage::copyFrom(const std::filesystem::path& path) {
       ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe must not block us
   if (source.get() < 0) failSystem(path, "cannot be opened");
   size_ = regularFileSize(path, source.get());
+  requireMemoryFile(path, "its copy", size_);
   descriptor_ = ::memfd_create("palpate-model", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (descriptor_ < 0) failSystem(path, "no memory file can be created for its copy");
   std::vector<std::byte> chunk(std::size_t{1} << 20U);
@@ -96,11 +99,13 @@ void SealedImage::copyFrom(const std::filesystem::path& path) {
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) failSystem(path, "cannot be read");
     if (got == 0) break;
-    writeCopy(path, std::span(chunk).first(static_cast<std::size_t>(got)));
     copied += static_cast<std::size_t>(got);
+    if (copied > size_) break;  // it may grow for ever
+    writeCopy(path, std::span(chunk).first(static_cast<std::size_t>(got)));
   }
   if (copied != size_)
-    fail(path, "gave " + std::to_string(copied) + " bytes, expected " + std::to_string(size_) +
+    fail(path, "gave " + std::string(copied > size_ ? "more than " : "") +
+                   std::to_string(std::min(copied, size_)) + " bytes, expected " + std::to_string(size_) +
                    ": it changed while it was read");
 }
 

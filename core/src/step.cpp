@@ -3,58 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "kernels.h"
+#include "stepper.h"
 #include "tool_group.h"
-#include "tool_surface.h"
 
 namespace palpate {
-
-/// One step() over one workspace.
-class Stepper {
- public:
-  Stepper(const MetaModel& model, Workspace& work, const StepInput& input) noexcept PALPATE_NONBLOCKING
-      : model_(model),
-        work_(work),
-        input_(input),
-        dt_(std::clamp(1e-9 * double(input.dt_ns), 0.0, 0.1)),
-        period_(input.period_ns > 0 ? std::min(1e-9 * double(input.period_ns), 0.1) : 1e-3),
-        ramp_dt_(std::min(dt_, 2.0 * period_)),
-        disturbed_(1e-9 * double(input.dt_ns) > std::max(10.0 * period_, kStall)),
-        shaken_(std::exchange(work.shaken_, false)) {}
-
-  [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
-  static void showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING;
-
- private:
-  [[nodiscard]] std::uint32_t judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool leapt(const ToolInput& tool,
-                           const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] ContactLaw law() const noexcept PALPATE_NONBLOCKING;
-  void changeLive() noexcept PALPATE_NONBLOCKING;
-  void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool follow(const ToolInput& tool, ToolMemory& memory,
-                            ToolResult& out) noexcept PALPATE_NONBLOCKING;
-  void grow(const ToolInput& tool, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING;
-  void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept PALPATE_NONBLOCKING;
-  void deform(StepResult& result) noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING;
-  void report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING;
-
-  static constexpr double kStall = 0.01;  // s; in a faster loop, a hand does not notice ten periods
-
-  const MetaModel& model_;
-  Workspace& work_;
-  const StepInput& input_;
-  double dt_;
-  double period_;   // s; the caller's, or 1 ms
-  double ramp_dt_;  // s that ramps advance: without the time that the loop stood still
-  bool disturbed_;  // the loop stood still, or a parameter changed at once: no force follows from the last
-  bool jumped_{false};  // a contact jumped in this tick
-  bool shaken_;         // a contact jumped in the last tick: what other tools feel of it jumps now
-  std::array<Vec3, kMaxTools> shown_;  // u at each tool's anchor, m
-};
 
 namespace {
 
@@ -78,28 +31,48 @@ std::uint32_t Stepper::judge(const ToolInput& tool) const noexcept PALPATE_NONBL
   return std::abs(std::sqrt(square) - 1.0) <= work_.config_.quaternion_tolerance ? 0 : kNonUnitQuaternion;
 }
 
-/// Whether a good pose is farther from the last one than a tool may move in the time between their arrivals,
-/// and a margin, because poses arrive unevenly.
-bool Stepper::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
+/// Longest that the arrivals of a good pose and the last one may lie apart, s, with a margin, because poses arrive unevenly.
+double Stepper::between(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   constexpr double kUneven = 2e-3;  // s
+  return std::max(0.0, memory.age + dt_ - 1e-9 * double(tool.age_ns)) + kUneven;
+}
+
+/// Whether a good pose is farther from the last one than a tool may move in the time between.
+bool Stepper::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   if (!memory.known) return false;
-  const double between = std::max(0.0, memory.age + dt_ - 1e-9 * double(tool.age_ns));
   const Vec3 here(tool.position[0], tool.position[1], tool.position[2]);
-  return (here - memory.position).norm() > work_.config_.speed_limit * (between + kUneven);
+  return (here - memory.position).norm() > work_.config_.speed_limit * between(tool, memory);
 }
 
-ContactLaw Stepper::law() const noexcept PALPATE_NONBLOCKING {
-  const LiveParameters& live = work_.live_.now();
-  return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E};
+/// Whether so long no pose came, in a loop that would have taken one in every period, that the way from the last one
+/// is not known.
+bool Stepper::interrupted(const ToolInput& tool,
+                          const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
+  constexpr double kUneven = 2e-3;  // s, again: a period late is not lost
+  return memory.known && between(tool, memory) - period_ > work_.config_.stale_timeout + 2.0 * kUneven;
 }
 
-/// Advances the live parameters; one that changes at once disturbs the contacts.
+ContactLaw Stepper::law(const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
+  const LiveParameters& live = work_.live(numberOf(memory));
+  return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E, period_};
+}
+
+/// Advances the tools' live parameters, one that changes at once disturbs the contact; and exchanges tips that touch nothing.
 void Stepper::changeLive() noexcept PALPATE_NONBLOCKING {
-  double largest = 0.0;
-  for (const ToolMemory& memory : work_.tools_) largest = std::max(largest, memory.rendering.rendered.norm());
-  LiveBlend& live = work_.live_;
-  live.advance(input_.has_live != 0 ? input_.live : live.target(), ramp_dt_, largest);
-  disturbed_ = disturbed_ || live.jumped();
+  for (std::size_t i = 0; i < kMaxTools; ++i) {
+    ToolMemory& memory = work_.tools_[i];
+    LiveBlend& live = work_.live_[i];
+    const bool changes = input_.has_settings != 0;
+    if (changes) work_.tip_radius_[i] = input_.settings[i].tip_radius;
+    live.advance(changes ? input_.settings[i].live : live.target(), ramp_dt_,
+                 memory.rendering.rendered.norm());
+    const bool is_free = memory.contact.state == ContactState::kFree;
+    if (is_free && work_.solver_[i].tipRadius() != work_.tip_radius_[i]) {
+      work_.solver_[i] = ContactSolver(work_.tip_radius_[i]);
+      ContactSolver::forget(memory.contact);  // its clearance is the old tip's
+    }
+    if (live.jumped() && !is_free) memory.leapt = true;
+  }
 }
 
 /// Moves the contact to a pose. @return false when the model's answer is not finite; then nothing has moved
@@ -109,11 +82,16 @@ bool Stepper::follow(const ToolInput& tool, ToolMemory& memory,
   const Vec3 c(tool.position[0], tool.position[1], tool.position[2]);
   if (leapt(tool, memory)) {
     out.flags |= kPoseJump;
-    ContactSolver::release(memory.contact);
-    memory.contact.overlapping = true;  // so a capture counts as a jump
+    ContactSolver::forget(memory.contact);
     memory.leapt = true;
   }
-  work_.solver_.update(model_, law(), c, memory.contact);
+  const ContactSolver& solver = work_.solver_[numberOf(memory)];
+  if (interrupted(tool, memory)) {
+    solver.loseWay(model_, c, memory.contact);
+    memory.leapt = memory.leapt || memory.contact.jumped;
+  }
+  Budget budget;
+  solver.update(model_, law(memory), c, budget, memory.contact);
   memory.position = c;
   if (memory.contact.coupled.response.force.allFinite() && memory.contact.stiffness.allFinite()) return true;
   memory.contact = before;
@@ -155,7 +133,7 @@ void Stepper::advance(const ToolInput& tool, ToolMemory& memory,
 void Stepper::render(ToolMemory& memory, bool held, bool jumped,
                      ToolResult& out) noexcept PALPATE_NONBLOCKING {
   LimiterInput in;
-  const LiveParameters& live = work_.live_.now();
+  const LiveParameters& live = work_.live(numberOf(memory));
   if (held)
     memory.damper.wait(dt_);
   else
@@ -179,49 +157,6 @@ void Stepper::render(ToolMemory& memory, bool held, bool jumped,
   store(limited.force, out.force);
   for (std::size_t i = 0; i < 9; ++i)
     out.stiffness[i] = limited.stiffness(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
-}
-
-/// The surface as shown. Where a contact jumps, the field blends over like the force: the weight of the
-/// old field falls from 1 to 0 within ramp_time. One weight for the whole field, so that a second jump
-/// starts from what is shown.
-void Stepper::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
-  double& blend = work_.displacement_blend_;
-  if (jumped_) {
-    std::copy(work_.displacement_.begin(), work_.displacement_.end(), work_.displacement_from_.begin());
-    blend = 1.0;
-  }
-  const double ramp_time = work_.config_.ramp_time;
-  blend = ramp_time > 0.0 ? std::max(0.0, blend - ramp_dt_ / ramp_time) : 0.0;
-  const ToolSurface surface(model_, work_.tools_, work_.scratch_);
-  work_.sources_.keep(surface.sources());
-  const bool overflowed = std::exchange(work_.overflowed_, false);  // found again while it lasts
-  const bool finite = showAnchors(surface) && !overflowed;
-  if (finite) return;
-  for (ToolResult& out : result.tools)
-    if ((out.flags & kInContact) != 0) out.flags |= kNonFiniteForce;
-}
-
-/// The surface where it is reported.
-bool Stepper::showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING {
-  const bool finite = surface.atAnchors(shown_);
-  const double weight = work_.displacement_blend_;
-  for (std::size_t i = 0; weight > 0.0 && i < kMaxTools; ++i) {
-    const ContactPoint& s = work_.tools_[i].contact.s;
-    if (s.triangle < 0) continue;
-    const Vec3 from = model_.surface().interpolate(work_.displacement_from_, s);
-    shown_[i] = (1.0 - weight) * shown_[i] + weight * from;
-  }
-  return finite;
-}
-
-void Stepper::showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
-  std::vector<float>& u = work.displacement_;
-  const auto weight = static_cast<float>(work.displacement_blend_);
-  if (weight == 0.0F && work.shown_known_ && work.shown_ == work.sources_) return;
-  work.overflowed_ = !evaluateSurface(model, work.sources_.all(), work.scratch_, u);
-  work.shown_ = work.sources_;
-  work.shown_known_ = weight == 0.0F && !work.overflowed_;
-  if (weight > 0.0F) mixInto(work.displacement_from_, weight, u);  // no difference, which may overflow
 }
 
 void Stepper::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING {
@@ -261,14 +196,10 @@ StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& 
   return Stepper(model, work, input).run(result);
 }
 
-void stepSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
-  Stepper::showSurface(model, work);
-}
-
 StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                 StepResult& result) noexcept PALPATE_NONBLOCKING {
   const StepStatus status = stepForces(model, work, input, result);
-  if (input.skip_surface == 0) stepSurface(model, work);
+  if (input.skip_surface == 0) (void)stepSurface(model, work);
   return status;
 }
 

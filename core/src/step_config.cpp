@@ -70,6 +70,11 @@ std::optional<FieldComplaint> firstComplaint(const LiveParameters& parameters) {
   return dampingComplaint(parameters);
 }
 
+std::optional<FieldComplaint> firstComplaint(const ToolSettings& settings) {
+  if (auto found = firstOf({{"tip_radius", settings.tip_radius, 0.0, 0.05, "m"}})) return found;
+  return firstComplaint(settings.live);
+}
+
 std::optional<FieldComplaint> firstComplaint(const StepConfig& config) {
   if (auto found = firstOf({{"tip_radius", config.tip_radius, 0.0, 0.05, "m"},
                             {"stale_timeout", config.stale_timeout, 0.001, 0.045, "s"},
@@ -78,6 +83,10 @@ std::optional<FieldComplaint> firstComplaint(const StepConfig& config) {
                             {"quaternion_tolerance", config.quaternion_tolerance, 1e-9, 0.1, "(no unit)"}}))
     return found;
   if (auto found = firstComplaint(liveParameters(config))) return found;
+  for (std::size_t i = 0; i < config.own.size(); ++i) {
+    auto found = firstComplaint(toolSettings(config)[i]);
+    if (found) return FieldComplaint{std::to_string(i) + "." + found->field, found->text};
+  }
   return firstOf({{"speed_limit", config.speed_limit, 0.01, 100.0, "m/s", Infinity::kMeansOff},
                   {"tools", static_cast<double>(config.tools), 1, kMaxTools, ""}});
 }
@@ -87,6 +96,15 @@ LiveParameters liveParameters(const StepConfig& config) noexcept {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     live.*kLiveFields<LiveParameters>[i] = config.*kLiveFields<StepConfig>[i];
   return live;
+}
+
+AllToolSettings toolSettings(const StepConfig& config) noexcept {
+  AllToolSettings all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = config.own[i].value_or(ToolSettings{config.tip_radius, liveParameters(config)});
+    all[i].live.youngs_modulus = config.youngs_modulus;
+  }
+  return all;
 }
 
 void check(const StepConfig& config) {

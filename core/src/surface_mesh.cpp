@@ -54,7 +54,7 @@ SurfaceMesh::SurfaceMesh(const ModelView& view)
       tree_(view.surface_positions, view.surface_triangles) {
   buildFaceNormals();
   buildNodeNormals();
-  buildEdgeNormals();
+  findNeighbours();
   findReachable();
 }
 
@@ -67,7 +67,7 @@ SurfaceMesh::SurfaceMesh(std::span<const double> positions, std::span<const std:
       triangle_at_node_(positions.size() / 3, -1),
       tree_(positions, triangles) {
   buildFaceNormals();
-  buildEdgeNormals();
+  findNeighbours();
 }
 
 Vec3 SurfaceMesh::nodePosition(std::int32_t node) const noexcept PALPATE_NONBLOCKING {
@@ -113,21 +113,18 @@ void SurfaceMesh::findReachable() {
 }
 
 /// Also the proof that the surface is closed: each directed edge once, and its reverse once.
-void SurfaceMesh::buildEdgeNormals() {
+void SurfaceMesh::findNeighbours() {
   const std::vector<Edge> edges = sortedEdges(triangles_);
   for (std::size_t i = 1; i < edges.size(); ++i)
     if (!(edges[i - 1] < edges[i]))
       refuse(edges[i].triangle,
              "repeats the edge from node " + name(edges[i]) + ", expected a consistently oriented surface");
-  edge_normals_.resize(face_normals_.size());
   neighbours_.resize(face_normals_.size());
   for (const Edge& edge : edges) {
     const auto twin = std::lower_bound(edges.begin(), edges.end(), Edge{edge.to, edge.from, 0, 0});
     if (twin == edges.end() || twin->from != edge.to || twin->to != edge.from)
       refuse(edge.triangle,
              "has no neighbour across the edge from node " + name(edge) + ", expected a closed surface");
-    const Vec3 sum = face_normals_[index(edge.triangle)] + face_normals_[index(twin->triangle)];
-    edge_normals_[index(edge.triangle)][static_cast<std::size_t>(edge.opposite)] = sum;
     neighbours_[index(edge.triangle)][static_cast<std::size_t>(edge.opposite)] = twin->triangle;
   }
 }
@@ -138,9 +135,12 @@ NearestPoint SurfaceMesh::closestPoint(const Vec3& c) const noexcept PALPATE_NON
   const auto feature = static_cast<std::size_t>(hit.where.feature);
   const auto edge = static_cast<std::size_t>(TriangleFeature::kEdge0);
   const auto node = static_cast<std::size_t>(TriangleFeature::kNode0);
-  const Vec3& pseudonormal = feature < edge   ? face_normals_[t]
-                             : feature < node ? edge_normals_[t][feature - edge]
-                                              : node_normals_[index(triangles_[3 * t + feature - node])];
+  const auto ofEdge = [&](std::size_t k) {
+    return face_normals_[t] + face_normals_[index(neighbours_[t][k])];
+  };
+  const Vec3 pseudonormal = feature < edge   ? face_normals_[t]
+                            : feature < node ? Vec3(ofEdge(feature - edge))
+                                             : node_normals_[index(triangles_[3 * t + feature - node])];
   NearestPoint nearest;
   nearest.s = {hit.triangle, hit.where.barycentric};
   nearest.position = hit.where.point;

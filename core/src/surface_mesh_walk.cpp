@@ -157,4 +157,34 @@ bool SurfaceMesh::project(const Vec3& c, ContactPoint& s, double& h) const noexc
   return false;
 }
 
+/// The first of the steps v, v / 2, ... from s that comes nearer to c. @return its length; 0: none, s as it was
+double SurfaceMesh::stepNearer(const Vec3& c, Vec3 v, ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+  constexpr int kMaxHalvings = 4;
+  const double distance = (c - position(s)).squaredNorm();
+  for (int halving = 0; halving <= kMaxHalvings; ++halving, v *= 0.5) {
+    ContactPoint at = s;
+    (void)move(at, v, Reach::kEverywhere);
+    if (!((c - position(at)).squaredNorm() < distance)) continue;
+    s = at;
+    return v.norm();
+  }
+  return 0.0;
+}
+
+void SurfaceMesh::descend(const Vec3& c, double farthest,
+                          ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+  constexpr int kMaxSteps = 8;
+  constexpr double kShortest = 1e-6;  // m
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const Vec3 n = normal(s), gap = c - position(s);
+    Vec3 aside = gap - n * n.dot(gap);
+    const double length = std::min(aside.norm(), farthest);
+    if (!(length > kShortest)) return;
+    aside *= length / aside.norm();
+    const double went = stepNearer(c, aside, s);
+    if (went == 0.0) return;
+    farthest -= went;
+  }
+}
+
 }  // namespace palpate

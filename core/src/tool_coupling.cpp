@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/core/tool_coupling.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 
@@ -48,20 +49,24 @@ Vec3 averaged(const MetaModel& model, const PositionMix& from, std::span<const d
          averagedNear(model, from, phi, gain, to, scratch.near_block);
 }
 
-/// What one tool moves the others' patches by, and its derivative.
+/// What one tool moves the others' patches by, and its derivative. The organ is asked once, however many others there are.
 class Influence {
  public:
   Influence(const MetaModel& model, const ContactPoint& s, const Vec3& d,
             double h) noexcept PALPATE_NONBLOCKING : model_(model),
                                                      s_(s),
                                                      d_(d),
-                                                     h_(h) {
-    if (model.attributes().parameters == Parameters::kDisplacement) differentiate();
+                                                     h_(h),
+                                                     own_(ownPart(model, s, d)) {
+    const bool displaced = model.attributes().parameters == Parameters::kDisplacement;
+    if (displaced) differentiate();
+    for (std::size_t i = 0; !displaced && i < 3; ++i)
+      beside_[i] = ownPart(model, s, d + h * Vec3::Unit(static_cast<Eigen::Index>(i)));
   }
 
   /// P_at u(s, d), m.
   [[nodiscard]] Vec3 on(const ContactPoint& at, FieldScratch& scratch) const noexcept PALPATE_NONBLOCKING {
-    return patchDisplacement(model_, ownPart(model_, s_, d_), at, scratch);
+    return patchDisplacement(model_, own_, at, scratch);
   }
 
   /// P_at du/dd, 3 x 3; of a load-driven model by differences of length h. @param moved  on(at)
@@ -75,8 +80,7 @@ class Influence {
         const std::span<const double> phi(slope_[index(i)].data(), index(model_.functions().size()));
         slope.col(i) = averaged(model_, from, phi, 1.0, to, scratch);
       } else {
-        const FieldSource beside = ownPart(model_, s_, d_ + h_ * Vec3::Unit(i));
-        slope.col(i) = (patchDisplacement(model_, beside, at, scratch) - moved) / h_;
+        slope.col(i) = (patchDisplacement(model_, beside_[index(i)], at, scratch) - moved) / h_;
       }
     }
     return slope;
@@ -97,8 +101,23 @@ class Influence {
   const ContactPoint& s_;
   const Vec3& d_;
   double h_;
+  FieldSource own_;
+  std::array<FieldSource, 3> beside_;  // at d + h e_i, of a load-driven model
   std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3> slope_;  // dphi/dd_i
 };
+
+/// Points half a patch's width from one, two of them across: to and from along each tangent.
+std::array<ContactPoint, 4> surround(const MetaModel& model,
+                                     const ContactPoint& at) noexcept PALPATE_NONBLOCKING {
+  const double h = 0.5 * model.attributes().patch_radius;
+  const Mat32 tangent = model.surface().frame(at).tangent;
+  std::array<ContactPoint, 4> ends{at, at, at, at};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const Vec3 way = (i % 2 == 0 ? h : -h) * tangent.col(static_cast<Eigen::Index>(i / 2));
+    (void)model.surface().move(ends[i], way, Reach::kAccessible);
+  }
+  return ends;
+}
 
 }  // namespace
 
@@ -110,6 +129,36 @@ Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source, const 
   const std::span<double> phi(all.data(), index(model.functions().size()));
   model.functions().evaluate(clampToDomain(source.parameter, model.response().limit(from)), phi);
   return averaged(model, from, phi, source.gain, to, scratch);
+}
+
+Mat3 patchDisplacementSlope(const MetaModel& model, std::span<const FieldSource> sources,
+                            const ContactPoint& at, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  const auto ends = surround(model, at);
+  std::array<Vec3, 4> u;
+  std::fill(u.begin(), u.end(), Vec3(Vec3::Zero()));
+  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
+  std::array<double, MonomialBasis::kMaxCoefficients> all;
+  const std::span<double> phi(all.data(), index(model.functions().size()));
+  for (const FieldSource& source : sources) {
+    const PositionMix from = model.surface().mix(source.s);
+    if (from.count == 0) continue;
+    model.functions().evaluate(clampToDomain(source.parameter, model.response().limit(from)), phi);
+    model.farField().addAmplitudes(from, phi, source.gain, scratch.amplitudes);
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      u[i] += averagedNear(model, from, phi, source.gain, model.surface().mix(ends[i]), scratch.near_block);
+  }
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    u[i] += model.patchAverage().ofModes(model.surface().mix(ends[i]), scratch.amplitudes);
+  Mat32 way, change;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const auto to = static_cast<std::size_t>(2 * k);
+    way.col(k) = model.surface().position(ends[to]) - model.surface().position(ends[to + 1]);
+    change.col(k) = u[to] - u[to + 1];
+  }
+  const Mat2 square = way.transpose() * way;
+  const double least = 1e-3 * square.trace() * square.trace();
+  if (!(square.determinant() > least)) return Mat3::Zero();  // in a corner of the accessible part
+  return change * square.inverse() * way.transpose();
 }
 
 FieldSource ownPart(const MetaModel& model, const ContactPoint& s,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tool_group.h"
 
+#include <algorithm>
+
 namespace palpate {
 
 void ToolGroup::feelEachOther() noexcept PALPATE_NONBLOCKING {
@@ -17,9 +19,26 @@ void ToolGroup::feelEachOther() noexcept PALPATE_NONBLOCKING {
                    &influence_);
   for (std::size_t i = 0; i < count_; ++i) {
     const Mat3& slope = influence_[i][i];
-    tools_[pressing_[i]].contact.carried = {d_[i] - own_[i] - slope * d_[i], slope};
+    tools_[pressing_[i]].contact.carried = {.constant = d_[i] - own_[i] - slope * d_[i], .slope = slope};
   }
+  if (count_ > 1) feelSlopes();
   approach();
+}
+
+/// How what each feels of the others changes as it slides.
+void ToolGroup::feelSlopes() noexcept PALPATE_NONBLOCKING {
+  std::array<FieldSource, 2 * kMaxTools> sources;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto parts = ownField(model_, s_[i], d_[i], own_[i]);
+    std::copy(parts.begin(), parts.end(), sources.begin() + static_cast<std::ptrdiff_t>(2 * i));
+  }
+  for (std::size_t i = 0; i < count_; ++i) {
+    std::array<FieldSource, 2 * kMaxTools> others = sources;
+    for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) others[k] = sources[2 * count_ - 2 + k % 2];
+    Carried& carried = tools_[pressing_[i]].contact.carried;
+    carried.along = patchDisplacementSlope(model_, std::span(others).first(2 * count_ - 2), s_[i], scratch_);
+    carried.origin = model_.surface().position(s_[i]);
+  }
 }
 
 /// What tools in the air would find displaced.

@@ -27,6 +27,7 @@ class ToolGroup {
 
  private:
   void approach() noexcept PALPATE_NONBLOCKING;
+  void feelSlopes() noexcept PALPATE_NONBLOCKING;
 
   const MetaModel& model_;
   std::span<ToolMemory> tools_;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "palpate/idl/error.h"
+#include "palpate/idl/raw.h"
 
 namespace palpate::dds {
 namespace {
@@ -18,6 +19,12 @@ dds_entity_t createParticipant(std::uint32_t domain) {
 }
 
 }  // namespace
+
+std::string Participant::guid() const {
+  dds_guid_t guid{};
+  checked(dds_get_guid(handle(), &guid), "cannot read a participant's GUID");
+  return raw::textOf(guid);
+}
 
 Participant::Participant(std::uint32_t domain) : domain_(domain), entity_(createParticipant(domain)) {}
 

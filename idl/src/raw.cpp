@@ -3,36 +3,10 @@
 
 #include <thread>
 
+#include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/error.h"
 
 namespace palpate::dds::raw {
-namespace {
-
-// The policies by which our own topics can fail to match; the numbers are those of the DDS and X-Types
-// standards.
-std::string policyName(std::uint32_t id) {
-  switch (id) {
-    case DDS_DEADLINE_QOS_POLICY_ID:
-      return "deadline";
-    case DDS_LIVELINESS_QOS_POLICY_ID:
-      return "liveliness";
-    case DDS_RELIABILITY_QOS_POLICY_ID:
-      return "reliability";
-    case DDS_DURABILITY_QOS_POLICY_ID:
-      return "durability";
-    case DDS_TYPE_CONSISTENCY_ENFORCEMENT_QOS_POLICY_ID:
-      return "type (another version of palpate.idl?)";
-    default:
-      return "QoS policy " + std::to_string(id);
-  }
-}
-
-std::string describe(const char* counterpart, const char* name, std::uint32_t policy) {
-  return std::string("found a ") + counterpart + " of " + name + " that does not fit: " + policyName(policy);
-}
-
-}  // namespace
-
 dds_entity_t createTopic(dds_entity_t participant, const dds_topic_descriptor_t& descriptor,
                          const char* name) {
   return checked(dds_create_topic(participant, &descriptor, name, nullptr, nullptr),
@@ -46,8 +20,10 @@ dds_entity_t createWriter(dds_entity_t participant, dds_entity_t topic, const ch
 }
 
 dds_entity_t createReader(dds_entity_t participant, dds_entity_t topic, const char* name, QosProfile profile,
-                          const dds_listener_t* listener) {
-  return checked(dds_create_reader(participant, topic, makeQos(profile, Endpoint::kReader).get(), listener),
+                          const dds_listener_t* listener, Endpoint endpoint, bool ignores_own) {
+  const QosPtr qos = makeQos(profile, endpoint);
+  if (ignores_own) dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  return checked(dds_create_reader(participant, topic, qos.get(), listener),
                  std::string("cannot create a reader of ") + name);
 }
 
@@ -56,23 +32,40 @@ unsigned matchedReaders(dds_entity_t writer) noexcept {
   return dds_get_publication_matched_status(writer, &status) == DDS_RETCODE_OK ? status.current_count : 0;
 }
 
+std::uint32_t readersOf(dds_entity_t writer) noexcept {
+  dds_publication_matched_status_t status{};
+  const bool known = dds_get_publication_matched_status(writer, &status) == DDS_RETCODE_OK;
+  return known && status.current_count > 0 ? status.total_count : 0;
+}
+
 unsigned matchedWriters(dds_entity_t reader) noexcept {
   dds_subscription_matched_status_t status{};
   return dds_get_subscription_matched_status(reader, &status) == DDS_RETCODE_OK ? status.current_count : 0;
 }
 
-std::string mismatchOfWriter(dds_entity_t writer, const char* name) {
-  dds_offered_incompatible_qos_status_t status{};
-  if (dds_get_offered_incompatible_qos_status(writer, &status) != DDS_RETCODE_OK || status.total_count == 0)
-    return {};
-  return describe("reader", name, status.last_policy_id);
+std::string textOf(const dds_guid_t& guid) {
+  std::string text;
+  for (const std::uint8_t byte : guid.v) {
+    constexpr const char* kDigits = "0123456789abcdef";
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15U];
+  }
+  return text;
 }
 
-std::string mismatchOfReader(dds_entity_t reader, const char* name) {
-  dds_requested_incompatible_qos_status_t status{};
-  if (dds_get_requested_incompatible_qos_status(reader, &status) != DDS_RETCODE_OK || status.total_count == 0)
-    return {};
-  return describe("writer", name, status.last_policy_id);
+std::string participantGuid(dds_entity_t reader, dds_instance_handle_t writer) {
+  dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(reader, writer);
+  if (endpoint == nullptr) return {};
+  const std::string text = textOf(endpoint->participant_key);
+  dds_builtintopic_free_endpoint(endpoint);
+  return text;
+}
+
+std::string mismatchOf(dds_entity_t endpoint, bool writes) {
+  EndpointWatch watch(dds_get_participant(endpoint), std::chrono::milliseconds(0));
+  watch.add(endpoint, writes);
+  const std::vector<std::string> lines = watch.poll();
+  return lines.empty() ? std::string() : lines.front();
 }
 
 bool waitUntilMatched(unsigned (*matched)(dds_entity_t) noexcept, dds_entity_t entity, unsigned count,

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "palpate/program/command_line.h"
 #include "palpate/server/config_file.h"
+#include "palpate/server/live_limits.h"
 
 namespace palpate::server {
 namespace {
@@ -22,6 +25,8 @@ struct Given {
   std::optional<std::string> realtime;
   std::optional<std::int64_t> domain;
   std::optional<std::int64_t> server_id;
+  std::optional<bool> addressed_only;
+  std::optional<double> listen_first;
   std::optional<std::int64_t> organ_id;
   std::optional<std::int64_t> tools;
   std::optional<double> rate;
@@ -32,7 +37,10 @@ struct Given {
   std::optional<double> tip_radius;
   std::optional<double> speed_limit;
   std::optional<std::string> device;
+  std::vector<std::string> own;
   LiveOverrides live;
+  std::optional<std::string> parameters;
+  std::vector<std::string> limits;
 };
 
 // What holds where neither the file nor the command line names a value.
@@ -56,6 +64,21 @@ void declareContact(program::Options line, Given& given) {
     line.add(info.option, &(given.live.*kLiveFields<LiveOverrides>[i]),
              std::string(info.help) + ", default " + defaultOf(i));
   }
+  line.add("--tool", &given.own,
+           "What one tool has of its own: device, tip-radius, friction, coupling, coupling-damping, "
+           "force-limit, "
+           "force-rate-limit, e.g. --tool 1:device=omni,tip-radius=0.004")
+      .oneWordEach()
+      .valueName("ID:NAME=VALUE,...");
+  line.add("--parameters", &given.parameters,
+           "Whether clients may change these while it runs: on (default) or off")
+      .valueName("SWITCH");
+  line.add("--limit", &given.limits,
+           "Lowest and highest value that a client may set, e.g. --limit friction=0:0.5; by default the "
+           "start's value is the "
+           "highest")
+      .oneWordEach()
+      .valueName("NAME=LOW:HIGH");
   line.add("--speed-limit", &given.speed_limit,
            "A pose that moves faster counts as a jump, m/s, 0.01 to 100 or inf, default 2");
   line.add("--tools", &given.tools, "Number of tools that are answered, ids from 0; 1 to 4, default 4");
@@ -75,7 +98,7 @@ void declare(program::Options line, Given& given) {
   line.add("--tip-radius", &given.tip_radius, "Radius of the tools' tips, m, 0 to 0.05, default 0.005");
   declareContact(line, given);
   line.add("--surface-rate", &given.surface_rate,
-           "Surface fields per second, 0.1 or more, default inf: with every tick")
+           "Most surface fields per second, 0.1 or more, default inf: one with every tick that changes it")
       .valueName("HZ");
   line.flag("--phase-lock,!--no-phase-lock", &given.phase_lock,
             "Ticks follow the poses' arrival, so that a pose waits little for its tick");
@@ -84,7 +107,12 @@ void declare(program::Options line, Given& given) {
   line.flag("--tick-cpu-alone,!--no-tick-cpu-alone", &given.tick_cpu_alone,
             "Nothing else of the server runs on the tick's CPU");
   line.add("--organ-id", &given.organ_id, "Key of the surface topics, default 0");
-  line.add("--server-id", &given.server_id, "Key of the status topic, default 0");
+  line.add("--server-id", &given.server_id, "Names this server in poses and answers, default 0");
+  line.flag("--addressed-only,!--no-addressed-only", &given.addressed_only,
+            "Answers only poses that name this server, so that several may share a domain");
+  line.add("--listen-first", &given.listen_first,
+           "How long to listen for other servers before the first force, s, 0 to 10, default 0.5")
+      .valueName("S");
 }
 
 template <class T>
@@ -96,6 +124,10 @@ void overwrite(const std::optional<T>& given, T& value) {
 std::string optionOf(const std::string& key) {
   for (const LiveParameterInfo& info : kLiveParameters)
     if (key == info.key) return info.option;
+  for (const LiveParameterInfo& info : kLiveParameters)
+    if (key == std::string("limits.") + info.name) return std::string("--limit ") + &info.option[2];
+  if (key.size() > 6 && key.rfind("tool.", 0) == 0 && key[6] == '.')
+    return std::string("--tool ") + key[5] + ":" + optionOf("tool." + key.substr(7)).substr(2);
   std::string option = key.substr(key.find('.') == std::string::npos ? 0 : key.find('.') + 1);
   std::replace(option.begin(), option.end(), '_', '-');
   return "--" + option;
@@ -106,7 +138,6 @@ void combineDevice(const Given& given, ServerConfig& config) {
   overwrite(given.device, config.device);
   for (const auto field : kLiveFields<LiveOverrides>)
     if (given.live.*field) config.said.*field = given.live.*field;
-  config.step = withDevice(config.step, config.device, config.said);
 }
 
 void combineContact(const Given& given, StepConfig& step) {
@@ -114,6 +145,66 @@ void combineContact(const Given& given, StepConfig& step) {
   overwrite(given.tip_radius, step.tip_radius);
   overwrite(given.speed_limit, step.speed_limit);
   if (given.tools) step.tools = static_cast<int>(std::clamp(*given.tools, -kFar, kFar));
+}
+
+[[noreturn]] void refuseLimit(const std::string& word) {
+  std::string names;
+  for (const LiveParameterInfo& info : kLiveParameters) names += std::string(&info.option[2]) + " ";
+  throw ConfigError("--limit is \"" + word + "\", expected NAME=LOW:HIGH, NAME one of " + names);
+}
+
+// "friction=0:0.5".
+void takeLimit(const std::string& word, LiveBounds& limits) {
+  std::istringstream text(word);
+  std::string name, low, high;
+  std::getline(std::getline(std::getline(text, name, '='), low, ':'), high);
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    if (name != &kLiveParameters[i].option[2]) continue;
+    char *low_end = nullptr, *high_end = nullptr;
+    const Bounds bounds{std::strtod(low.c_str(), &low_end), std::strtod(high.c_str(), &high_end)};
+    if (low.empty() || high.empty() || *low_end != '\0' || *high_end != '\0') refuseLimit(word);
+    limits.*kLiveFields<LiveBounds>[i] = bounds;
+    return;
+  }
+  refuseLimit(word);
+}
+
+[[noreturn]] void refuseTool(const std::string& word) {
+  throw ConfigError("--tool is \"" + word + "\", expected ID:NAME=VALUE,... with ID 0 to 3, see --help");
+}
+
+// "friction" and "0.5" of a tool.
+bool takeOwn(const std::string& name, const std::string& value, OwnOptions& own) {
+  if (name == "device") {
+    own.device = value;
+    return true;
+  }
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end != '\0') return false;
+  if (name == "tip-radius") {
+    own.tip_radius = number;
+    return true;
+  }
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    if (name != &kLiveParameters[i].option[2] || kLiveParameters[i].zero_is_models) continue;
+    own.said.*kLiveFields<LiveOverrides>[i] = number;
+    return true;
+  }
+  return false;
+}
+
+// "1:device=omni,tip-radius=0.004".
+void takeTool(const std::string& word, std::array<OwnOptions, kMaxTools>& all) {
+  if (word.size() < 3 || word[1] != ':' || word[0] < '0' || word[0] >= '0' + kMaxTools) refuseTool(word);
+  std::istringstream entries(word.substr(2));
+  for (std::string entry; std::getline(entries, entry, ',');) {
+    const std::size_t equals = entry.find('=');
+    if (equals == std::string::npos) refuseTool(word);
+    if (!takeOwn(entry.substr(0, equals), entry.substr(equals + 1),
+                 all[static_cast<std::size_t>(word[0] - '0')]))
+      refuseTool(word);
+  }
 }
 
 template <class Take>
@@ -140,6 +231,8 @@ ServerConfig combine(const Given& given) {
   overwrite(given.domain, config.domain);
   overwrite(given.rate, config.rate);
   overwrite(given.server_id, config.server_id);
+  overwrite(given.addressed_only, config.addressed_only);
+  overwrite(given.listen_first, config.listen_first);
   overwrite(given.organ_id, config.organ_id);
   overwrite(given.surface_rate, config.surface_rate);
   overwrite(given.phase_lock, config.phase_lock);
@@ -147,12 +240,21 @@ ServerConfig combine(const Given& given) {
   overwrite(given.tick_cpu_alone, config.tick_cpu_alone);
   combineContact(given, config.step);
   combineDevice(given, config);
+  for (const std::string& word : given.own) takeTool(word, config.own);
+  settleTools(config);
   takeWord("--realtime", [&] {
     if (given.realtime) config.realtime = parsePolicy(*given.realtime);
   });
+  takeWord("--parameters", [&] {
+    if (given.parameters) config.parameters = parseSwitch(*given.parameters);
+  });
+  for (const std::string& word : given.limits) takeLimit(word, config.limits);
   takeWord("--device", [&] { checkDevice(config.device); });
+  for (std::size_t tool = 0; tool < config.own.size(); ++tool)
+    takeWord("--tool", [&] { checkDevice(deviceOf(config, tool)); });
   if (const auto complaint = firstComplaint(config)) refuse(*complaint);
   if (const auto complaint = deviceComplaint(config)) refuse(*complaint);
+  if (const auto complaint = limitsComplaint(config)) refuse(*complaint);
   if (config.tick_cpu_alone && config.tick_cpu == kAnyCpu)
     throw ConfigError("--tick-cpu-alone without --tick-cpu: which CPU is it?");
   if (config.model.empty()) throw ConfigError("--model is missing: name a model file here or in --config");

@@ -32,6 +32,8 @@ std::string keyOf(const std::string& field) {
   for (const LiveParameterInfo& info : kLiveParameters)
     if (field == info.name) return info.key;
   if (field == "tools") return field;
+  if (const std::size_t dot = field.find('.'); dot != std::string::npos)  // a tool's own: "1.friction"
+    return "tool." + field;
   return "tool." + field;
 }
 
@@ -82,6 +84,23 @@ StepConfig withDevice(StepConfig step, const std::string& device, const LiveOver
   return step;
 }
 
+const std::string& deviceOf(const ServerConfig& config, std::size_t tool) {
+  const std::optional<std::string>& own = config.own[tool].device;
+  return own ? *own : config.device;
+}
+
+void settleTools(ServerConfig& config) {
+  config.step = withDevice(config.step, config.device, config.said);
+  for (std::size_t tool = 0; tool < config.own.size(); ++tool) {
+    const OwnOptions& own = config.own[tool];
+    LiveOverrides said = config.said;
+    for (const auto field : kLiveFields<LiveOverrides>)
+      if (own.said.*field) said.*field = own.said.*field;
+    const StepConfig alone = withDevice(config.step, deviceOf(config, tool), said);
+    config.step.own[tool] = {own.tip_radius.value_or(config.step.tip_radius), liveParameters(alone)};
+  }
+}
+
 double stiffnessLimit(const std::string& device) {
   const auto preset = findDevicePreset(device);
   return preset ? preset->stiffness_limit : std::numeric_limits<double>::infinity();
@@ -93,20 +112,29 @@ void checkDevice(const std::string& word) {
 }
 
 std::optional<Complaint> deviceComplaint(const ServerConfig& config) {
-  const double limit = stiffnessLimit(config.device);
-  if (!(config.step.coupling_stiffness > limit)) return std::nullopt;
-  std::ostringstream text;
-  text << "is " << config.step.coupling_stiffness << ", expected at most " << limit << " N/m, what device "
-       << config.device << " renders stably (device custom has no such limit)";
-  return Complaint{"tool.coupling_stiffness", text.str()};
+  for (std::size_t tool = 0; tool < config.own.size(); ++tool) {
+    const double stiffness = toolSettings(config.step)[tool].live.coupling_stiffness;
+    const std::string& device = deviceOf(config, tool);
+    const double limit = stiffnessLimit(device);
+    if (!(stiffness > limit)) continue;
+    const OwnOptions& own = config.own[tool];
+    const bool alone = own.device || own.said.coupling_stiffness;
+    std::ostringstream text;
+    text << "is " << stiffness << ", expected at most " << limit << " N/m, what device " << device
+         << " renders stably (device custom has no such limit)";
+    return Complaint{(alone ? "tool." + std::to_string(tool) : "tool") + ".coupling_stiffness", text.str()};
+  }
+  return std::nullopt;
 }
 
 std::optional<Complaint> firstComplaint(const ServerConfig& config) {
   constexpr double kMaxId = 4294967295.0;
-  const std::array<Range, 5> ranges{{
+  constexpr double kMaxServerId = kMaxId - 1.0;  // the last is dds::kServerAny
+  const std::array<Range, 6> ranges{{
       {"domain", static_cast<double>(config.domain), 0, 230, ""},
       {"rate", config.rate, 10, 10000, " Hz"},
-      {"server_id", static_cast<double>(config.server_id), 0, kMaxId, ""},
+      {"server_id", static_cast<double>(config.server_id), 0, kMaxServerId, ""},
+      {"listen_first", config.listen_first, 0, 10, " s"},
       {"organ_id", static_cast<double>(config.organ_id), 0, kMaxId, ""},
       {"surface_rate", config.surface_rate, 0.1, kEveryTick, " Hz"},
   }};
@@ -117,6 +145,12 @@ std::optional<Complaint> firstComplaint(const ServerConfig& config) {
   if (auto complaint = cpuComplaint(config)) return complaint;
   if (auto complaint = firstToolComplaint(config.step)) return complaint;
   return rateComplaint(config);
+}
+
+bool parseSwitch(const std::string& word) {
+  if (word == "on") return true;
+  if (word == "off") return false;
+  throw ConfigError("is \"" + word + "\", expected on or off");
 }
 
 rt::RealtimePolicy parsePolicy(const std::string& word) {

@@ -40,6 +40,16 @@ class KeyReader {
     if (root_.at_path(key).node() != nullptr) out = value;
   }
 
+  void read(const std::string& key, std::optional<Bounds>& out) {
+    readAs(key, "two numbers, [lowest, highest]", [&](const toml::node& node) {
+      const toml::array* pair = node.as_array();
+      if (pair == nullptr || pair->size() != 2 || !(*pair)[0].is_number() || !(*pair)[1].is_number())
+        return false;
+      out = Bounds{*(*pair)[0].value<double>(), *(*pair)[1].value<double>()};
+      return true;
+    });
+  }
+
   [[noreturn]] void refuse(const std::string& key, const std::string& text) const {
     const toml::node* node = root_.at_path(key).node();
     const std::string line = node == nullptr ? "" : ":" + std::to_string(node->source().begin.line);
@@ -130,7 +140,24 @@ void readDevice(KeyReader& keys, ServerConfig& config) {
   keys.read("device", config.device);
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     keys.read(kLiveParameters[i].key, config.said.*kLiveFields<LiveOverrides>[i]);
-  config.step = withDevice(config.step, config.device, config.said);
+}
+
+// [tool.1]: what tool 1 has of its own.
+void readOwn(KeyReader& keys, std::size_t tool, OwnOptions& own) {
+  const std::string table = "tool." + std::to_string(tool) + ".";
+  std::string device;
+  keys.read(table + "device", device);
+  if (!device.empty()) own.device = device;
+  keys.read(table + "tip_radius", own.tip_radius);
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    const std::string key = kLiveParameters[i].key;
+    if (key.rfind("tool.", 0) == 0) keys.read(table + key.substr(5), own.said.*kLiveFields<LiveOverrides>[i]);
+  }
+}
+
+void readLimits(KeyReader& keys, LiveBounds& limits) {
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    keys.read(std::string("limits.") + kLiveParameters[i].name, limits.*kLiveFields<LiveBounds>[i]);
 }
 
 // A word out of a fixed list.
@@ -149,12 +176,15 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   const toml::table root = parseToml(path);
   KeyReader keys(root, path.string());
   std::string model;
-  std::string realtime;
+  std::string realtime, parameters;
   keys.read("model", model);
   keys.read("domain", config.domain);
   keys.read("rate", config.rate);
   keys.read("realtime", realtime);
+  keys.read("parameters", parameters);
   keys.read("server_id", config.server_id);
+  keys.read("addressed_only", config.addressed_only);
+  keys.read("listen_first", config.listen_first);
   keys.read("organ_id", config.organ_id);
   keys.read("surface_rate", config.surface_rate);
   keys.read("phase_lock", config.phase_lock);
@@ -163,6 +193,9 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   readTools(keys, config.step);
   readTool(keys, config.step);
   readDevice(keys, config);
+  for (std::size_t tool = 0; tool < config.own.size(); ++tool) readOwn(keys, tool, config.own[tool]);
+  settleTools(config);
+  readLimits(keys, config.limits);
   keys.refuseUnasked();
   if (root.contains("model")) {
     if (model.empty()) keys.refuse("model", "is empty, expected the path of a model file");
@@ -171,7 +204,13 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   takeWord(keys, "realtime", [&] {
     if (root.contains("realtime")) config.realtime = parsePolicy(realtime);
   });
+  takeWord(keys, "parameters", [&] {
+    if (root.contains("parameters")) config.parameters = parseSwitch(parameters);
+  });
   takeWord(keys, "device", [&] { checkDevice(config.device); });
+  for (std::size_t tool = 0; tool < config.own.size(); ++tool)
+    takeWord(keys, ("tool." + std::to_string(tool) + ".device").c_str(),
+             [&] { checkDevice(deviceOf(config, tool)); });
   if (const auto complaint = firstComplaint(config)) keys.refuse(complaint->key, complaint->text);
 }
 

@@ -17,6 +17,7 @@ constexpr std::int64_t kPoll = 20 * kMs;
 constexpr std::int64_t kStatusPeriod = 1000 * kMs;
 constexpr std::int64_t kChangePeriod = 100 * kMs;  // the shortest time between two status samples
 constexpr std::int64_t kWarnPeriod = 1000 * kMs;
+constexpr std::int64_t kRivalPeriod = 60'000 * kMs;
 
 // Kinds of warning, in addition to one per tool and flag (tool << 32 | flag).
 constexpr std::uint64_t kOverrunKind = 1ULL << 63;
@@ -28,6 +29,15 @@ constexpr std::uint64_t kRefusedKind = kOverrunKind + 7;
 constexpr std::uint64_t kRecordingFailedKind = kOverrunKind + 5;
 constexpr std::uint64_t kUnrecordedKind = kOverrunKind + 6;
 constexpr std::uint64_t kPhaseKind = kOverrunKind + 8;
+constexpr std::uint64_t kMisaddressedKind = kOverrunKind + 9;
+constexpr std::uint64_t kRequestFloodKind = kOverrunKind + 10;
+constexpr std::uint64_t kRivalKind = kOverrunKind + 11;
+constexpr std::uint64_t kMisfitKind = kOverrunKind + 12;
+constexpr std::uint64_t kAnnouncedKind = kOverrunKind + 13;
+constexpr std::uint64_t kAnnouncementFloodKind = kOverrunKind + 14;
+
+// Requests to other servers in a second that are no flood yet.
+constexpr std::uint64_t kManyRequests = 200;
 
 }  // namespace
 
@@ -39,6 +49,8 @@ void Events::run() noexcept {
     const std::int64_t now_ns = rt::monotonicNow();
     drain(now_ns);
     raiseLateThreads(now_ns);
+    if (rest_surface_ != nullptr && !rest_surface_->repeatIfAsked(now_ns))
+      channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
     if (!stopping) publishIfDue(now_ns);
   }
   info("stopping: zero force was sent");
@@ -48,6 +60,10 @@ void Events::run() noexcept {
 void Events::drain(std::int64_t now_ns) {
   const ParameterNews news = parameters_.poll();
   if (news.refused) warn(kRefusedKind, *news.refused, now_ns);
+  if (news.announced) {
+    if (isDue(kAnnouncedKind, now_ns)) info(*news.announced);
+    noteParameters();
+  }
   if (news.changed) {
     if (isDue(kChangedKind, now_ns)) info(*news.changed);
     noteParameters();
@@ -55,7 +71,11 @@ void Events::drain(std::int64_t now_ns) {
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
   noteUnknownTools(now_ns);
+  noteMisaddressed(now_ns);
+  noteRequestFloods(now_ns);
+  noteRivals(now_ns);
   noteRecording(now_ns);
+  noteMisfits(now_ns);
   const std::uint64_t failed = channels_.failed_writes.load(std::memory_order_relaxed);
   if (failed > health_.failed_writes) {
     warn(kFailedWriteKind, "DDS refused to send (" + std::to_string(failed) + " so far)", now_ns);
@@ -65,8 +85,24 @@ void Events::drain(std::int64_t now_ns) {
 
 void Events::noteParameters() {
   changed_ = changed_ || health_.parameters_revision != parameters_.book().revision();
-  health_.parameters = parameters_.book().inForce();
+  health_.settings = parameters_.book().inForce();
   health_.parameters_revision = parameters_.book().revision();
+}
+
+// An endpoint is reported once. Those that come within a second of another are only counted.
+void Events::noteMisfits(std::int64_t now_ns) {
+  if (endpoints_ == nullptr) return;
+  for (std::string& line : endpoints_->poll()) {
+    if (untold_misfits_ > 0) line += " (" + std::to_string(untold_misfits_) + " more before it)";
+    if (!isDue(kMisfitKind, now_ns)) {
+      ++untold_misfits_;
+      continue;
+    }
+    untold_misfits_ = 0;
+    spdlog::warn(line);
+    health_.message = line;
+    changed_ = true;
+  }
 }
 
 void Events::noteUnknownTools(std::int64_t now_ns) {
@@ -79,6 +115,63 @@ void Events::noteUnknownTools(std::int64_t now_ns) {
        "pose of tool " + std::to_string(id) + ": tool ids are 0 to " + std::to_string(kMaxTools - 1) +
            ", no force (" + std::to_string(unknown) + " so far)",
        now_ns);
+}
+
+// Once: where several servers share a domain, poses for the others are no fault.
+void Events::noteMisaddressed(std::int64_t now_ns) {
+  const std::uint64_t poses = channels_.misaddressed_poses.load(std::memory_order_relaxed);
+  if (health_.misaddressed_poses == 0 && poses > 0) {
+    const std::uint32_t id = channels_.misaddressed_id.load(std::memory_order_relaxed);
+    warn(kMisaddressedKind,
+         "poses for " + (id == dds::kServerAny ? "any server" : "server " + std::to_string(id)) +
+             " come in; this is server " + std::to_string(status_.facts().server_id) +
+             ", they are not answered",
+         now_ns);
+  }
+  health_.misaddressed_poses = poses;
+}
+
+void Events::noteRequestFloods(std::int64_t now_ns) {
+  if (now_ns - requests_counted_ns_ < kWarnPeriod) return;
+  requests_counted_ns_ = now_ns;
+  const std::uint64_t foreign = channels_.foreign_requests.load(std::memory_order_relaxed);
+  const std::uint64_t surplus = channels_.surplus_requests.load(std::memory_order_relaxed);
+  if (surplus != health_.surplus_requests)
+    warn(kRequestFloodKind,
+         "parameter requests: " + std::to_string(surplus) + " dropped so far, more than " +
+             std::to_string(ParameterService::kPerSecond) + " came in a second",
+         now_ns);
+  else if (foreign - foreign_requests_ > kManyRequests)
+    warn(kRequestFloodKind,
+         "parameter requests for other servers: " + std::to_string(foreign - foreign_requests_) +
+             " in a second, not looked at",
+         now_ns);
+  health_.surplus_requests = surplus;
+  const std::uint64_t words = channels_.surplus_announcements.load(std::memory_order_relaxed);
+  if (words != surplus_announcements_)
+    warn(kAnnouncementFloodKind,
+         "announcements of devices: " + std::to_string(words) + " dropped so far, more than " +
+             std::to_string(AnnouncementBook::kMost) + " hold at once",
+         now_ns);
+  surplus_announcements_ = words;
+  foreign_requests_ = foreign;
+}
+
+// A line when a rival appears, one a minute while it is there, one when it is gone.
+void Events::noteRivals(std::int64_t now_ns) {
+  const RivalNews news = rivals_.poll(now_ns);
+  health_.now_ns = now_ns;
+  channels_.rival.store(news.count > 0, std::memory_order_relaxed);
+  if (news.starter) changed_ = true;  // it listens for whoever answers already
+  const bool came = news.count > 0 && health_.rivals == 0;
+  if (came) health_.rival_since_ns = now_ns;
+  if (came || (news.count > 0 && now_ns - rival_told_ns_ >= kRivalPeriod)) {
+    rival_told_ns_ = now_ns;
+    warn(kRivalKind, "another server answers the same poses: " + news.text, now_ns);
+  }
+  if (news.count == 0 && health_.rivals > 0) info("no other server answers the same poses any more");
+  health_.rivals = news.count;
+  health_.rival = news.text;
 }
 
 void Events::noteRecording(std::int64_t now_ns) {

@@ -13,8 +13,11 @@ void copyTo(double (&field)[N], const std::array<double, N>& values) noexcept {
 
 }  // namespace
 
-dds::ToolForce toWire(const ForceRecord& record) noexcept {
+dds::ToolForce toWire(const Facts& facts, const ForceRecord& record) noexcept {
   dds::ToolForce force{};
+  force.server_id = facts.server_id;
+  force.session = facts.session;
+  force.model_hash = facts.model_hash;
   force.tool_id = record.tool_id;
   force.seq = record.seq;
   force.pose_seq = record.pose_seq;
@@ -44,7 +47,8 @@ void ForcePublisher::run() noexcept {
     stopping = channels_.stopping.load(std::memory_order_acquire);  // SYNC STOP
     ForceRecord record;
     while (channels_.forces.pop(record)) {
-      if (!writer_.write(toWire(record))) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
+      if (!writer_.write(toWire(facts_, record)))
+        channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
     }
   }
 }

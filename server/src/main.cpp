@@ -43,13 +43,11 @@ void logModel(const MetaModel& model, const ServerConfig& config) {
       "model {}: driven by {}, {} surface nodes, {} contact positions, {} modes, {} coefficients, {:.1f} MB, "
       "id {}",
       config.model.string(), toString(model.attributes().parameters), view.surfaceNodes(), view.positions(),
-      view.modes(), model.functions().size(), 1e-6 * static_cast<double>(model.bytes()),
-      model.attributes().model_id);
+      view.modes(), model.functions().size(), 1e-6 * static_cast<double>(model.bytes()), model.id());
 }
 
 void logContact(const Facts& facts) {
-  spdlog::info("device {}: {}; {} tools, tips of {} m", facts.device, ParameterBook(facts).describe(),
-               facts.step.tools, facts.step.tip_radius);
+  spdlog::info("{}; {} tools", ParameterBook(facts).describe(), facts.step.tools);
 }
 
 int serve(int argc, char** argv) {

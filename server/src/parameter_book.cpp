@@ -3,68 +3,186 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <cstring>
 #include <sstream>
+#include <stdexcept>
 
-#include "palpate/server/config.h"
+#include "palpate/idl/printable.h"
 
 namespace palpate::server {
 namespace {
 
-// The start's values are the ceilings; a device's own limits where they are higher.
-LiveParameters ceilings(const Facts& facts) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  LiveParameters most = liveParameters(facts.step);
-  most.youngs_modulus = most.friction = most.coupling_damping = kNone;
-  if (const auto preset = findDevicePreset(facts.device)) {
-    most.force_limit = std::max(preset->force_limit, most.force_limit);
-    most.coupling_stiffness = preset->stiffness_limit;
-  }
-  return most;
-}
-
-LiveParameters overlaid(LiveParameters live, const dds::ParameterRequest& request) {
-  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
-    if ((request.fields & kLiveParameters[i].bit) != 0)
-      live.*kLiveFields<LiveParameters>[i] = request.*kLiveFields<dds::ParameterRequest>[i];
+// E by its number, where 0 stands for the model's own.
+LiveParameters named(LiveParameters live, double model_youngs_modulus) {
+  if (live.youngs_modulus == 0.0) live.youngs_modulus = model_youngs_modulus;
   return live;
 }
 
-// What is above its ceiling; empty: nothing.
-std::string tooLarge(const LiveParameters& wanted, const LiveParameters& most, const std::string& why) {
+// Whether a request is about a tool's value of this parameter. E is the organ's: all tools have the same.
+bool sets(const dds::ParameterRequest& request, const LiveParameterInfo& info, std::size_t tool) {
+  const bool meant = request.tool_id == dds::kAllTools || request.tool_id == tool;
+  return (request.fields & info.bit) != 0 && (meant || info.bit == dds::parameter::kYoungsModulus);
+}
+
+AllToolSettings overlaid(AllToolSettings settings, const dds::ParameterRequest& request) {
+  for (std::size_t tool = 0; tool < settings.size(); ++tool)
+    for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+      if (sets(request, kLiveParameters[i], tool))
+        settings[tool].live.*kLiveFields<LiveParameters>[i] = request.*kLiveFields<dds::ParameterRequest>[i];
+  return settings;
+}
+
+// What a device renders, where it is less.
+void cutTo(const DevicePreset& device, LiveParameters& live) {
+  live.force_limit = std::min(live.force_limit, device.force_limit);
+  live.coupling_stiffness = std::min(live.coupling_stiffness, device.coupling_stiffness);
+  live.coupling_damping = std::min(
+      {live.coupling_damping, device.coupling_damping, kLongestCouplingTime * live.coupling_stiffness});
+}
+
+// A request does not go beyond the device either. A device that renders less than the operator's lowest still holds.
+void lower(LiveLimits& limits, const LiveParameters& device) {
+  for (const auto field : {&LiveParameters::force_limit, &LiveParameters::coupling_stiffness,
+                           &LiveParameters::coupling_damping}) {
+    limits.highest.*field = std::min(limits.highest.*field, device.*field);
+    limits.lowest.*field = std::min(limits.lowest.*field, device.*field);
+  }
+}
+
+// Empty: the tip that a driver names is near the operator's.
+std::string tipComplaint(double radius, double start) {
+  if (radius >= start / ParameterBook::kMostTipRatio && radius <= start * ParameterBook::kMostTipRatio)
+    return {};
+  std::ostringstream text;
+  text << "tip_radius is " << radius << ", expected " << start / ParameterBook::kMostTipRatio << " to "
+       << start * ParameterBook::kMostTipRatio << " m: the server was started with " << start;
+  return text.str();
+}
+
+// What is beyond the operator's limits; empty: nothing.
+std::string beyond(const LiveParameters& wanted, const LiveLimits& limits) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
-    const double value = wanted.*kLiveFields<LiveParameters>[i], limit = most.*kLiveFields<LiveParameters>[i];
-    if (value <= limit) continue;
+    const auto field = kLiveFields<LiveParameters>[i];
+    if (limits.lowest.*field <= wanted.*field && wanted.*field <= limits.highest.*field) continue;
     std::ostringstream text;
-    text << kLiveParameters[i].name << " is " << value << ", expected at most " << limit << " "
-         << kLiveParameters[i].unit << ", " << why;
+    text << kLiveParameters[i].name << " is " << wanted.*field << ", expected " << limits.lowest.*field
+         << " to " << limits.highest.*field << " " << kLiveParameters[i].unit
+         << ": what the server was started with";
     return text.str();
   }
   return {};
+}
+
+dds::LiveValues toWire(const LiveParameters& live) {
+  dds::LiveValues values{};
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    values.*kLiveFields<dds::LiveValues>[i] = live.*kLiveFields<LiveParameters>[i];
+  return values;
 }
 
 }  // namespace
 
 ParameterBook::ParameterBook(const Facts& facts)
     : server_id_(facts.server_id),
-      device_(facts.device),
+      open_(facts.parameters),
       model_youngs_modulus_(facts.youngs_modulus),
-      most_(ceilings(facts)),
-      live_(liveParameters(facts.step)) {}
+      device_(facts.device),
+      settings_(toolSettings(facts.step)) {
+  for (std::size_t tool = 0; tool < settings_.size(); ++tool) {
+    const LiveParameters start = named(settings_[tool].live, model_youngs_modulus_);
+    limits_[tool] = liveLimits(start, facts.limits);
+    const std::string complaint = beyond(start, limits_[tool]);
+    if (!complaint.empty()) throw std::invalid_argument("limits: at the start " + complaint);
+    tools_[tool].start_device = device_[tool];
+    tools_[tool].start = settings_[tool];
+    tools_[tool].start_limits = limits_[tool];
+  }
+}
 
 std::string ParameterBook::complaintAbout(const dds::ParameterRequest& request,
-                                          const LiveParameters& wanted) const {
+                                          const AllToolSettings& wanted) const {
+  if (request.fields != 0 && !open_) return "this server takes no parameters from clients";
   const std::uint32_t unknown = request.fields & ~dds::parameter::kAll;
   if (unknown != 0) return "fields has bits " + std::to_string(unknown) + " that this server does not know";
+  if (request.tool_id >= wanted.size() && request.tool_id != dds::kAllTools)
+    return "tool_id is " + std::to_string(request.tool_id) + ", expected 0 to " +
+           std::to_string(wanted.size() - 1) + " or " + std::to_string(dds::kAllTools) + ", all of them";
+  for (std::size_t tool = 0; tool < wanted.size(); ++tool) {
+    const auto found = firstComplaint(wanted[tool]);
+    const std::string text =
+        found ? found->sentence() : beyond(named(wanted[tool].live, model_youngs_modulus_), limits_[tool]);
+    if (!text.empty()) return (tool == 0 ? "" : "tool " + std::to_string(tool) + ": ") + text;
+  }
+  return {};
+}
+
+void ParameterBook::restore(std::size_t tool) {
+  const double E = settings_[tool].live.youngs_modulus;
+  device_[tool] = tools_[tool].start_device;
+  settings_[tool] = tools_[tool].start;
+  settings_[tool].live.youngs_modulus = E;
+  limits_[tool] = tools_[tool].start_limits;
+}
+
+// Sets the values that a driver names over what its device leaves. @return why not, else empty
+std::string ParameterBook::overlay(const dds::ToolAnnouncement& said, const Tool& book,
+                                   ToolSettings& wanted) const {
+  if ((said.fields & dds::parameter::kYoungsModulus) != 0 || (said.fields & ~dds::parameter::kAll) != 0)
+    return "fields is " + std::to_string(said.fields) + ", expected bits of a tool's parameters";
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    if ((said.fields & kLiveParameters[i].bit) != 0)
+      wanted.live.*kLiveFields<LiveParameters>[i] = said.values.*kLiveFields<dds::LiveValues>[i];
+  if (!said.has_tip_radius) return {};
+  wanted.tip_radius = said.tip_radius;
+  return tipComplaint(said.tip_radius, book.start.tip_radius);
+}
+
+// Takes it whole and says nothing, or says why not. A server that takes no parameters takes the device, which only lowers.
+std::string ParameterBook::adopt(std::size_t tool, const dds::ToolAnnouncement& said) {
+  const Tool& book = tools_[tool];
+  ToolSettings wanted = book.start;
+  wanted.live.youngs_modulus = settings_[tool].live.youngs_modulus;
+  const std::string name(said.device, strnlen(said.device, sizeof said.device));
+  const auto preset = findDevicePreset(name);
+  if (!name.empty() && name != kCustomDevice && !preset)
+    return "device \"" + dds::printable(name.c_str()) + "\" is not known";
+  if (!(said.device_force_limit >= 0.0)) return "device_force_limit is not a number of N";
+  if (preset) cutTo(*preset, wanted.live);
+  if (said.device_force_limit > 0.0)
+    wanted.live.force_limit = std::min(wanted.live.force_limit, said.device_force_limit);
+  LiveLimits limits = book.start_limits;
+  lower(limits, wanted.live);
+  const std::string bad = open_ ? overlay(said, book, wanted) : "";
+  if (!bad.empty()) return bad;
   if (const auto found = firstComplaint(wanted)) return found->sentence();
-  return tooLarge(wanted, most_, "what device " + device_ + " and the start of the server allow");
+  const std::string complaint = beyond(named(wanted.live, model_youngs_modulus_), limits);
+  if (!complaint.empty()) return complaint;
+  if (!name.empty()) device_[tool] = name;
+  settings_[tool] = wanted;
+  limits_[tool] = limits;
+  return {};
+}
+
+bool ParameterBook::announced(std::size_t tool, const std::optional<DriverWord>& said) {
+  Tool& book = tools_[tool];
+  const std::uint64_t number = said ? said->number : 0;
+  if (number == book.said) return false;
+  book.said = number;
+  if (book.by && (!said || said->by != *book.by)) {
+    restore(tool);
+    book.by.reset();
+  }
+  book.refusal = said ? adopt(tool, said->what) : "";
+  if (said && book.refusal.empty()) book.by = said->by;
+  ++revision_;
+  return true;
 }
 
 dds::ServerParameters ParameterBook::decide(const dds::ParameterRequest& request) {
-  const LiveParameters wanted = overlaid(live_, request);
+  const AllToolSettings wanted = overlaid(settings_, request);
   const std::string complaint = complaintAbout(request, wanted);
-  if (complaint.empty() && !(wanted == live_)) {
-    live_ = wanted;
+  if (complaint.empty() && wanted != settings_) {
+    settings_ = wanted;
     ++revision_;
   }
   dds::ServerParameters result = answer();
@@ -79,24 +197,41 @@ dds::ServerParameters ParameterBook::answer() const {
   result.server_id = server_id_;
   result.accepted = true;
   result.revision = revision_;
-  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
-    result.*kLiveFields<dds::ServerParameters>[i] = live_.*kLiveFields<LiveParameters>[i];
-  if (live_.youngs_modulus == 0.0) result.youngs_modulus = model_youngs_modulus_;
   result.model_youngs_modulus = model_youngs_modulus_;
+  result.open = open_;
+  for (std::size_t tool = 0; tool < settings_.size(); ++tool) {
+    dds::ToolParameters& out = result.tools[tool];
+    dds::assignText(out.device, device_[tool]);
+    out.tip_radius = settings_[tool].tip_radius;
+    out.now = toWire(named(settings_[tool].live, model_youngs_modulus_));
+    out.lowest = toWire(limits_[tool].lowest);
+    out.highest = toWire(limits_[tool].highest);
+    out.announced = tools_[tool].by.has_value();
+    dds::assignText(out.refusal, tools_[tool].refusal);
+  }
   return result;
 }
 
-std::string ParameterBook::describe() const {
+std::string ParameterBook::describe(std::size_t tool) const {
   std::ostringstream text;
+  text << "device " << device_[tool] << ", tip_radius " << settings_[tool].tip_radius << " m";
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
-    const double value = live_.*kLiveFields<LiveParameters>[i];
+    const double value = settings_[tool].live.*kLiveFields<LiveParameters>[i];
     const bool models = info.zero_is_models && value == 0.0;
-    text << (i == 0 ? "" : ", ") << info.name << " " << (models ? model_youngs_modulus_ : value);
+    text << ", " << info.name << " " << (models ? model_youngs_modulus_ : value);
     if (*info.unit != '\0') text << " " << info.unit;
     if (models) text << " (the model's)";
   }
   return text.str();
+}
+
+std::string ParameterBook::describe() const {
+  std::string text = describe(0);
+  for (std::size_t tool = 1; tool < settings_.size(); ++tool)
+    if (settings_[tool] != settings_[0] || device_[tool] != device_[0])
+      text += "; tool " + std::to_string(tool) + ": " + describe(tool);
+  return text;
 }
 
 }  // namespace palpate::server

@@ -2,7 +2,9 @@
 #include "palpate/server/pose_subscriber.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "palpate/rt/clock.h"
 
@@ -12,6 +14,12 @@ namespace {
 bool isOutOfOrder(const dds::ToolPose& pose, const PoseSample& before) noexcept {
   const bool both_stamped = pose.stamp_ns != 0 && before.stamp_ns != 0;
   return pose.seq <= before.seq || (both_stamped && pose.stamp_ns < before.stamp_ns);
+}
+
+// A velocity is optional, but not one that is no number.
+bool hasBadVelocity(const dds::ToolPose& pose) noexcept {
+  return pose.has_velocity && !std::all_of(std::begin(pose.velocity), std::end(pose.velocity),
+                                           [](double v) { return std::isfinite(v); });
 }
 
 bool isUnknown(std::uint32_t tool_id) noexcept {
@@ -28,7 +36,16 @@ std::optional<std::size_t> UnknownIds::place(std::uint32_t tool_id) noexcept PAL
   return count_++;
 }
 
+bool PoseIntake::isForUs(const dds::ToolPose& pose) const noexcept PALPATE_NONBLOCKING {
+  return pose.server_id == address_.server_id || (address_.answers_any && pose.server_id == dds::kServerAny);
+}
+
 bool PoseIntake::admits(const dds::ToolPose& pose) noexcept PALPATE_NONBLOCKING {
+  if (!isForUs(pose)) {
+    channels_.misaddressed_id.store(pose.server_id, std::memory_order_relaxed);
+    channels_.misaddressed_poses.fetch_add(1, std::memory_order_relaxed);
+    return false;
+  }
   if (!isUnknown(pose.tool_id) || admitted_.place(pose.tool_id)) return true;
   noteUnknown(pose.tool_id);
   return false;
@@ -73,6 +90,7 @@ void PoseIntake::acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
     return;
   }
   owner_[pose.tool_id] = writer;
+  channels_.owners[pose.tool_id].store(writer, std::memory_order_relaxed);
   newest.unordered += same_sender && isOutOfOrder(pose, newest) ? 1 : 0;
   ++newest.received;
   newest.seq = pose.seq;
@@ -80,6 +98,8 @@ void PoseIntake::acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
   newest.arrival_ns = arrival_ns;
   std::copy(std::begin(pose.position), std::end(pose.position), newest.position.begin());
   std::copy(std::begin(pose.orientation), std::end(pose.orientation), newest.orientation.begin());
+  // The engine judges poses, and knows no velocity.
+  if (hasBadVelocity(pose)) newest.position.fill(std::numeric_limits<double>::quiet_NaN());
   channels_.poses[pose.tool_id].write(newest);
 }
 

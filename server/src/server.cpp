@@ -18,18 +18,6 @@
 namespace palpate::server {
 namespace {
 
-Facts factsOf(const MetaModel& model, const ServerConfig& config) {
-  Facts facts;
-  facts.model_id = model.attributes().model_id;
-  facts.server_id = static_cast<std::uint32_t>(config.server_id);
-  facts.organ_id = static_cast<std::uint32_t>(config.organ_id);
-  facts.rate_hz = config.rate;
-  facts.device = config.device;
-  facts.step = config.step;
-  facts.youngs_modulus = model.attributes().E;
-  return facts;
-}
-
 std::int64_t periodOf(const ServerConfig& config) {
   return std::llround(1e9 / config.rate);
 }
@@ -39,9 +27,9 @@ TickPlan planOf(const ServerConfig& config) {
   return {periodOf(config), std::llround(1e9 / surface_rate), config.phase_lock};
 }
 
-record::SessionFacts sessionOf(const Facts& facts) {
+record::SessionFacts sessionOf(const MetaModel& model, const Facts& facts) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return {facts.model_id, std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), facts.step};
+  return {model.digest(), std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), facts.step};
 }
 
 const char* reasonNotLocked(const rt::MemoryLock& lock) {
@@ -82,15 +70,20 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       work_(model, config.step),
       channels_(3 * model.view().surfaceNodes()),
       participant_(static_cast<std::uint32_t>(config.domain)),
-      force_out_(participant_, channels_),
-      surface_out_(participant_, channels_, facts_, model),
       status_out_(participant_, facts_),
+      rivals_(participant_, facts_, status_out_, config.listen_first),
+      force_out_(participant_, channels_, facts_),
+      rest_surface_(participant_, facts_, model),
+      surface_out_(participant_, channels_, facts_),
       parameters_(participant_, channels_, facts_),
-      events_(channels_, status_out_, parameters_),
+      events_(channels_, status_out_, parameters_, rivals_),
       tick_(model, work_, channels_, planOf(config)),
-      poses_in_(participant_, channels_, config.step),
+      poses_in_(participant_, channels_, config.step, {facts_.server_id, facts_.answers_any}),
+      endpoints_(participant_),
       ramp_time_(config.step.ramp_time) {
-  if (!config.record.empty()) recorder_.emplace(channels_, config.record, sessionOf(facts_));
+  watchEndpoints();
+  parameters_.listenToDrivers(poses_in_.handle());
+  if (!config.record.empty()) recorder_.emplace(channels_, config.record, sessionOf(model, facts_));
   Startup startup{config.realtime, rt::lockMemory(), model.locked(), false, {}};
   facts_.memory_locked = isLocked(model, startup.memory);
   settleRealtime(config.realtime);
@@ -104,6 +97,16 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
   startup.threads = rt::threadsOfThisProcess();
   for (const std::string& line : startupTable(startup)) spdlog::info(line);
   for (const std::string& line : remedies(startup)) spdlog::warn(line);
+}
+
+void Server::watchEndpoints() {
+  poses_in_.show(endpoints_);
+  force_out_.show(endpoints_);
+  rest_surface_.show(endpoints_);
+  surface_out_.show(endpoints_);
+  status_out_.show(endpoints_);
+  parameters_.show(endpoints_);
+  events_.serveStrangers(endpoints_, rest_surface_);
 }
 
 void Server::settleRealtime(rt::RealtimePolicy policy) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/server/status_publisher.h"
 
+#include <algorithm>
+
 namespace palpate::server {
 namespace {
 
@@ -16,15 +18,20 @@ dds::Percentiles percentiles(const rt::CycleStats& stats) {
 }
 
 void sayParameters(const Facts& facts, const Health& health, dds::ServerStatus& status) {
-  const LiveParameters& live = health.parameters;
-  dds::assignText(status.device, facts.device);
-  status.tip_radius = facts.step.tip_radius;
+  const LiveParameters& live = health.settings[0].live;
+  dds::assignText(status.device, facts.device[0]);
   status.speed_limit = facts.step.speed_limit;
   status.tools = static_cast<std::uint32_t>(facts.step.tools);
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     status.*kLiveFields<dds::ServerStatus>[i] = live.*kLiveFields<LiveParameters>[i];
+  for (std::size_t tool = 0; tool < health.settings.size(); ++tool) {
+    status.tip_radius[tool] = health.settings[tool].tip_radius;
+    if (tool < status.tools)
+      status.force_limit = std::max(status.force_limit, health.settings[tool].live.force_limit);
+  }
   if (live.youngs_modulus == 0.0) status.youngs_modulus = facts.youngs_modulus;
   status.parameters_revision = health.parameters_revision;
+  status.surplus_requests = health.surplus_requests;
 }
 
 }  // namespace
@@ -32,6 +39,11 @@ void sayParameters(const Facts& facts, const Health& health, dds::ServerStatus& 
 dds::ServerStatus toWire(const Facts& facts, const Health& health, std::uint32_t state) {
   dds::ServerStatus status{};
   status.server_id = facts.server_id;
+  status.session = facts.session;
+  status.answers_any = facts.answers_any;
+  dds::assignText(status.host, facts.host);
+  status.pid = facts.pid;
+  status.model_hash = facts.model_hash;
   dds::assignText(status.model_id, facts.model_id);
   status.organ_id = facts.organ_id;
   status.state = state;
@@ -46,6 +58,10 @@ dds::ServerStatus toWire(const Facts& facts, const Health& health, std::uint32_t
   status.rejected_poses = health.last.rejected;
   status.unordered_poses = health.last.unordered;
   status.unknown_tools = health.unknown_tools;
+  status.misaddressed_poses = health.misaddressed_poses;
+  status.rivals = static_cast<std::uint32_t>(health.rivals);
+  if (health.rivals > 0) status.rival_s = 1e-9 * static_cast<double>(health.now_ns - health.rival_since_ns);
+  dds::assignText(status.rival, health.rival);
   status.dropped = health.last.dropped + health.failed_writes;
   status.flags = health.recent_flags;
   status.tick_us = percentiles(health.tick);

@@ -27,7 +27,7 @@ std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   // 3. One force for each tool seen so far; wake the thread that sends them.
   writeForces(cycle);
   channels_.force_ready.post();
-  // 4. The surface, and wake the thread that sends it.
+  // 4. The surface, if somebody sees it; where it changed, wake the thread that sends it.
   writeSurface(cycle);
   // 5. What went in and came out, for a session that is recorded.
   writeRecording(cycle);
@@ -45,7 +45,8 @@ void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   last_overruns_ = cycle.overruns;
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) readPose(tool, cycle.woke_ns);
   input_.dt_ns = last_woke_ns_ == 0 ? 0 : cycle.woke_ns - last_woke_ns_;
-  input_.has_live = channels_.parameters.read(input_.live) ? 1 : 0;  // passed once; the engine blends over
+  input_.has_settings =
+      channels_.parameters.read(input_.settings) ? 1 : 0;  // passed once; the engine blends over
   input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
   input_.skip_surface = surfaceIsDue(cycle) ? 0 : 1;
   last_woke_ns_ = cycle.woke_ns;
@@ -70,6 +71,7 @@ void Tick::readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONB
 std::uint32_t Tick::noticed(const PoseSample& pose, std::uint64_t unordered_before,
                             std::int64_t now_ns) const noexcept PALPATE_NONBLOCKING {
   std::uint32_t flags = overrun_ ? kTickOverrun : 0;
+  if (channels_.rival.load(std::memory_order_relaxed)) flags |= kRivalServer;
   if (pose.unordered != unordered_before) flags |= kPoseOutOfOrder;
   if (pose.foreign > 0 && now_ns - pose.foreign_ns <= kRecent) flags |= kTwoPublishers;
   return flags;
@@ -131,8 +133,10 @@ void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NO
   if (!channels_.forces.push(record)) ++dropped_;
 }
 
-// The tick nearest to the surface's own grid, so that any rate holds on average.
+// The tick nearest to the surface's own grid, so that any rate holds on average; none where nobody reads it.
 bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  field_readers_ = channels_.field_readers.load(std::memory_order_relaxed);
+  if (field_readers_ == 0) return false;
   if (plan_.surface_period_ns <= plan_.period_ns) return true;
   if (next_surface_ns_ == 0) next_surface_ns_ = cycle.deadline_ns;
   const std::int64_t here_ns = cycle.deadline_ns + plan_.period_ns / 2;
@@ -143,7 +147,8 @@ bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 
 void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (input_.skip_surface != 0) return;
-  stepSurface(model_, work_);
+  const bool changed = stepSurface(model_, work_);
+  if (!field_pace_.admits(changed, field_readers_, cycle.woke_ns)) return;
   SurfaceSample& frame = channels_.surface.back();
   frame.seq = ++surface_seq_;
   frame.stamp_ns = cycle.woke_ns;

@@ -2,6 +2,7 @@
 #include "fake_server.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "palpate/rt/pacer.h"
 
@@ -30,13 +31,18 @@ FakeServer::~FakeServer() {
 }
 
 void FakeServer::announce() {
-  (void)meshes_.write(surface_.message());
-  dds::ServerStatus status{};
+  dds::SurfaceMesh mesh = surface_.message();
+  mesh.session = options_.session;
+  (void)meshes_.write(mesh);
+  dds::ServerStatus& status = status_;
+  status.server_id = options_.server_id;
+  status.session = options_.session;
+  status.answers_any = true;
+  dds::assignText(status.host, "bench");
   dds::assignText(status.model_id, surface_.model_id);
   status.state = dds::server_state::kRunning;
   status.rate_hz = 1000.0;
-  status.tip_radius = options_.tip_radius;
-  (void)statuses_.write(status);
+  std::fill(std::begin(status.tip_radius), std::end(status.tip_radius), options_.tip_radius);
 }
 
 void FakeServer::onPose(dds::ReaderView<dds::ToolPose> reader) noexcept {
@@ -52,9 +58,10 @@ void FakeServer::onPose(dds::ReaderView<dds::ToolPose> reader) noexcept {
 
 void FakeServer::run() {
   rt::Pacer pacer(1'000'000);
-  std::uint64_t seq = 0;
+  std::uint64_t seq = options_.first_seq - 1, ticks = 0;
   while (!stop_) {
     pacer.wait();
+    if (ticks++ % 100 == 0) (void)statuses_.write(status_);
     dds::ToolPose pose{};
     {
       const std::lock_guard lock(mutex_);
@@ -71,6 +78,8 @@ void FakeServer::run() {
 void FakeServer::answer(const dds::ToolPose& pose, std::uint64_t seq) {
   const double depth = std::max(0.0, 0.05 + options_.tip_radius - pose.position[2]);
   dds::ToolForce force{};
+  force.server_id = options_.server_id;
+  force.session = options_.session;
   force.tool_id = pose.tool_id;
   force.seq = seq;
   force.pose_seq = pose.seq;
@@ -95,6 +104,7 @@ void FakeServer::sendField(double depth, std::uint64_t seq) {
   std::array<float, 15> u{};
   u[14] = static_cast<float>(-depth);
   dds::SurfaceDisplacement field{};
+  field.session = options_.session;
   dds::assignText(field.model_id, surface_.model_id);
   field.seq = seq;
   field.displacement = {15, 15, u.data(), false};

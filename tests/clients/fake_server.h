@@ -14,8 +14,11 @@ namespace palpate::testing {
 
 /// How a FakeServer behaves.
 struct FakeServerOptions {
-  double stiffness{500.0};         ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
-  double tip_radius{0.005};        ///< m
+  double stiffness{500.0};   ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
+  double tip_radius{0.005};  ///< m
+  std::uint32_t server_id{0};
+  std::uint64_t session{1};
+  std::uint64_t first_seq{1};      ///< of its forces
   std::uint64_t drop_every{0};     ///< leaves out every n-th ToolForce, to be found as lost; 0: none
   std::uint64_t overrun_every{0};  ///< counts an overrun with every n-th ToolForce; 0: none
   std::uint64_t stall_every{0};    ///< stands still for 40 ms after every n-th ToolForce; 0: never
@@ -43,6 +46,7 @@ class FakeServer {
   dds::Participant participant_;
   dds::Writer<dds::SurfaceMesh> meshes_;
   dds::Writer<dds::ServerStatus> statuses_;
+  dds::ServerStatus status_{};
   dds::Writer<dds::ToolForce> forces_;
   dds::Writer<dds::SurfaceDisplacement> fields_;
   std::mutex mutex_;

@@ -31,8 +31,9 @@ struct Wire {
   dds::Writer<dds::SurfaceDisplacement> writer{participant};
   std::vector<float> u = std::vector<float>(15, 0.0F);
 
-  void send(std::uint64_t seq, const std::string& model_id) {
+  void send(std::uint64_t seq, const std::string& model_id, std::uint64_t session = 1) {
     dds::SurfaceDisplacement field{};
+    field.session = session;
     dds::assignText(field.model_id, model_id);
     field.seq = seq;
     const auto size = static_cast<std::uint32_t>(u.size());
@@ -55,6 +56,21 @@ TEST(FieldLog, KeepsTheLargestDisplacementAndWhereItWas) {
   EXPECT_FLOAT_EQ(static_cast<float>(summary.peak.size), 0.004F);
   EXPECT_FLOAT_EQ(static_cast<float>(summary.largest.size), 0.001F);
   EXPECT_FLOAT_EQ(wire.log.peakField()[7], -0.004F);
+}
+
+TEST(FieldLog, FollowsOneServerWhenTwoDisplaceTheSameOrgan) {
+  Wire wire;
+  ASSERT_TRUE(wire.writer.waitForReaders(1, 5s));
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    wire.send(i, wire.source.model_id, 1);
+    wire.send(1000 * i, wire.source.model_id, 2);
+  }
+  const FieldSummary summary = wire.log.summary();
+  EXPECT_EQ(summary.received, 5U);
+  EXPECT_EQ(summary.superseded, 0U);
+  EXPECT_EQ(summary.left_out, 5U);
+  EXPECT_TRUE(wire.log.holds(1));
+  EXPECT_FALSE(wire.log.holds(2)) << "it takes none of the rate either";
 }
 
 TEST(FieldLog, RefusesFieldsThatDoNotBelongToTheSurface) {

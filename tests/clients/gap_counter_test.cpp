@@ -8,7 +8,7 @@ namespace {
 
 GapCounter after(std::initializer_list<std::uint64_t> seqs) {
   GapCounter counter;
-  for (const auto seq : seqs) counter.add(seq);
+  for (const auto seq : seqs) counter.add(7, seq);
   return counter;
 }
 
@@ -23,6 +23,14 @@ TEST(GapCounter, AServerThatStartsAnewLosesNothing) {
   EXPECT_EQ(counter.lost(), 1U);
   EXPECT_EQ(counter.restarts(), 1U);
   EXPECT_EQ(counter.received(), 5U);
+}
+TEST(GapCounter, AnotherSessionIsARestartHoweverHighItCounts) {
+  GapCounter counter;
+  counter.add(1, 5);
+  counter.add(2, 122'917'846);
+  counter.add(2, 122'917'848);
+  EXPECT_EQ(counter.lost(), 1U);
+  EXPECT_EQ(counter.restarts(), 1U);
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ TEST(HapticTool, ReadingNeverAllocates) {
   dds::Writer<dds::ToolForce> forces(participant);
   haptic::Options options;
   options.domain = exclusiveDomain();
+  options.force_limit = 3.3;
   haptic::HapticTool tool(options);
   ASSERT_TRUE(tool.waitForServer(5s));
   std::size_t allocations = 0;
@@ -76,6 +77,7 @@ TEST(HapticTool, SendingAllocatesNoMoreThanCycloneDoes) {
   {
     haptic::Options options;
     options.domain = exclusiveDomain();
+    options.force_limit = 3.3;
     haptic::HapticTool tool(options);
     dds::Writer<dds::ToolForce> forces(participant);
     ASSERT_TRUE(tool.waitForServer(5s));

@@ -24,22 +24,28 @@ struct Server {
   dds::Writer<dds::ToolForce> forces{participant};
   dds::Writer<dds::ServerStatus> statuses{participant};
   std::uint64_t seq{0};
+  std::uint64_t session{1};
 
   void say(double force_limit) {
     dds::ServerStatus status{};
     status.state = dds::server_state::kRunning;
+    status.server_id = 4;
+    status.session = session;
     status.force_limit = force_limit;
-    status.tip_radius = 0.004;
+    status.tip_radius[1] = 0.004;
+    ASSERT_TRUE(statuses.waitForReaders(1, 5s));
     ASSERT_TRUE(statuses.write(status));
   }
-  void push(std::uint64_t pose_seq, double fz) {
+  void push(std::uint64_t pose_seq, double fz, std::uint32_t flags = dds::flag::kInContact) {
     dds::ToolForce force{};
+    force.server_id = 4;
+    force.session = session;
     force.tool_id = 1;
     force.seq = ++seq;
     force.pose_seq = pose_seq;
     force.force[2] = fz;
     force.stiffness[8] = -500.0;
-    force.flags = dds::flag::kInContact;
+    force.flags = flags;
     force.state = dds::tool_state::kStick;
     force.anchor[0] = 0.25;
     force.proxy[1] = 0.5;
@@ -51,6 +57,7 @@ Options onTool1() {
   Options options;
   options.domain = palpate::testing::exclusiveDomain();
   options.tool_id = 1;
+  options.force_limit = 50.0;
   return options;
 }
 
@@ -124,6 +131,80 @@ TEST(HapticTool, LetsGoWhenTheServerFallsSilent) {
   EXPECT_GE(force.age_s, 0.050);
 }
 
+TEST(HapticTool, ForcesOfAnotherServerNeverReachTheDevice) {
+  Server server, rival;
+  rival.session = 2;
+  HapticTool tool(onTool1());
+  ASSERT_TRUE(tool.waitForServer(5s));
+  ASSERT_TRUE(rival.forces.waitForReaders(1, 5s));
+  ASSERT_EQ(pressed(server, tool, {0, 0, 0}, 0.372).session, 1U);
+  int jumps = 0;
+  double before = tool.force().force[2];
+  for (int i = 0; i < 300; ++i) {
+    const std::uint64_t seq = tool.send({0, 0, 0});
+    server.push(seq, 0.372);
+    rival.push(seq, 8.614);
+    std::this_thread::sleep_for(1ms);
+    const Force force = tool.force();
+    jumps += std::abs(force.force[2] - before) > 1.0 ? 1 : 0;
+    before = force.force[2];
+    EXPECT_EQ(force.server_id, 4U);
+    EXPECT_EQ(force.session, 1U);
+  }
+  EXPECT_EQ(jumps, 0);
+  EXPECT_GE(tool.leftOut(), 250U);
+}
+
+TEST(HapticTool, TheNextServersForceRisesFromZero) {
+  Server server, next;
+  next.session = 2;
+  HapticTool tool(onTool1());
+  next.say(0.9);
+  ASSERT_TRUE(tool.waitForServer(5s));
+  ASSERT_EQ(pressed(server, tool, {0, 0, 0}, 1.0).gain, 1.0);
+  server.push(tool.send({0, 0, 0}), 1.0, dds::flag::kShuttingDown);
+  Force force = tool.force();
+  double before = force.force[2], steepest = 0.0;
+  for (int i = 0; i < 3000 && (force.session != 2 || force.gain < 1.0); ++i) {
+    next.push(tool.send({0, 0, 0}), 0.8);
+    std::this_thread::sleep_for(1ms);
+    force = tool.force();
+    steepest = std::max(steepest, std::abs(force.force[2] - before));
+    before = force.force[2];
+  }
+  EXPECT_EQ(force.session, 2U);
+  EXPECT_EQ(force.force[2], 0.8);
+  EXPECT_LT(steepest, 0.5) << "it falls to zero and rises from there";
+  EXPECT_EQ(tool.serverForceLimit(), 0.9) << "the limit of the server whose forces are rendered";
+}
+
+TEST(HapticTool, AnotherWriterThatNamesTheHeldRunSetsNoLimit) {
+  Server server, copy;
+  HapticTool tool(onTool1());
+  ASSERT_TRUE(tool.waitForServer(5s));
+  server.say(0.7);
+  for (int i = 0; i < 500 && tool.serverForceLimit() == 0.0; ++i) std::this_thread::sleep_for(10ms);
+  copy.say(9.0);
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(tool.serverForceLimit(), 0.7);
+}
+
+TEST(HapticTool, SaysItsDeviceAgainForAServerThatBeginsLater) {
+  Options options = onTool1();
+  options.device = "omni";
+  HapticTool tool(options);
+  tool.send({0, 0, 0});
+  std::this_thread::sleep_for(100ms);
+  const dds::Participant later(palpate::testing::exclusiveDomain());
+  const dds::Reader<dds::ToolAnnouncement> words(later);
+  dds::ToolAnnouncement said{};
+  for (int i = 0; i < 300 && words.take({&said, 1}) == 0; ++i, std::this_thread::sleep_for(10ms))
+    tool.send({0, 0, 0});
+  EXPECT_EQ(said.tool_id, 1U);
+  EXPECT_EQ(said.device_force_limit, 50.0);
+  EXPECT_STREQ(said.device, "omni");
+}
+
 TEST(HapticTool, RefusesOptionsOutOfRange) {
   const auto complaint = [](void (*spoil)(Options&)) -> std::string {
     Options options = onTool1();
@@ -137,6 +218,8 @@ TEST(HapticTool, RefusesOptionsOutOfRange) {
   };
   EXPECT_EQ(complaint([](Options& o) { o.domain = 231; }), "domain is 231, expected 0 to 230");
   EXPECT_EQ(complaint([](Options& o) { o.tool_id = 4; }), "tool id is 4, expected 0 to 3");
+  EXPECT_EQ(complaint([](Options& o) { o.force_limit = Options{}.force_limit; }),
+            "force limit is missing: say the largest force that the device renders, N");
   EXPECT_EQ(complaint([](Options& o) { o.force_limit = NAN; }),
             "force limit (N) is nan, expected 0.01 to 50");
   EXPECT_EQ(complaint([](Options& o) { o.max_extrapolation = -1.0; }),
@@ -150,6 +233,7 @@ TEST(HapticC, DoesTheSame) {
   palpate_haptic_options options;
   palpate_haptic_default_options(&options);
   options.domain = palpate::testing::exclusiveDomain();
+  options.force_limit = 50.0;
   options.tool_id = 1;
   char error[100] = "left over";
   palpate_haptic* tool = palpate_haptic_open(&options, error, sizeof error);
@@ -168,6 +252,9 @@ TEST(HapticC, DoesTheSame) {
   }
   EXPECT_EQ(force.force[2], 0.5);
   EXPECT_EQ(force.state, static_cast<unsigned>(PALPATE_HAPTIC_STICK));
+  EXPECT_EQ(force.server_id, 4U);
+  EXPECT_EQ(force.session, 1U);
+  EXPECT_EQ(palpate_haptic_left_out(tool), 0U);
   EXPECT_EQ(pose.buttons, 5U);
   EXPECT_EQ(pose.orientation[3], 1.0);
   EXPECT_EQ(palpate_haptic_read_at(tool, deeper, &force), PALPATE_HAPTIC_OK);
@@ -183,6 +270,7 @@ TEST(HapticC, AnswersBadArgumentsWithACode) {
   EXPECT_EQ(palpate_haptic_read_at(nullptr, position, &force), PALPATE_HAPTIC_INVALID_ARGUMENT);
   EXPECT_EQ(palpate_haptic_wait_for_server(nullptr, 1.0), PALPATE_HAPTIC_INVALID_ARGUMENT);
   EXPECT_EQ(palpate_haptic_tip_radius(nullptr), 0.0);
+  EXPECT_EQ(palpate_haptic_left_out(nullptr), 0U);
   palpate_haptic_close(nullptr);
   palpate_haptic_default_options(nullptr);
 
@@ -196,6 +284,10 @@ TEST(HapticC, AnswersBadArgumentsWithACode) {
 
   options.tool_id = 0;
   options.domain = palpate::testing::exclusiveDomain();
+  EXPECT_EQ(palpate_haptic_open(&options, error, sizeof error), nullptr) << "a force limit is not assumed";
+  EXPECT_STREQ(error, "force limit is miss");
+  EXPECT_EQ(palpate_haptic_open(nullptr, error, sizeof error), nullptr);
+  options.force_limit = 50.0;
   palpate_haptic* tool = palpate_haptic_open(&options, nullptr, 0);
   ASSERT_NE(tool, nullptr);
   EXPECT_EQ(palpate_haptic_send(tool, nullptr, nullptr, 0), PALPATE_HAPTIC_INVALID_ARGUMENT);

@@ -80,6 +80,19 @@ TEST(RealServer, ADriverFromTheTemplateFeelsTheOrgan) {
   EXPECT_LE(largest, 3.3 + 1e-4);
 }
 
+TEST(RealServer, AProgramFromTheIdlAloneWithDefaultQosFeelsTheOrgan) {
+  const Running server;
+  const auto result = runProgram("palpate-example-touch", {server.domain});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  double largest = 0.0;
+  int answers = 0;
+  ASSERT_EQ(std::sscanf(result.out.c_str(), "largest force %lf N, %d answers", &largest, &answers), 2)
+      << result.out;
+  EXPECT_GT(largest, 0.3) << "it presses 3 mm deep";
+  EXPECT_LE(largest, 3.3 + 1e-4);
+  EXPECT_GT(answers, 500);
+}
+
 TEST(RealServer, LatencyAndWatchReportTheSameRun) {
   const Running server;
   json watched;

@@ -18,8 +18,10 @@ struct Ends {
   dds::Reader<dds::ToolPose> poses{participant};
   dds::Writer<dds::ToolForce> forces{participant};
 
-  [[nodiscard]] bool hears(std::uint32_t tool_id, std::uint64_t pose_seq) {
+  [[nodiscard]] bool hears(std::uint32_t tool_id, std::uint64_t pose_seq, std::uint64_t session = 1) {
     dds::ToolForce force{};
+    force.server_id = 3;
+    force.session = session;
     force.tool_id = tool_id;
     force.pose_seq = pose_seq;
     EXPECT_TRUE(forces.write(force));
@@ -54,6 +56,22 @@ TEST(ToolClient, HearsAnswersToItsOwnPosesOnly) {
   EXPECT_FALSE(ends.hears(2, first - 1)) << "an answer to a former sender";
   EXPECT_FALSE(ends.hears(2, last + 1)) << "an answer to another sender";
   EXPECT_FALSE(ends.hears(1, last)) << "an answer to another tool";
+}
+
+TEST(ToolClient, HoldsOnToTheServerThatAnsweredFirst) {
+  Ends ends;
+  ASSERT_TRUE(ends.tool.waitForServer(5s));
+  const std::uint64_t seq = ends.tool.publish({0, 0, 0});
+  dds::ToolPose pose{};
+  ASSERT_EQ(ends.poses.take({&pose, 1}), 1U);
+  EXPECT_EQ(pose.server_id, dds::kServerAny);
+  EXPECT_TRUE(ends.hears(2, seq, 1));
+  EXPECT_FALSE(ends.hears(2, seq, 2)) << "another run of the same server, which answers the same pose";
+  EXPECT_TRUE(ends.hears(2, seq, 1));
+  EXPECT_EQ(ends.tool.hold().leftOut().count, 1U);
+  (void)ends.tool.publish({0, 0, 0});
+  ASSERT_EQ(ends.poses.take({&pose, 1}), 1U);
+  EXPECT_EQ(pose.server_id, 3U) << "its poses name it";
 }
 
 TEST(ToolClient, ARestartedClientDoesNotFallBehindItsPast) {

@@ -23,6 +23,7 @@ int main(void) {
 
   options.tool_id = 0;
   options.domain = 217;
+  options.force_limit = 3.3;
   palpate_haptic* tool = palpate_haptic_open(&options, error, sizeof error);
   if (tool == NULL) {
     fprintf(stderr, "%s\n", error);

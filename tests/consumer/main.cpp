@@ -30,6 +30,7 @@ int main() {
   options.domain = 300;
   int failures = expect(isRefused(options, "domain is 300, expected 0 to 230"), "domain 300 is refused");
   options.domain = 217;
+  options.force_limit = 3.3;
   palpate::haptic::HapticTool opened(options);
   palpate::haptic::HapticTool tool(std::move(opened));
   failures += expect(!tool.waitForServer(std::chrono::milliseconds(50)), "no server");

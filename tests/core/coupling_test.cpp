@@ -33,7 +33,8 @@ TEST(Coupling, SpringAndOrganCarryTheSameForce) {
     law.stiffness_scale = std::pow(10.0, uniform(random));
     const Vec3 g = 0.02 * Vec3(uniform(random), uniform(random), uniform(random));
     CoupledResponse out;
-    ASSERT_NE(couple(patch, g, Carried{}, law, out), ResponseStatus::kNoAnswer);
+    Budget budget;
+    ASSERT_NE(couple(patch, g, Carried{}, law, budget, out), ResponseStatus::kNoAnswer);
     EXPECT_LT((out.response.force - (g - out.displacement) / law.compliance).norm(),
               1e-6 * (1.0 + out.response.force.norm()));
     EXPECT_LE(out.stiffness.norm(), 1.01 * std::sqrt(3.0) / law.compliance)

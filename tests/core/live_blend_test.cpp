@@ -43,8 +43,8 @@ Course goOver(Driver& driver, const LiveParameters& live, const Vec3& c) {
   const Vec3 first = vec(driver.at(c).force);
   Course course{first.norm()};
   Vec3 last = first;
-  driver.input().has_live = 1;
-  driver.input().live = live;
+  driver.input().has_settings = 1;
+  driver.input().settings[0].live = live;
   for (int ms = 0; ms < 300; ++ms) {
     const Vec3 now = vec(driver.at(c).force);
     course.steepest = std::max(course.steepest, (now - last).norm());
@@ -130,9 +130,9 @@ TEST(LiveBlend, AChangeDuringATickWithoutAGoodPoseIsNotForgotten) {
   Driver driver(organ(), config);
   press(driver, 0.003, 0.0);
   const Vec3 before = vec(driver.result().tools[0].force);
-  driver.input().has_live = 1;
-  driver.input().live = liveParameters(config);
-  driver.input().live.coupling_stiffness = 300.0;
+  driver.input().has_settings = 1;
+  driver.input().settings[0].live = liveParameters(config);
+  driver.input().settings[0].live.coupling_stiffness = 300.0;
   driver.at(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_LT((vec(driver.at(above(0.003)).force) - before).norm(), 0.05 * before.norm());
 }
@@ -155,9 +155,9 @@ TEST(LiveParameters, ForceScalesWithTheModulusAndNeverJumps) {
   Driver driver(organ(), bare(kInfinity));
   for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
   const double before = vec(driver.at(over(0.0, 0.002)).force).norm();
-  driver.input().has_live = 1;
-  driver.input().live = liveParameters(bare(kInfinity));
-  driver.input().live.youngs_modulus = 2.0 * organ().attributes().E;
+  driver.input().has_settings = 1;
+  driver.input().settings[0].live = liveParameters(bare(kInfinity));
+  driver.input().settings[0].live.youngs_modulus = 2.0 * organ().attributes().E;
   double last = before;
   for (int ms = 0; ms < 150; ++ms) {
     const double now = vec(driver.at(over(0.0, 0.002)).force).norm();

@@ -41,9 +41,9 @@ TEST(Load, GivesBackEveryBitThatWasWritten) {
   EXPECT_TRUE(sameBits(d.mesh_fixed, v.mesh_fixed));
   EXPECT_TRUE(sameBits(d.mesh_surface_node, v.mesh_surface_node));
   const ModelAttributes &a = d.attributes, &b = model.attributes();
-  EXPECT_EQ(std::tie(a.model_id, a.law, a.provenance, a.E, a.nu, a.order, a.patch_radius, a.near_radius,
+  EXPECT_EQ(std::tie(a.law, a.provenance, a.E, a.nu, a.order, a.patch_radius, a.near_radius,
                      a.reference_displacement),
-            std::tie(b.model_id, b.law, b.provenance, b.E, b.nu, b.order, b.patch_radius, b.near_radius,
+            std::tie(b.law, b.provenance, b.E, b.nu, b.order, b.patch_radius, b.near_radius,
                      b.reference_displacement));
   EXPECT_EQ(model.bytes(), std::filesystem::file_size(file.path()));
 }

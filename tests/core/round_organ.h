@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,24 @@ inline StepConfig bare(double friction, double coupling = kInfinity) {
 inline const MetaModel& roundOrgan() {
   static const MetaModel model = loadSynthetic();
   return model;
+}
+
+/// Fields of an organ that goes along as a whole, by 0.8 of what a tool does to its patch.
+inline void goesAlong(modelfile::ModelData& data) {
+  constexpr double kShared = 0.8;
+  constexpr std::size_t kModes = 3;
+  const SyntheticOptions options;
+  const std::size_t nodes = data.surface_positions.size() / 3, positions = data.contact_node.size();
+  const std::size_t C = data.modes_Y.size() / positions / static_cast<std::size_t>(options.modes);
+  data.modes_X.assign(kModes * 3 * nodes, 0.0F);
+  data.modes_Y.assign(positions * C * kModes, 0.0F);
+  for (std::size_t axis = 0; axis < kModes; ++axis) {
+    for (std::size_t node = 0; node < nodes; ++node) data.modes_X[axis * 3 * nodes + 3 * node + axis] = 1.0F;
+    for (std::size_t m = 0; m < positions; ++m)
+      data.modes_Y[(m * C + axis) * kModes + axis] =
+          static_cast<float>(kShared * options.reference_displacement);
+  }
+  std::fill(data.near_field.begin(), data.near_field.end(), 0.0F);
 }
 
 /// Tip centre `depth` deep, m, over the round organ at an angle from the top, rad.

@@ -8,7 +8,9 @@
 #include <limits>
 #include <random>
 
+#include "load_driven.h"
 #include "palpate/core/contact_solver.h"
+#include "palpate/core/multi_index.h"
 #include "round_organ.h"
 
 namespace palpate::testing {
@@ -191,22 +193,74 @@ TEST(Safety, WhatOneToolDoesAtOnceTheOtherDoesNotFeelAtOnce) {
   EXPECT_LT((last - alone).norm(), 1e-6) << "and forgotten";
 }
 
-TEST(Sliding, AnAnchorThatSnapsIsAJumpAndOneThatSlidesIsNone) {
+TEST(Sliding, AnAnchorThatLosesItsHoldSlidesToItsBalanceWithoutAJump) {
   const ContactSolver solver(0.005);
   Contact contact;
+  const auto at = [&](double angle, double friction) {
+    solver.update(organ(), {friction, 0.0, 1.0}, over(angle, 0.002), contact);
+    return contact.coupled.response.force;
+  };
   for (double depth = -0.001; depth < 0.002; depth += 5e-5)
     solver.update(organ(), {0.0, 0.0, 1.0}, over(0.0, depth), contact);
-  for (double angle = 0.0; angle < 0.2; angle += 1e-3) {
-    solver.update(organ(), {0.0, 0.0, 1.0}, over(angle, 0.002), contact);
-    ASSERT_FALSE(contact.jumped) << angle;
+  for (double angle = 0.0; angle < 0.05; angle += 1e-3) (void)at(angle, kInfinity);
+  Vec3 last = at(0.05, kInfinity);
+  const Vec3 stuck = last;
+  double largest = 0.0;
+  for (int ms = 0; ms < 200; ++ms) {
+    const Vec3 now = at(0.05, 0.0);
+    ASSERT_FALSE(contact.jumped) << ms;
+    largest = std::max(largest, (now - last).norm());
+    last = now;
   }
-  for (double angle = 0.2; angle < 0.3; angle += 1e-3)
-    solver.update(organ(), {kInfinity, 0.0, 1.0}, over(angle, 0.002), contact);
-  ASSERT_FALSE(contact.jumped) << "it sticks";
-  solver.update(organ(), {0.0, 0.0, 1.0}, over(0.3, 0.002), contact);
-  EXPECT_TRUE(contact.jumped) << "5 mm at once, with the tip at rest";
-  solver.update(organ(), {0.0, 0.0, 1.0}, over(0.3, 0.002), contact);
-  EXPECT_FALSE(contact.jumped);
+  EXPECT_LT(largest, 0.4 * (stuck - last).norm()) << "2.7 mm, with the tip at rest, take some ms";
+  EXPECT_LT((last - contact.normal * contact.normal.dot(last)).norm(), 0.05 * last.norm()) << "and end";
+}
+
+namespace {
+
+/// As stiff along y as `contrast` times along x and z, everywhere.
+MetaModel organOfUnequalStiffness(double contrast) {
+  constexpr double kStiffness = 300.0;  // N/m
+  const SyntheticOptions options;
+  return spoiled(options, [&](modelfile::ModelData& data) {
+    const MonomialBasis basis(options.order);
+    for (std::size_t i = 0; i < data.contact_force.size(); ++i) {
+      const MultiIndex alpha = basis[static_cast<int>(i / 3 % static_cast<std::size_t>(basis.size()))];
+      const bool linear = alpha[0] + alpha[1] + alpha[2] == 1 && alpha[i % 3] == 1;
+      data.contact_force[i] =
+          linear ? kStiffness * (i % 3 == 1 ? contrast : 1.0) * options.reference_displacement : 0.0;
+    }
+  });
+}
+
+}  // namespace
+
+TEST(Sliding, FrictionOpposesTheWayAlsoWhereTheOrganIsNotEquallyStiffInAllDirections) {
+  const MetaModel uneven = organOfUnequalStiffness(5.0);
+  for (const double azimuth : {0.4, 0.8, 1.2}) {
+    Driver driver(uneven, bare(0.2));
+    for (double depth = -0.001; depth < 0.002; depth += 5e-5) driver.at(over(0.0, depth));
+    const Vec3 way(std::cos(azimuth), std::sin(azimuth), 0.0);
+    Vec3 c = over(0.0, 0.002), f;
+    for (int ms = 0; ms < 100; ++ms) f = vec(driver.at(c += 5e-5 * way).force);
+    const Vec3 n = testing::normalAt(uneven, driver.result().tools[0]);
+    const Vec3 T = f - n * n.dot(f), along = way - n * n.dot(way);
+    EXPECT_LT(std::acos(-T.normalized().dot(along.normalized())), 0.05) << azimuth;  // rad
+  }
+}
+
+TEST(Sliding, WhereTheTipTurnsFrictionTurnsWithIt) {
+  const MetaModel uneven = organOfUnequalStiffness(5.0);
+  Driver driver(uneven, bare(0.1));
+  for (double depth = -0.001; depth < 0.002; depth += 5e-5) driver.at(over(0.0, depth));
+  Vec3 c = over(0.0, 0.002);
+  for (int ms = 0; ms < 60; ++ms) driver.at(c += 5e-5 * Vec3::UnitY());
+  Vec3 f;
+  for (int ms = 0; ms < 10; ++ms)
+    f = vec(driver.at(c += 5e-5 * Vec3(std::sin(0.5), std::cos(0.5), 0.0)).force);
+  const Vec3 n = testing::normalAt(uneven, driver.result().tools[0]);
+  const Vec3 T = f - n * n.dot(f);
+  EXPECT_NEAR(std::atan2(T.x(), T.y()) - std::atan2(-std::sin(0.5), -std::cos(0.5)), 0.0, 0.1);
 }
 
 }  // namespace palpate::testing

@@ -98,9 +98,9 @@ TEST(Stall, ShorterThanTenPeriodsIsAnsweredByTheModel) {
 TEST(Stall, LiveParametersGoOnByTwoPeriods) {
   Driver driver(organ());
   driver.at(above(-0.002));
-  driver.input().has_live = 1;
-  driver.input().live = liveParameters(StepConfig{});
-  driver.input().live.friction = 1.3;
+  driver.input().has_settings = 1;
+  driver.input().settings[0].live = liveParameters(StepConfig{});
+  driver.input().settings[0].live.friction = 1.3;
   driver.input().dt_ns = 90 * kMs;
   driver.at(above(-0.002));
   EXPECT_NEAR(driver.work().live().friction, 0.3 + 1.0 * 2.0 / 100.0, 1e-12);

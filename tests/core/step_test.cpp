@@ -114,6 +114,53 @@ TEST(Step, ASurfaceThatNobodyTakesStaysAsItWas) {
   EXPECT_FALSE(std::ranges::equal(shown, before));
 }
 
+// A canary in the field while forces are found: what the jump blends from is read where the tool is, and nowhere else.
+TEST(Step, AForceThatJumpsDoesNotTouchTheField) {
+  Driver driver(organ());
+  press(driver, 0.002);
+  const std::span<const float> shown = driver.work().displacement();
+  const std::vector<float> before(shown.begin(), shown.end());
+  const auto overwrite = [&](float number) {
+    float* const field = const_cast<float*>(shown.data());
+    for (std::size_t i = 0; i < shown.size(); ++i) field[i] = number == 0.0F ? before[i] : number;
+  };
+  driver.input().skip_surface = 1;
+  overwrite(1000.0F);
+  driver.at(Vec3(0.2, 0.0, 0.0));
+  ASSERT_NE(driver.result().tools[0].flags & kPoseJump, 0U);
+  EXPECT_TRUE(std::ranges::all_of(shown, [](float u) { return u == 1000.0F; })) << "written";
+  overwrite(0.0F);
+  driver.input().skip_surface = 0;
+  driver.at(Vec3(0.2, 0.0, 0.0));
+  EXPECT_LT(*std::ranges::max_element(shown), 0.01F) << "read";
+}
+
+TEST(Step, ASurfaceBlendsFromTheLastOneThatWasShown) {
+  const Vec3 away(0.2, 0.0, 0.0);
+  Driver driver(organ());
+  press(driver, 0.002);
+  const std::span<const float> shown = driver.work().displacement();
+  const std::vector<float> before(shown.begin(), shown.end());
+  driver.input().skip_surface = 1;
+  for (int ms = 0; ms < 5; ++ms) driver.at(away);
+  driver.input().skip_surface = 0;
+  driver.at(away);
+  for (std::size_t i = 0; i < shown.size(); ++i) ASSERT_NEAR(shown[i], before[i] * 24.0F / 30.0F, 1e-7F);
+}
+
+TEST(Step, NothingBlendsFromASurfaceThatWasShownLongAgo) {
+  Driver driver(organ());
+  press(driver, 0.004);
+  const Vec3 deep = vec(driver.result().tools[0].proxy) - vec(driver.result().tools[0].anchor);
+  driver.input().skip_surface = 1;
+  for (double depth = 0.004; depth > -0.002; depth -= 1e-4) driver.at(above(depth));
+  driver.settle(above(-0.002));
+  driver.at(above(0.0015));  // a capture that is deep at once
+  ASSERT_NE(driver.result().tools[0].flags & kRamping, 0U);
+  const Vec3 dent = vec(driver.result().tools[0].proxy) - vec(driver.result().tools[0].anchor);
+  EXPECT_LT(dent.norm(), 0.6 * deep.norm());
+}
+
 TEST(Step, StiffnessIsTheSlopeOfTheRenderedForce) {
   for (const double limit : {3.3, 0.3}) {  // the second one cuts the force
     StepConfig config;

@@ -13,26 +13,9 @@ namespace palpate::testing {
 
 namespace {
 
-constexpr double kShared = 0.8;  // of what a tool does to its patch, the whole organ does
-
 /// An organ that goes along as a whole, as a soft one with a clamp far away does.
 const MetaModel& softOrgan() {
-  static const MetaModel model = spoiled({}, [](modelfile::ModelData& data) {
-    const std::size_t nodes = data.surface_positions.size() / 3, positions = data.contact_node.size();
-    const std::size_t C =
-        data.modes_Y.size() / positions / static_cast<std::size_t>(SyntheticOptions{}.modes);
-    constexpr std::size_t kModes = 3;
-    data.modes_X.assign(kModes * 3 * nodes, 0.0F);
-    data.modes_Y.assign(positions * C * kModes, 0.0F);
-    for (std::size_t axis = 0; axis < kModes; ++axis) {
-      for (std::size_t node = 0; node < nodes; ++node)
-        data.modes_X[axis * 3 * nodes + 3 * node + axis] = 1.0F;
-      for (std::size_t m = 0; m < positions; ++m)
-        data.modes_Y[(m * C + axis) * kModes + axis] =
-            static_cast<float>(kShared * SyntheticOptions{}.reference_displacement);
-    }
-    std::fill(data.near_field.begin(), data.near_field.end(), 0.0F);
-  });
+  static const MetaModel model = spoiled({}, goesAlong);
   return model;
 }
 
@@ -150,6 +133,119 @@ TEST(ToolsTogether, WhatIsNoNumberOfOneToolDoesNotStayWithTheOthers) {
   for (int ms = 0; ms < 5; ++ms) driver.tick();
   for (double depth = -0.001; depth < 0.002; depth += 2e-5) place(driver, 1, depth), driver.tick();
   EXPECT_GT(forceOn(driver, 1).norm(), 0.5) << "alone it is answered again";
+}
+
+namespace {
+
+/// An organ of springs, each point's own on a ground that all share: linear, and reciprocal to the last digit,
+///   u(X) = f / k on its own patch,   u(X) = c (1 + cos(X, X')) / 2 f elsewhere;   k differs from place to place.
+const MetaModel& reciprocalOrgan() {
+  constexpr double kStiffness = 400.0, kShared = 0.7, kContrast = 0.2;
+  constexpr std::size_t kModes = 12;  // 1, x, y, z, of each axis
+  const auto part = [](const Vec3& n, std::size_t j) {
+    return j == 0 ? std::sqrt(0.5) : std::sqrt(0.5) * n[static_cast<Eigen::Index>(j - 1)];
+  };
+  static const MetaModel model = spoiled({}, [&](modelfile::ModelData& data) {
+    const SyntheticOptions options;
+    const std::size_t nodes = data.surface_positions.size() / 3, positions = data.contact_node.size();
+    const auto C = static_cast<std::size_t>(MonomialBasis(options.order).size());
+    const auto normal = [&](std::size_t node) -> Vec3 {
+      return Eigen::Map<const Vec3>(data.surface_positions.data() + 3 * node).normalized();
+    };
+    data.modes_X.assign(kModes * 3 * nodes, 0.0F);
+    data.modes_Y.assign(positions * C * kModes, 0.0F);
+    std::fill(data.near_field.begin(), data.near_field.end(), 0.0F);
+    std::fill(data.contact_force.begin(), data.contact_force.end(), 0.0);
+    for (std::size_t mode = 0; mode < kModes; ++mode)
+      for (std::size_t node = 0; node < nodes; ++node)
+        data.modes_X[(mode * nodes + node) * 3 + mode % 3] = static_cast<float>(part(normal(node), mode / 3));
+    for (std::size_t m = 0; m < positions; ++m) {
+      const Vec3 n = normal(static_cast<std::size_t>(data.contact_node[m]));
+      const double k = 1.0 + kContrast * std::sin(3.0 * n.x() + 2.0 * n.y() + n.z());
+      for (std::size_t mode = 0; mode < kModes; ++mode)
+        data.modes_Y[(m * C + mode % 3) * kModes + mode] =
+            static_cast<float>(kShared * k * part(n, mode / 3) * options.reference_displacement);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        data.contact_force[(m * C + axis) * 3 + axis] = kStiffness * k * options.reference_displacement;
+    }
+  });
+  return model;
+}
+
+/// What a hand does that leads one tool.
+class Hand {
+ public:
+  Hand(Driver& driver, std::size_t tool) : driver_(driver), tool_(tool) {}
+  void to(const Vec3& c) {
+    driver_.input().tools[tool_].present = 1;
+    driver_.input().tools[tool_].position = {c.x(), c.y(), c.z()};
+    driver_.tick();
+    const Vec3 force = forceOn(driver_, tool_);
+    work_ -= 0.5 * (force + force_).dot(c - c_);
+    most_ = std::max(most_, work_);
+    force_ = force;
+    c_ = c;
+  }
+  [[nodiscard]] double work() const { return work_; }  // J, so far,
+  [[nodiscard]] double most() const { return most_; }  // and at most
+
+ private:
+  Driver& driver_;
+  std::size_t tool_;
+  Vec3 c_ = Vec3::Zero(), force_ = Vec3::Zero();
+  double work_{0.0}, most_{0.0};
+};
+
+}  // namespace
+
+TEST(ToolsTogether, SlidingBesideAnotherToolKeepsTheEnergy) {
+  constexpr double kHeld = 0.0025, kSliding = 0.002, kClear = -0.003, kStep = 2e-5;  // m
+  constexpr double kNear = 0.4, kFar = 1.4;                                          // rad from the held one
+  for (const double coupling : {300.0, kInfinity})
+    for (const double azimuth : {0.3, 2.0, 4.0})
+      for (const bool away : {true, false}) {
+        StepConfig config = bare(0.0, coupling);
+        config.own[0] = toolSettings(bare(kInfinity))[0];
+        Driver driver(reciprocalOrgan(), config);
+        Hand held(driver, 0), sliding(driver, 1);
+        for (double depth = -0.001; depth < kHeld; depth += kStep) held.to(over(0.0, depth));
+        const double from = away ? kNear : kFar, to = away ? kFar : kNear;
+        for (double depth = kClear; depth < kSliding; depth += kStep) sliding.to(over(from, depth, azimuth));
+        for (double way = 0.0; way < 1.0; way += 5e-4)
+          sliding.to(over(from + way * (to - from), kSliding, azimuth));
+        for (double depth = kSliding; depth > kClear; depth -= kStep) sliding.to(over(to, depth, azimuth));
+        ASSERT_EQ(driver.result().tools[0].state, static_cast<std::uint32_t>(ContactState::kStick));
+        ASSERT_EQ(forceOn(driver, 1), Vec3(Vec3::Zero()));
+        EXPECT_LT(std::abs(sliding.work()), 0.002 * (held.most() + sliding.most()))
+            << "coupling " << coupling << ", azimuth " << azimuth << ", from " << from << " to " << to;
+      }
+}
+
+TEST(ToolsTogether, AToolThatTheOrganWouldPullDoesNotShakeTheOthers) {
+  const MetaModel half = spoiled({}, [](modelfile::ModelData& data) {  // pulls where x is below 0
+    const std::size_t width = data.contact_force.size() / data.contact_node.size();
+    for (std::size_t m = 0; m < data.contact_node.size(); ++m) {
+      if (data.surface_positions[3 * static_cast<std::size_t>(data.contact_node[m])] > -0.01) continue;
+      for (std::size_t i = m * width; i < (m + 1) * width; ++i) data.contact_force[i] *= -1.0;
+    }
+  });
+  StepConfig config;
+  config.friction = kInfinity;
+  Driver driver(half, config);
+  press(driver, 1, 0.002);
+  ASSERT_GT(forceOn(driver, 0).norm(), 0.5);
+  const double radius = SyntheticOptions{}.radius + config.tip_radius;
+  const auto put = [&](double depth) {
+    driver.input().tools[1].present = 1;
+    driver.input().tools[1].position = {depth - radius, 0.0, 0.0};
+    driver.tick();
+  };
+  for (double depth = -0.002; depth < 0.002; depth += 1e-4) put(depth);
+  for (int ms = 0; ms < 100; ++ms) {
+    put(0.002);
+    ASSERT_EQ(driver.result().tools[1].state, 0U) << ms << " ms";
+    ASSERT_EQ(driver.result().tools[0].flags & kRamping, 0U) << ms << " ms";
+  }
 }
 
 }  // namespace palpate::testing

@@ -10,6 +10,13 @@
 namespace palpate::dds {
 namespace {
 
+ToolPose firstPoseOf(std::uint32_t tool_id) {
+  ToolPose pose{};
+  pose.tool_id = tool_id;
+  pose.seq = 1;
+  return pose;
+}
+
 struct Sum {
   std::atomic<std::uint64_t> value{0};
 };
@@ -51,9 +58,9 @@ TEST(Callback, TellsWhichWriterSentASample) {
   Writer<ToolPose> one(participant);
   Writer<ToolPose> two(participant);
   ASSERT_TRUE(one.waitForReaders(1, 5s) && two.waitForReaders(1, 5s));
-  (void)one.write(ToolPose{0, 1, 0, {}, {}, 0});
-  (void)two.write(ToolPose{1, 1, 0, {}, {}, 0});
-  (void)one.write(ToolPose{2, 1, 0, {}, {}, 0});
+  (void)one.write(firstPoseOf(0));
+  (void)two.write(firstPoseOf(1));
+  (void)one.write(firstPoseOf(2));
   ASSERT_TRUE(eventually([&] { return senders.seq[0] == 1 && senders.seq[1] == 1 && senders.seq[2] == 1; }));
   EXPECT_NE(senders.writer[0], senders.writer[1]);
   EXPECT_EQ(senders.writer[0], senders.writer[2]);
@@ -85,7 +92,7 @@ TEST(Callback, IsNotCalledForAWriterThatOnlyLeaves) {
   {
     Writer<ToolPose> brief(link.participant);
     ASSERT_TRUE(link.reader.waitForWriters(2, 5s));
-    ASSERT_TRUE(brief.write(ToolPose{2, 1, 0, {}, {}, 0}));
+    ASSERT_TRUE(brief.write(ToolPose{}));
     std::vector<ToolPose> got(4);
     ASSERT_TRUE(eventually([&] { return link.reader.take(got) == 1; }));
   }

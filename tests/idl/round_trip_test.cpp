@@ -15,14 +15,18 @@ namespace {
 TEST(RoundTrip, PoseArrivesUnchanged) {
   Link<ToolPose> link;
   link.connect();
-  const ToolPose sent{3, 1ULL << 40, -5, {0.1, -0.2, 0.3}, {0.5, -0.5, 0.5, 0.5}, 0x80000001U};
+  const ToolPose sent{kServerAny,  3,    1ULL << 40,      -5, {0.1, -0.2, 0.3}, {0.5, -0.5, 0.5, 0.5},
+                      0x80000001U, true, {1.0, 2.0, -3.0}};
   ASSERT_TRUE(link.writer.write(sent));
   std::vector<ToolPose> got(2);
   ASSERT_TRUE(eventually([&] { return link.reader.take(got) == 1; }));
+  EXPECT_EQ(got[0].server_id, sent.server_id);
   EXPECT_EQ(got[0].tool_id, sent.tool_id);
   EXPECT_EQ(got[0].seq, sent.seq);
   EXPECT_EQ(got[0].stamp_ns, sent.stamp_ns);
   EXPECT_EQ(got[0].buttons, sent.buttons);
+  EXPECT_TRUE(got[0].has_velocity);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(got[0].velocity[i], sent.velocity[i]);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(got[0].position[i], sent.position[i]);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(got[0].orientation[i], sent.orientation[i]);
 }
@@ -31,7 +35,10 @@ TEST(RoundTrip, ForceArrivesUnchanged) {
   Link<ToolForce> link;
   link.connect();
   ToolForce sent{};
+  sent.server_id = 5;
   sent.tool_id = 1;
+  sent.session = 0xfedcba9876543210;
+  sent.model_hash = 0x0123456789abcdef;
   sent.seq = 7;
   sent.pose_seq = 6;
   sent.pose_stamp_ns = 123456789012345;
@@ -55,6 +62,9 @@ TEST(RoundTrip, ForceArrivesUnchanged) {
   std::vector<ToolForce> got(1);
   ASSERT_TRUE(eventually([&] { return link.reader.take(got) == 1; }));
   // The type owns no memory and has no float rounding on the way: field by field equal, padding aside.
+  EXPECT_EQ(got[0].server_id, 5U);
+  EXPECT_EQ(got[0].session, 0xfedcba9876543210);
+  EXPECT_EQ(got[0].model_hash, 0x0123456789abcdefU);
   EXPECT_EQ(got[0].seq, 7U);
   EXPECT_EQ(got[0].pose_seq, 6U);
   EXPECT_EQ(got[0].pose_stamp_ns, 123456789012345);
@@ -136,7 +146,7 @@ TEST(RoundTrip, LateJoinerGetsTheStatus) {
   Writer<ServerStatus> writer(participant);
   ServerStatus sent{};
   sent.server_id = 4;
-  sent.tip_radius = 0.005;
+  sent.tip_radius[2] = 0.005;
   sent.realtime = true;
   sent.tick_us = {1, 2, 3, 4, 5};
   sent.wakeup_us.count = 6;
@@ -146,7 +156,7 @@ TEST(RoundTrip, LateJoinerGetsTheStatus) {
   std::vector<ServerStatus> got(1);
   ASSERT_TRUE(eventually([&] { return late.take(got) == 1; }));
   EXPECT_EQ(got[0].server_id, 4U);
-  EXPECT_EQ(got[0].tip_radius, 0.005);
+  EXPECT_EQ(got[0].tip_radius[2], 0.005);
   EXPECT_TRUE(got[0].realtime);
   EXPECT_FALSE(got[0].memory_locked);
   EXPECT_EQ(got[0].tick_us.max, 4.0);
@@ -158,7 +168,7 @@ TEST(RoundTrip, AnswersInARowAllArriveAndALateJoinerGetsTheNewest) {
   Link<ServerParameters> link;
   link.connect();
   ServerParameters sent{};
-  sent.friction = std::numeric_limits<double>::infinity();
+  sent.tools[3].now.friction = std::numeric_limits<double>::infinity();
   assignText(sent.message, "friction is 3");
   for (sent.request_id = 1; sent.request_id <= 5; ++sent.request_id) ASSERT_TRUE(link.writer.write(sent));
   std::vector<ServerParameters> got;
@@ -169,7 +179,7 @@ TEST(RoundTrip, AnswersInARowAllArriveAndALateJoinerGetsTheNewest) {
     return got.size() == 5;
   }));
   for (std::size_t i = 0; i < got.size(); ++i) EXPECT_EQ(got[i].request_id, i + 1);
-  EXPECT_EQ(got[0].friction, sent.friction);
+  EXPECT_EQ(got[0].tools[3].now.friction, sent.tools[3].now.friction);
   EXPECT_STREQ(got[0].message, "friction is 3");
   const Reader<ServerParameters> late(link.participant);
   std::vector<ServerParameters> newest(kMaxTake);

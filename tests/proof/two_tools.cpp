@@ -34,7 +34,8 @@ TwoTools::TwoTools(const MetaModel& model, std::uint32_t domain, double tip_radi
       participant_(domain),
       poses_(participant_),
       forces_(participant_, &TwoTools::onForce, this),
-      status_(participant_) {
+      status_(participant_),
+      fields_(participant_) {
   findPlaces();
   constexpr std::chrono::seconds kLong{20};
   if (!poses_.waitForReaders(1, kLong) || !forces_.waitForWriters(1, kLong))

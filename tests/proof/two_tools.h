@@ -58,6 +58,7 @@ class TwoTools {
   dds::Writer<dds::ToolPose> poses_;
   dds::Reader<dds::ToolForce> forces_;
   dds::Reader<dds::ServerStatus> status_;
+  dds::Reader<dds::SurfaceDisplacement> fields_;  // so that the server evaluates them
   std::atomic<bool> stopping_{false};
   std::thread sender_;
 };

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "palpate/server/config_file.h"
+#include "palpate/server/live_limits.h"
 #include "palpate/testing/files.h"
 
 namespace palpate::server {
@@ -75,6 +76,7 @@ TEST_F(ConfigFile, TheSampleHoldsTheDefaults) {
   EXPECT_EQ(sample.step.ramp_time, defaults.step.ramp_time);
   EXPECT_EQ(sample.step.quaternion_tolerance, defaults.step.quaternion_tolerance);
   EXPECT_EQ(sample.device, defaults.device);
+  EXPECT_EQ(sample.parameters, defaults.parameters);
   EXPECT_EQ(sample.step.coupling_stiffness, defaults.step.coupling_stiffness);
   EXPECT_EQ(sample.step.coupling_damping, defaults.step.coupling_damping);
   EXPECT_EQ(sample.step.friction, defaults.step.friction);
@@ -118,7 +120,7 @@ TEST_F(ConfigFile, RefusesANumberOutOfRangeByNameAndLine) {
   EXPECT_EQ(refusal("surface_rate = 0"), ":1: surface_rate is 0, expected 0.1 to inf Hz");
   EXPECT_EQ(refusal("surface_rate = nan").find(":1: surface_rate is "), 0U);
   EXPECT_EQ(refusal("organ_id = -1"), ":1: organ_id is -1, expected 0 to 4294967295");
-  EXPECT_EQ(refusal("server_id = 4294967296"), ":1: server_id is 4294967296, expected 0 to 4294967295");
+  EXPECT_EQ(refusal("server_id = 4294967295"), ":1: server_id is 4294967295, expected 0 to 4294967294");
 }
 
 TEST_F(ConfigFile, RefusesARateWhosePeriodDoesNotFitIntoTheStaleTimeout) {
@@ -190,6 +192,67 @@ TEST(DeviceComplaint, ACouplingStifferThanTheDeviceIsRefusedUnlessItIsCustom) {
   }
   config.device = "custom";
   EXPECT_FALSE(deviceComplaint(config).has_value());
+}
+
+TEST_F(ConfigFile, AToolMayHaveADeviceAndValuesOfItsOwn) {
+  const ServerConfig config = read(
+      "device = \"touch\"\n[tool]\nfriction = 0.2\ntip_radius = 0.006\n[tool.1]\ndevice = \"premium30\"\n"
+      "[tool.2]\ntip_radius = 0.004\nfriction = 0.5\n");
+  const AllToolSettings tools = toolSettings(config.step);
+  EXPECT_EQ(tools[0].live.force_limit, 3.3);
+  EXPECT_EQ(tools[1].live.force_limit, 22.0);
+  EXPECT_EQ(tools[1].live.friction, 0.2) << "what is named for all tools wins over a device";
+  EXPECT_EQ(tools[1].tip_radius, 0.006);
+  EXPECT_EQ(tools[2].tip_radius, 0.004);
+  EXPECT_EQ(tools[2].live.friction, 0.5);
+  EXPECT_EQ(tools[3], tools[0]);
+  EXPECT_EQ(refusal("[tool.1]\nfriction = 3").find(":2: tool.1.friction is 3, expected 0 to 2"), 0U);
+  EXPECT_EQ(refusal("[tool.1]\nyoungs_modulus = 3"), ":2: unknown key tool.1.youngs_modulus");
+  EXPECT_EQ(refusal("[tool.4]\nfriction = 0.1"), ":1: unknown key tool.4");
+  EXPECT_EQ(refusal("[tool.1]\ndevice = \"falcon\"").find(":2: tool.1.device is \"falcon\", expected"), 0U);
+}
+
+TEST_F(ConfigFile, TakesTheLimitsOfRequests) {
+  const ServerConfig config =
+      read("parameters = \"off\"\n[limits]\nfriction = [0, 0.5]\nforce_rate_limit = [10, inf]");
+  EXPECT_FALSE(config.parameters);
+  EXPECT_EQ(config.limits.friction->high, 0.5);
+  EXPECT_TRUE(std::isinf(config.limits.force_rate_limit->high));
+  EXPECT_FALSE(config.limits.force_limit.has_value());
+  EXPECT_EQ(refusal("[limits]\nfriction = 0.5").find(":2: limits.friction is of type floating-point, "), 0U);
+  EXPECT_EQ(refusal("[limits]\nfriction = [0.5]").find(":2: limits.friction is of type array, expected two"),
+            0U);
+  EXPECT_EQ(refusal("parameters = \"maybe\""), ":1: parameters is \"maybe\", expected on or off");
+}
+
+struct WrongLimits {
+  const char* key;
+  Bounds bounds;
+  std::string text;
+};
+
+TEST(LimitsComplaint, NamesLimitsThatCannotBe) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const WrongLimits wrong[] = {
+      {"friction", {0.5, 0.2}, "is 0.5 to 0.2, expected a range within 0 to inf"},
+      {"friction", {0.0, 3.0}, "is 0 to 3, expected a range within 0 to inf"},
+      {"friction", {kNaN, 1.0}, "is nan to 1, expected"},
+      {"friction", {0.0, 0.2}, "is 0 to 0.2, which leaves out the start's 0.3"},
+      {"force_limit", {0.0, 5.0}, "is 0 to 5 N, expected a range within 0.01 to inf N"},
+      {"coupling_stiffness", {1.0, 401.0}, "is 1 to 401 N/m, expected a range within 1 to 400 N/m"},
+      {"youngs_modulus", {100.0, std::numeric_limits<double>::infinity()}, "is 100 to inf Pa, expected"},
+  };
+  for (const WrongLimits& limits : wrong) {
+    ServerConfig config;
+    for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+      if (std::string(limits.key) == kLiveParameters[i].name)
+        config.limits.*kLiveFields<LiveBounds>[i] = limits.bounds;
+    const auto complaint = limitsComplaint(config);
+    ASSERT_TRUE(complaint.has_value()) << limits.key << limits.text;
+    EXPECT_EQ(complaint->key, std::string("limits.") + limits.key);
+    EXPECT_EQ(complaint->text.find(limits.text), 0U) << complaint->text;
+  }
+  EXPECT_FALSE(limitsComplaint(ServerConfig{}).has_value());
 }
 
 TEST_F(ConfigFile, RefusesAnUnknownPolicyByNameAndLine) {

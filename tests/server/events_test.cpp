@@ -40,7 +40,8 @@ class EventsTest : public ::testing::Test {
   dds::Participant participant_{palpate::testing::exclusiveDomain()};
   StatusPublisher status_{participant_, facts_};
   ParameterService parameters_{participant_, *channels_, facts_};
-  Events events_{*channels_, status_, parameters_};
+  RivalWatch rivals_{participant_, facts_, status_, 0.0};
+  Events events_{*channels_, status_, parameters_, rivals_};
 };
 
 TEST_F(EventsTest, GathersTheTimesOfEveryTick) {
@@ -146,18 +147,18 @@ TEST_F(EventsTest, ARequestIsAnsweredHandedToTheTickAndLoggedWhenItChangesSometh
   EXPECT_EQ(takeLog(), "") << "a question is no news";
   ask(dds::parameter::kFriction, 3.0);
   EXPECT_EQ(takeLog().find("parameters refused: friction is 3"), 0U);
-  LiveParameters live;
-  EXPECT_FALSE(channels_->parameters.read(live));
-  ask(dds::parameter::kFriction, 0.5);
+  AllToolSettings settings;
+  EXPECT_FALSE(channels_->parameters.read(settings));
+  ask(dds::parameter::kFriction, 0.2);
   EXPECT_EQ(takeLog().find("parameters, revision 1: "), 0U);
-  EXPECT_TRUE(channels_->parameters.read(live));
-  EXPECT_EQ(live.friction, 0.5);
-  EXPECT_EQ(events_.health().parameters.friction, 0.5);
+  EXPECT_TRUE(channels_->parameters.read(settings));
+  EXPECT_EQ(settings[0].live.friction, 0.2);
+  EXPECT_EQ(events_.health().settings[0].live.friction, 0.2);
   EXPECT_EQ(events_.health().parameters_revision, 1U);
   ASSERT_EQ(got.size(), 3U);
   EXPECT_TRUE(got[0].accepted);
   EXPECT_FALSE(got[1].accepted);
-  EXPECT_EQ(got[2].friction, 0.5);
+  EXPECT_EQ(got[2].tools[0].now.friction, 0.2);
 }
 
 }  // namespace

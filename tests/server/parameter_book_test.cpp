@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "palpate/server/config.h"
@@ -16,7 +17,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 Facts factsOf(const std::string& device) {
   Facts facts;
   facts.server_id = 6;
-  facts.device = device;
+  facts.device.fill(device);
   facts.step = withDevice({}, device, {});
   facts.youngs_modulus = 160e3;
   return facts;
@@ -26,6 +27,7 @@ Facts factsOf(const std::string& device) {
 dds::ParameterRequest request(std::uint32_t field, double value) {
   dds::ParameterRequest asked{};
   asked.request_id = 42;
+  asked.tool_id = dds::kAllTools;
   asked.fields = field;
   for (double* number : {&asked.youngs_modulus, &asked.friction, &asked.coupling_stiffness,
                          &asked.coupling_damping, &asked.force_limit, &asked.force_rate_limit})
@@ -65,14 +67,14 @@ TEST(ParameterBook, SaysWhatIsInForceAtTheStart) {
   EXPECT_EQ(answer.request_id, 0U);
   EXPECT_TRUE(answer.accepted);
   EXPECT_EQ(answer.revision, 0U);
-  EXPECT_EQ(answer.youngs_modulus, 160e3) << "the model's own is named";
+  EXPECT_EQ(answer.tools[0].now.youngs_modulus, 160e3) << "the model's own is named";
   EXPECT_EQ(answer.model_youngs_modulus, 160e3);
-  EXPECT_EQ(answer.coupling_stiffness, findDevicePreset("omni")->coupling_stiffness);
+  EXPECT_EQ(answer.tools[0].now.coupling_stiffness, findDevicePreset("omni")->coupling_stiffness);
 }
 
 TEST(ParameterBook, TakesWhatIsSetAndLeavesTheRest) {
   ParameterBook book(factsOf("touch"));
-  const LiveParameters before = book.inForce();
+  const LiveParameters before = book.inForce()[0].live;
   dds::ParameterRequest both = request(dds::parameter::kFriction, 0.1);
   both.fields |= dds::parameter::kYoungsModulus;
   both.youngs_modulus = 5e4;
@@ -81,10 +83,10 @@ TEST(ParameterBook, TakesWhatIsSetAndLeavesTheRest) {
   EXPECT_STREQ(answer.message, "");
   EXPECT_EQ(answer.request_id, 42U);
   EXPECT_EQ(answer.revision, 1U);
-  EXPECT_EQ(answer.friction, 0.1);
-  EXPECT_EQ(book.inForce().youngs_modulus, 5e4);
-  EXPECT_EQ(book.inForce().coupling_stiffness, before.coupling_stiffness);
-  EXPECT_EQ(book.inForce().force_limit, before.force_limit);
+  EXPECT_EQ(answer.tools[0].now.friction, 0.1);
+  EXPECT_EQ(book.inForce()[0].live.youngs_modulus, 5e4);
+  EXPECT_EQ(book.inForce()[0].live.coupling_stiffness, before.coupling_stiffness);
+  EXPECT_EQ(book.inForce()[0].live.force_limit, before.force_limit);
 }
 
 TEST(ParameterBook, AskingAgainOrAskingOnlyChangesNothing) {
@@ -100,22 +102,25 @@ TEST(ParameterBook, RefusesWhatIsOutOfRangeByFieldNumberAndRange) {
   const Refusal refusals[] = {
       {dds::parameter::kYoungsModulus, 50.0, "youngs_modulus is 50, expected 100 to 1e+09"},
       {dds::parameter::kYoungsModulus, kInfinity, "youngs_modulus is inf"},
+      {dds::parameter::kYoungsModulus, 1e9, "youngs_modulus is 1e+09, expected 100 to 160000 Pa"},
+      {dds::parameter::kFriction, 0.31, "friction is 0.31, expected 0 to 0.3"},
+      {dds::parameter::kCouplingDamping, 0.31, "coupling_damping is 0.31, expected 0 to 0.3 N s/m"},
       {dds::parameter::kFriction, 3.0, "friction is 3, expected 0 to 2"},
       {dds::parameter::kFriction, -0.1, "friction is -0.1"},
       {dds::parameter::kFriction, kNaN, "friction is nan"},
       {dds::parameter::kCouplingStiffness, 0.5, "coupling_stiffness is 0.5, expected 1 to"},
-      {dds::parameter::kCouplingStiffness, 401.0, "coupling_stiffness is 401, expected at most 400 N/m"},
-      {dds::parameter::kCouplingStiffness, kInfinity, "coupling_stiffness is inf, expected at most 400 N/m"},
+      {dds::parameter::kCouplingStiffness, 301.0, "coupling_stiffness is 301, expected 1 to 300 N/m"},
+      {dds::parameter::kCouplingStiffness, kInfinity, "coupling_stiffness is inf, expected 1 to 300 N/m"},
       {dds::parameter::kCouplingDamping, 101.0, "coupling_damping is 101, expected 0 to 100"},
       {dds::parameter::kCouplingDamping, 100.0, "coupling_damping is 100, expected at most 1.5 N s/m"},
       {dds::parameter::kForceLimit, 0.0, "force_limit is 0, expected 0.01 to 50"},
-      {dds::parameter::kForceLimit, 3.4, "force_limit is 3.4, expected at most 3.3 N"},
+      {dds::parameter::kForceLimit, 3.4, "force_limit is 3.4, expected 0.01 to 3.3 N"},
       {dds::parameter::kForceRateLimit, 1.0, "force_rate_limit is 1, expected 10 to"},
       {64, 1.0, "fields has bits 64"},
   };
   for (const Refusal& refusal : refusals) {
     ParameterBook book(factsOf("touch"));
-    const LiveParameters before = book.inForce();
+    const LiveParameters before = book.inForce()[0].live;
     dds::ParameterRequest asked = request(refusal.field, refusal.value);
     asked.fields |= dds::parameter::kForceRateLimit;  // a good one beside it is not taken either
     if (refusal.field != dds::parameter::kForceRateLimit) asked.force_rate_limit = 500.0;
@@ -124,7 +129,7 @@ TEST(ParameterBook, RefusesWhatIsOutOfRangeByFieldNumberAndRange) {
     EXPECT_EQ(std::string(answer.message).find(refusal.message), 0U) << answer.message;
     EXPECT_EQ(answer.revision, 0U);
     EXPECT_EQ(answer.request_id, 42U);
-    EXPECT_EQ(book.inForce().force_rate_limit, before.force_rate_limit);
+    EXPECT_EQ(book.inForce()[0].live.force_rate_limit, before.force_rate_limit);
   }
 }
 
@@ -134,12 +139,12 @@ TEST(ParameterBook, ACustomDeviceAllowsNoMoreThanItsStart) {
   facts.step.coupling_stiffness = 2000.0;
   facts.step.force_rate_limit = 100.0;
   const Refusal refusals[] = {
-      {dds::parameter::kCouplingStiffness, 2001.0, "coupling_stiffness is 2001, expected at most 2000 N/m"},
-      {dds::parameter::kCouplingStiffness, kInfinity, "coupling_stiffness is inf, expected at most 2000 N/m"},
-      {dds::parameter::kForceLimit, 5.1, "force_limit is 5.1, expected at most 5 N"},
-      {dds::parameter::kForceLimit, kInfinity, "force_limit is inf, expected at most 5 N"},
-      {dds::parameter::kForceRateLimit, 101.0, "force_rate_limit is 101, expected at most 100 N/s"},
-      {dds::parameter::kForceRateLimit, kInfinity, "force_rate_limit is inf, expected at most 100 N/s"},
+      {dds::parameter::kCouplingStiffness, 2001.0, "coupling_stiffness is 2001, expected 1 to 2000 N/m"},
+      {dds::parameter::kCouplingStiffness, kInfinity, "coupling_stiffness is inf, expected 1 to 2000 N/m"},
+      {dds::parameter::kForceLimit, 5.1, "force_limit is 5.1, expected 0.01 to 5 N"},
+      {dds::parameter::kForceLimit, kInfinity, "force_limit is inf, expected 0.01 to 5 N"},
+      {dds::parameter::kForceRateLimit, 101.0, "force_rate_limit is 101, expected 10 to 100 N/s"},
+      {dds::parameter::kForceRateLimit, kInfinity, "force_rate_limit is inf, expected 10 to 100 N/s"},
   };
   for (const Refusal& refusal : refusals) {
     ParameterBook book(facts);
@@ -165,6 +170,138 @@ TEST(ParameterBook, TheRateLimitOfTheStartIsTheCeilingOnEveryDevice) {
   ParameterBook book(facts);
   EXPECT_TRUE(book.decide(request(dds::parameter::kForceRateLimit, 50.0)).accepted);
   EXPECT_FALSE(book.decide(request(dds::parameter::kForceRateLimit, 101.0)).accepted);
+}
+
+TEST(ParameterBook, AForceLimitBelowTheDevicesHolds) {
+  Facts facts = factsOf("premium30");
+  facts.step.force_limit = 2.0;
+  ParameterBook book(facts);
+  EXPECT_FALSE(book.decide(request(dds::parameter::kForceLimit, 22.0)).accepted);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kForceLimit, 1.0)).accepted);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kForceLimit, 2.0)).accepted) << "back to the start's";
+}
+
+TEST(ParameterBook, TheOperatorsLimitsHoldAndAreTold) {
+  Facts facts = factsOf("touch");
+  facts.limits.youngs_modulus = Bounds{80e3, 320e3};
+  facts.limits.friction = Bounds{0.2, kInfinity};
+  ParameterBook book(facts);
+  const dds::ServerParameters answer = book.answer();
+  EXPECT_TRUE(answer.open);
+  EXPECT_EQ(answer.tools[0].lowest.youngs_modulus, 80e3);
+  EXPECT_EQ(answer.tools[0].highest.youngs_modulus, 320e3);
+  EXPECT_EQ(answer.tools[0].highest.force_limit, 3.3);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kYoungsModulus, 320e3)).accepted);
+  EXPECT_FALSE(book.decide(request(dds::parameter::kYoungsModulus, 321e3)).accepted);
+  EXPECT_FALSE(book.decide(request(dds::parameter::kYoungsModulus, 79e3)).accepted);
+  EXPECT_TRUE(book.decide(request(dds::parameter::kYoungsModulus, 0.0)).accepted) << "the model's own";
+  EXPECT_TRUE(book.decide(request(dds::parameter::kFriction, kInfinity)).accepted);
+  EXPECT_FALSE(book.decide(request(dds::parameter::kFriction, 0.1)).accepted);
+}
+
+TEST(ParameterBook, RefusesAllChangesWhenParametersAreOffButSaysWhatHolds) {
+  Facts facts = factsOf("touch");
+  facts.parameters = false;
+  ParameterBook book(facts);
+  const dds::ServerParameters answer = book.decide(request(dds::parameter::kFriction, 0.1));
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_STREQ(answer.message, "this server takes no parameters from clients");
+  EXPECT_EQ(answer.tools[0].now.friction, 0.3);
+  EXPECT_FALSE(answer.open);
+  EXPECT_TRUE(book.decide(request(0, 0.0)).accepted) << "asking is free";
+}
+
+TEST(ParameterBook, ARequestForOneToolChangesThatToolAndEIsTheOrgans) {
+  ParameterBook book(factsOf("touch"));
+  dds::ParameterRequest asked = request(dds::parameter::kFriction, 0.1);
+  asked.fields |= dds::parameter::kYoungsModulus;
+  asked.youngs_modulus = 5e4;
+  asked.tool_id = 2;
+  const dds::ServerParameters answer = book.decide(asked);
+  ASSERT_TRUE(answer.accepted) << answer.message;
+  EXPECT_EQ(answer.tools[2].now.friction, 0.1);
+  EXPECT_EQ(answer.tools[1].now.friction, 0.3);
+  for (const dds::ToolParameters& tool : answer.tools) EXPECT_EQ(tool.now.youngs_modulus, 5e4);
+  asked.tool_id = 4;
+  EXPECT_STREQ(book.decide(asked).message, "tool_id is 4, expected 0 to 3 or 4294967295, all of them");
+}
+
+TEST(ParameterBook, ToolsWithDifferentDevicesHaveDifferentLimits) {
+  Facts facts = factsOf("touch");
+  ServerConfig config;
+  config.own[1].device = "premium30";
+  config.own[1].tip_radius = 0.004;
+  settleTools(config);
+  facts.step = config.step;
+  facts.device[1] = "premium30";
+  ParameterBook book(facts);
+  const dds::ServerParameters start = book.answer();
+  EXPECT_STREQ(start.tools[1].device, "premium30");
+  EXPECT_EQ(start.tools[1].tip_radius, 0.004);
+  EXPECT_EQ(start.tools[1].highest.force_limit, 22.0);
+  EXPECT_EQ(start.tools[0].highest.force_limit, 3.3);
+  dds::ParameterRequest asked = request(dds::parameter::kForceLimit, 10.0);
+  const std::string message = book.decide(asked).message;
+  EXPECT_EQ(message.find("force_limit is 10, expected 0.01 to 3.3 N"), 0U)
+      << message << ": all tools or none";
+  EXPECT_EQ(book.inForce()[1].live.force_limit, 22.0);
+  asked.tool_id = 1;
+  EXPECT_TRUE(book.decide(asked).accepted);
+  EXPECT_NE(book.describe().find("; tool 1: device premium30, tip_radius 0.004 m"), std::string::npos);
+}
+
+// What a driver says first.
+DriverWord wordOf(const dds::ToolAnnouncement& what) {
+  return {1, {}, what};
+}
+
+TEST(ParameterBook, WhereParametersAreOffADriverOnlyLowersToItsDevice) {
+  Facts facts = factsOf("touch");
+  facts.parameters = false;
+  ParameterBook book(facts);
+  dds::ToolAnnouncement said{};
+  said.device_force_limit = 1.0;
+  said.fields = dds::parameter::kFriction;
+  said.values.friction = 0.1;
+  said.has_tip_radius = true;
+  said.tip_radius = 0.004;
+  EXPECT_TRUE(book.announced(0, wordOf(said)));
+  EXPECT_EQ(book.refusal(0), "");
+  EXPECT_EQ(book.inForce()[0].live.force_limit, 1.0);
+  EXPECT_EQ(book.inForce()[0].live.friction, 0.3);
+  EXPECT_EQ(book.inForce()[0].tip_radius, facts.step.tip_radius);
+}
+
+TEST(ParameterBook, ADriversTipIsHalfToTwiceTheOperators) {
+  for (const double ratio : {0.49, 0.5, 2.0, 2.1, std::nan("")}) {
+    const Facts facts = factsOf("touch");
+    ParameterBook book(facts);
+    dds::ToolAnnouncement said{};
+    said.has_tip_radius = true;
+    said.tip_radius = ratio * facts.step.tip_radius;
+    EXPECT_TRUE(book.announced(0, wordOf(said)));
+    const bool near = ratio >= 0.5 && ratio <= 2.0;
+    EXPECT_EQ(book.refusal(0).empty(), near) << ratio << ": " << book.refusal(0);
+    EXPECT_EQ(book.inForce()[0].tip_radius, near ? said.tip_radius : facts.step.tip_radius);
+  }
+}
+
+TEST(ParameterBook, ADeviceWeakerThanTheOperatorsLowestStillHolds) {
+  Facts facts = factsOf("touch");
+  facts.limits.force_limit = Bounds{2.0, 3.3};
+  ParameterBook book(facts);
+  dds::ToolAnnouncement said{};
+  said.device_force_limit = 0.5;
+  EXPECT_TRUE(book.announced(0, wordOf(said)));
+  EXPECT_EQ(book.refusal(0), "");
+  EXPECT_EQ(book.inForce()[0].live.force_limit, 0.5);
+  EXPECT_EQ(book.answer().tools[0].lowest.force_limit, 0.5);
+}
+
+TEST(ParameterBook, LimitsOfEThatLeaveOutTheModelsAreRefused) {
+  Facts facts = factsOf("touch");
+  facts.limits.youngs_modulus = Bounds{100.0, 5e4};
+  EXPECT_THROW(ParameterBook{facts}, std::invalid_argument);
 }
 
 }  // namespace

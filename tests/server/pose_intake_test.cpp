@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "palpate/server/pose_subscriber.h"
@@ -140,6 +142,33 @@ TEST_F(PoseIntakeTest, AFloodOfIdsFillsSixteenPlacesAndNoMore) {
   EXPECT_TRUE(intake_.admits(pose(0, 1, 1))) << "a real tool always gets in";
   const Strangers seen = strangers();
   EXPECT_EQ(seen.back().tool_id, 19U);
+}
+
+TEST_F(PoseIntakeTest, PosesForAnotherServerAreCountedAndNotUsed) {
+  PoseIntake fifth(*channels_, StepConfig{}, {5, true});
+  const auto admits = [&](PoseIntake& intake, std::uint32_t server_id) {
+    dds::ToolPose sample = pose(0, 1, 1);
+    sample.server_id = server_id;
+    return intake.admits(sample);
+  };
+  EXPECT_TRUE(admits(fifth, 5));
+  EXPECT_TRUE(admits(fifth, dds::kServerAny));
+  EXPECT_FALSE(admits(fifth, 0));
+  EXPECT_EQ(channels_->misaddressed_poses.load(), 1U);
+  EXPECT_EQ(channels_->misaddressed_id.load(), 0U);
+  PoseIntake addressed_only(*channels_, StepConfig{}, {5, false});
+  EXPECT_TRUE(admits(addressed_only, 5));
+  EXPECT_FALSE(admits(addressed_only, dds::kServerAny));
+}
+
+TEST_F(PoseIntakeTest, AVelocityThatIsNoNumberSpoilsItsPose) {
+  dds::ToolPose sample = pose(0, 1, 1);
+  sample.velocity[1] = std::numeric_limits<double>::infinity();
+  intake_.accept(sample, kSender, 1);
+  EXPECT_EQ(newest(0).position[0], 1.0) << "there is none: has_velocity is not set";
+  sample.has_velocity = true;
+  intake_.accept(sample, kSender, 2);
+  EXPECT_TRUE(std::isnan(newest(0).position[0]));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 SessionFacts someFacts() {
   SessionFacts facts;
-  facts.model_id = "0123456789abcdef";
+  facts.model = sha256({});
   facts.started_ns = 1'700'000'000'000'000'000;
   facts.config.friction = std::numeric_limits<double>::infinity();
   facts.config.tools = 2;
@@ -38,9 +38,9 @@ std::vector<RecordedTick> someTicks(std::size_t count) {
     tick.input.dt_ns = 1'000'000 + static_cast<std::int64_t>(random() % 1000);
     if (i % 50 == 49) tick.input.period_ns += 1;
     tick.input.shutting_down = i > count - 10 ? 1 : 0;
-    tick.input.has_live = i % 30 == 29 ? 1 : 0;
+    tick.input.has_settings = i % 30 == 29 ? 1 : 0;
     tick.input.skip_surface = i % 5 == 0 ? 0 : 1;
-    if (tick.input.has_live != 0) tick.input.live.friction = number(random);
+    if (tick.input.has_settings != 0) tick.input.settings[i % 4].live.friction = number(random);
     for (std::size_t t = 0; t < tick.input.tools.size(); ++t) {
       ToolInput& input = tick.input.tools[t];
       input = ToolInput{};
@@ -66,10 +66,10 @@ void expectSame(const RecordedTick& a, const RecordedTick& b) {
   EXPECT_EQ(a.input.dt_ns, b.input.dt_ns);
   EXPECT_EQ(a.input.period_ns, b.input.period_ns);
   EXPECT_EQ(a.input.shutting_down, b.input.shutting_down);
-  EXPECT_EQ(a.input.has_live, b.input.has_live);
+  EXPECT_EQ(a.input.has_settings, b.input.has_settings);
   EXPECT_EQ(a.input.skip_surface, b.input.skip_surface);
-  if (a.input.has_live != 0) {
-    EXPECT_EQ(a.input.live.friction, b.input.live.friction);
+  if (a.input.has_settings != 0) {
+    EXPECT_EQ(a.input.settings[2].live.friction, b.input.settings[2].live.friction);
   }
   for (std::size_t t = 0; t < a.input.tools.size(); ++t) {
     const ToolInput& x = a.input.tools[t];
@@ -127,7 +127,7 @@ TEST_F(Recording, IsReadAsItWasWritten) {
   const auto ticks = someTicks(1000);
   write(ticks, 5);
   RecordReader reader(path_);
-  EXPECT_EQ(reader.facts().model_id, someFacts().model_id);
+  EXPECT_EQ(reader.facts().model, someFacts().model);
   EXPECT_EQ(reader.facts().started_ns, someFacts().started_ns);
   EXPECT_EQ(reader.facts().config.tools, 2);
   EXPECT_TRUE(std::isinf(reader.facts().config.friction));
@@ -184,7 +184,7 @@ TEST_F(Recording, RefusesWhatItIsNot) {
   EXPECT_EQ(refusal(), "is no recording of palpate-server");
   write(someTicks(3));
   std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out).seekp(8).put(9);
-  EXPECT_NE(refusal().find("version is 9, expected 2"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("version is 9, expected 3"), std::string::npos) << refusal();
   write(someTicks(3));
   std::ofstream(path_, std::ios::app) << "more";
   EXPECT_NE(refusal().find("something follows the end"), std::string::npos) << refusal();

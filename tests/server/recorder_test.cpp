@@ -17,7 +17,7 @@ class RecorderTest : public ::testing::Test {
  protected:
   [[nodiscard]] record::SessionFacts facts() const {
     record::SessionFacts facts;
-    facts.model_id = "m";
+    facts.model.bytes.fill(7);
     return facts;
   }
 

@@ -19,8 +19,8 @@ class RecordedSession : public ServerEndToEnd {
  protected:
   // Contact, a slide, a second tool, a change of friction, a stream that stops, and the end.
   void record() {
-    ASSERT_NO_FATAL_FAILURE(
-        start({"--device", "touch", "--friction", "0.2", "--record", file_.path().string()}));
+    ASSERT_NO_FATAL_FAILURE(start({"--device", "touch", "--friction", "0.2", "--tool",
+                                   "2:tip-radius=0.007,coupling=200", "--record", file_.path().string()}));
     ASSERT_NO_FATAL_FAILURE(press(0.002));
     TestClient second(domain_, 2);
     ASSERT_TRUE(second.connect());
@@ -29,6 +29,9 @@ class RecordedSession : public ServerEndToEnd {
     const auto changed = palpate::testing::runProgram(
         "palpate-parameters", {"--friction", "0.1", "--youngs-modulus", "9e4", "--domain", domain});
     EXPECT_EQ(changed.exit_code, 0) << changed.err;
+    const auto of_one = palpate::testing::runProgram(
+        "palpate-parameters", {"--tool", "2", "--friction", "0.05", "--domain", domain});
+    EXPECT_EQ(of_one.exit_code, 0) << of_one.err;
     Point aside = atDepth(0.002);
     aside[0] += 0.004;
     client_->moveTo(aside, 200);
@@ -60,7 +63,7 @@ TEST_F(RecordedSession, IsReplayedBitForBitAndDamageIsFound) {
   EXPECT_TRUE(report["first_difference"].is_null());
   // Another model.
   modelfile::ModelData another = palpate::testing::syntheticModel();
-  another.attributes.model_id = "another";
+  another.contact_force[0] += 1e-3;
   modelfile::writeModel(model_, another);
   const auto other = replay();
   EXPECT_EQ(other.exit_code, 1);

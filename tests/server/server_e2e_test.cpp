@@ -195,7 +195,7 @@ TEST_F(ServerEndToEnd, TellsItsStateAboutOnceASecond) {
   EXPECT_EQ(status->server_id, 6U);
   EXPECT_EQ(status->organ_id, 5U);
   EXPECT_EQ(status->state, dds::server_state::kRunning);
-  EXPECT_EQ(status->tip_radius, 0.004);
+  EXPECT_EQ(status->tip_radius[0], 0.004);
   EXPECT_STREQ(status->device, "desktop");
   EXPECT_EQ(status->force_limit, 5.0) << "what is named wins over what the device brings";
   EXPECT_EQ(status->coupling_stiffness, 450.0);

@@ -77,6 +77,13 @@ class ServerEndToEnd : public ::testing::Test {
     target_ = *target;
   }
 
+  // Whether the server logs it within 5 s.
+  [[nodiscard]] bool logs(const std::string& text) const {
+    for (int i = 0; i < 250; ++i, pause(20))
+      if (server_->log().find(text) != std::string::npos) return true;
+    return false;
+  }
+
   // Centre of the tip at a depth below the surface; negative is above it.
   [[nodiscard]] Point atDepth(double depth) const {
     return along(target_.position, target_.normal, kTipRadius - depth);

@@ -79,6 +79,35 @@ TEST_F(ServerRefuses, WhatTheDeviceDoesNotStandByName) {
       << "what the file names stands, the command line's device does not bear it";
 }
 
+TEST_F(ServerRefuses, WhatOneToolCannotHaveByName) {
+  EXPECT_EQ(refusal({"--model", "m.h5", "--tool", "1:coupling=401"})
+                .find("--tool 1:coupling is 401, expected at most 400"),
+            0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--tool", "2:tip-radius=0.2"})
+                .find("--tool 2:tip-radius is 0.2, expected 0 to"),
+            0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--tool", "2:device=falcon"})
+                .find("--tool is \"falcon\", expected touch, "),
+            0U);
+  for (const char* word :
+       {"1", "4:friction=0", "1:friction", "1:friction=x", "1:youngs-modulus=1e4", "1:frictio=1"})
+    EXPECT_EQ(refusal({"--model", "m.h5", "--tool", word}).find("--tool is \"" + std::string(word) + "\""),
+              0U)
+        << word;
+}
+
+TEST_F(ServerRefuses, LimitsThatCannotBeByName) {
+  EXPECT_EQ(refusal({"--model", "m.h5", "--limit", "coupling=1:500"}),
+            "--limit coupling is 1 to 500 N/m, expected a range within 1 to 400 N/m");
+  EXPECT_EQ(refusal({"--model", "m.h5", "--limit", "friction=0:0.1"}),
+            "--limit friction is 0 to 0.1, which leaves out the start's 0.3");
+  for (const char* word : {"friction", "friction=1", "friction=0:x", "fric=0:1", "friction=:1"})
+    EXPECT_EQ(refusal({"--model", "m.h5", "--limit", word}).find("--limit is \"" + std::string(word) + "\""),
+              0U);
+  EXPECT_EQ(refusal({"--model", "m.h5", "--parameters", "maybe"}),
+            "--parameters is \"maybe\", expected on or off");
+}
+
 TEST_F(ServerRefuses, WhatItDoesNotKnow) {
   EXPECT_NE(refusal({"--modle", "m.h5"}).find("--modle"), std::string::npos);
   EXPECT_NE(refusal({"--rate", "fast"}).find("rate"), std::string::npos);

@@ -56,6 +56,7 @@ TestClient::TestClient(std::uint32_t domain, std::uint32_t tool_id)
     : tool_id_(tool_id),
       participant_(domain),
       poses_(participant_),
+      announcements_(participant_),
       surface_(participant_),
       displacement_(participant_),
       status_(participant_),
@@ -122,6 +123,7 @@ void TestClient::moveTo(const Point& position, int milliseconds) {
 
 dds::ToolPose TestClient::poseAt(const Point& position) const {
   dds::ToolPose pose{};
+  pose.server_id = dds::kServerAny;
   pose.tool_id = tool_id_;
   for (std::size_t k = 0; k < 3; ++k) pose.position[k] = position[k];
   pose.orientation[3] = 1.0;

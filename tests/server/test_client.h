@@ -53,6 +53,11 @@ class TestClient {
   [[nodiscard]] std::vector<dds::ToolForce> forces() const;
   [[nodiscard]] std::vector<dds::ToolForce> forcesOfOtherTools() const;
   void forget();
+  /// Says something of the device; the server hears it as from the sender of the poses.
+  void announce(const dds::ToolAnnouncement& said) {
+    (void)announcements_.waitForReaders(1, std::chrono::seconds(5));
+    (void)announcements_.write(said);
+  }
   /// Waits until an answer satisfies `wanted`, for at most 10 s. @return that answer
   template <class Wanted>
   [[nodiscard]] std::optional<dds::ToolForce> waitFor(Wanted wanted) const {
@@ -93,6 +98,7 @@ class TestClient {
 
   dds::Participant participant_;
   dds::Writer<dds::ToolPose> poses_;
+  dds::Writer<dds::ToolAnnouncement> announcements_;
   dds::Reader<dds::SurfaceMesh> surface_;
   dds::Reader<dds::SurfaceDisplacement> displacement_;
   dds::Reader<dds::ServerStatus> status_;

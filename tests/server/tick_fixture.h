@@ -27,8 +27,9 @@ inline MetaModel loadSynthetic() {
 /// A tick on the synthetic model, and the time that the test keeps.
 class TickTest : public ::testing::Test {
  protected:
-  // An accessible node and the normal there.
+  // An accessible node and the normal there; somebody reads fields.
   TickTest() {
+    channels_->field_readers = 1;
     const ModelView& view = model_.view();
     std::size_t position = 0;
     while (view.contact_accessible[position] == 0) ++position;

@@ -212,8 +212,10 @@ TEST_F(TickTest, WritesTheSurfaceAsOftenAsAskedInTheMeanAndTheForceEveryTick) {
 
 TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
   Tick seldom(model_, work_, *channels_, {kPeriod, 10 * kPeriod});
+  double depth = 0.001;
   const auto run = [&](int ticks) {
-    for (int i = 0; i < ticks; ++i, now_ns_ += kPeriod) {
+    for (int i = 0; i < ticks; ++i, now_ns_ += kPeriod, depth += 1e-5) {
+      send(poseAtDepth(0, depth));
       cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
       (void)seldom.run(cycle_);
     }

@@ -29,7 +29,14 @@ TEST(ForceOnTheWire, SaysWhatTheRecordSays) {
   record.result.displacement = {10, 11, 12};
   record.result.domain_radius = 0.004;
   record.result.penetration = 0.002;
-  const dds::ToolForce force = toWire(record);
+  Facts facts;
+  facts.server_id = 4;
+  facts.session = 0xfedcba9876543210;
+  facts.model_hash = 0x0123456789abcdef;
+  const dds::ToolForce force = toWire(facts, record);
+  EXPECT_EQ(force.server_id, 4U);
+  EXPECT_EQ(force.session, 0xfedcba9876543210);
+  EXPECT_EQ(force.model_hash, 0x0123456789abcdefU);
   EXPECT_EQ(force.tool_id, 2U);
   EXPECT_EQ(force.seq, 11U);
   EXPECT_EQ(force.pose_seq, 12U);
@@ -55,16 +62,23 @@ TEST(ForceOnTheWire, SaysWhatTheRecordSays) {
 TEST(StatusOnTheWire, SaysTimesInMicrosecondsAndCutsLongTexts) {
   Facts facts;
   facts.server_id = 3;
-  facts.step.tip_radius = 0.004;
+  facts.session = 5;
+  facts.host = "bench";
+  facts.pid = 77;
   facts.model_id = std::string(500, 'x');
   Health health;
+  health.settings[3].tip_radius = 0.004;
   health.tick.add(2'000);
   health.last.phase = static_cast<std::uint32_t>(rt::PhaseState::kLocked);
   health.last.dropped = 2;
   health.failed_writes = 3;
   const dds::ServerStatus status = toWire(facts, health, dds::server_state::kRunning);
   EXPECT_EQ(status.server_id, 3U);
-  EXPECT_EQ(status.tip_radius, 0.004);
+  EXPECT_EQ(status.session, 5U);
+  EXPECT_TRUE(status.answers_any);
+  EXPECT_STREQ(status.host, "bench");
+  EXPECT_EQ(status.pid, 77U);
+  EXPECT_EQ(status.tip_radius[3], 0.004);
   EXPECT_EQ(status.tick_us.p50, 2.0);
   EXPECT_EQ(status.tick_us.max, 2.0);
   EXPECT_EQ(status.tick_us.count, 1U);
@@ -83,7 +97,7 @@ TEST(StatusOnTheWire, PhasesAreThoseOfTheLock) {
 
 TEST(StatusOnTheWire, SaysWhatTheHandFeels) {
   Facts facts;
-  facts.device = "omni";
+  facts.device[0] = "omni";
   facts.youngs_modulus = 160e3;
   facts.step.force_limit = 2.0;
   facts.step.friction = 0.25;
@@ -93,7 +107,7 @@ TEST(StatusOnTheWire, SaysWhatTheHandFeels) {
   facts.step.speed_limit = 1.5;
   facts.step.tools = 2;
   Health health;
-  health.parameters = liveParameters(facts.step);
+  health.settings = toolSettings(facts.step);
   health.parameters_revision = 4;
   dds::ServerStatus status = toWire(facts, health, dds::server_state::kRunning);
   EXPECT_EQ(status.parameters_revision, 4U);
@@ -106,7 +120,7 @@ TEST(StatusOnTheWire, SaysWhatTheHandFeels) {
   EXPECT_EQ(status.speed_limit, 1.5);
   EXPECT_EQ(status.tools, 2U);
   EXPECT_EQ(status.youngs_modulus, 160e3) << "the model's own, none was asked for";
-  health.parameters.youngs_modulus = 5e3;
+  health.settings[0].live.youngs_modulus = 5e3;
   status = toWire(facts, health, dds::server_state::kRunning);
   EXPECT_EQ(status.youngs_modulus, 5e3);
 }

@@ -62,7 +62,8 @@ test('it says what it waits for, and comes back when the server or the viewer do
   await staysEmpty(seen, 1);
   await seen.page.mouse.up();
   await bench.viewer(port);
-  await seen.until('back again', (f) => f.state.level === 'good' && f.framesPerSecond > 5);
+  // Nothing touches the organ, so its field comes once a second.
+  await seen.until('back again', (f) => f.state.level === 'good' && f.framesPerSecond > 0);
   assert.ok(!(await seen.figures()).pressing);
   await press(seen);
   await seen.page.mouse.up();

@@ -4,16 +4,18 @@ import re
 
 from .processes import Failure
 
-_SIZES = {"unsigned long": 4, "long": 4, "unsigned long long": 8, "long long": 8, "double": 8, "float": 4}
+_SIZES = {"boolean": 1, "unsigned long": 4, "long": 4, "unsigned long long": 8, "long long": 8, "double": 8, "float": 4}
+_LENGTH = 4  # of an appendable struct, before its members
+_LARGEST_ALIGNMENT = 4
 
 
 def size_of(idl, struct):
-    """Bytes of a struct of numbers and arrays of them in CDR: each number at a multiple of its size.
+    """Bytes of an appendable struct of numbers and arrays of them in XCDR2: each number at a multiple of its size, or of 4.
     @throw Failure when the struct is missing or has other members"""
     body = re.search(r"struct " + struct + r" \{(.*?)\};", idl.read_text(encoding="utf-8"), re.S)
     if body is None:
         raise Failure(f"{idl} has no struct {struct}")
-    size = 0
+    size = _LENGTH
     for line in body.group(1).splitlines():
         line = line.split("//")[0].strip()
         if not line:
@@ -22,5 +24,6 @@ def size_of(idl, struct):
         if member is None or member.group(1) not in _SIZES:
             raise Failure(f"{idl}: struct {struct}: '{line}' is not a number")
         number = _SIZES[member.group(1)]
-        size = -(-size // number) * number + number * int(member.group(2) or 1)
+        step = min(number, _LARGEST_ALIGNMENT)
+        size = -(-size // step) * step + number * int(member.group(2) or 1)
     return size

@@ -8,8 +8,8 @@
 
 namespace palpate::solve {
 
-/// Fills in model_id, a hash of everything that the model says, and provenance: program, time, case, mesh
-/// with its hash, timings, error of the fit after each sweep or what the pairs leave, load, how the modes are kept.
+/// Fills in provenance: program, time, case, mesh
+/// with its SHA-256, timings, error of the fit after each sweep or what the pairs leave, load, how the modes are kept.
 void addProvenance(modelfile::ModelData& data, const offline::Case& c, const offline::BuildReport& report,
                    const modelfile::StorageReport& storage);
 

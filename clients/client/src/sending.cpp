@@ -10,10 +10,20 @@ namespace palpate::client {
 bool prepareToSend(const ToolClient& tool) {
   constexpr int kPriority = 60;
   constexpr int kReceivePriority = 65;
-  if (!tool.waitForServer(std::chrono::seconds(5)))
-    throw ClientError("the server takes no poses or sends no forces (waited 5 s)");
+  if (!tool.waitForServer(std::chrono::seconds(5))) {
+    const std::string mismatch = tool.mismatch();
+    throw ClientError("the server takes no poses or sends no forces (waited 5 s)" +
+                      (mismatch.empty() ? "" : ": " + mismatch));
+  }
   (void)rt::raiseThreadsNamed(dds::kReceiveThreads, kReceivePriority);
   return rt::raiseThisThread(kPriority) == 0;
+}
+
+std::string leftOutText(const LeftOut& left_out, const StatusBoard& statuses) {
+  if (left_out.count == 0) return {};
+  const auto status = statuses.find(left_out.newest);
+  return std::to_string(left_out.count) + " forces of another server were left out: " +
+         (status ? describe(*status) : nameOf(left_out.newest)) + "\n";
 }
 
 }  // namespace palpate::client

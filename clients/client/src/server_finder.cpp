@@ -1,33 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/client/server_finder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <new>
 #include <thread>
+#include <utility>
 
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
 
 namespace palpate::client {
 
-ServerFinder::ServerFinder(const dds::Participant& participant)
-    : domain_(participant.domain()), statuses_(participant), surfaces_(participant) {}
+ServerFinder::ServerFinder(const dds::Participant& participant, std::uint32_t server_id)
+    : domain_(participant.domain()),
+      server_id_(server_id),
+      statuses_(participant, nullptr, nullptr, dds::Wants::kHistory),
+      surfaces_(participant, nullptr, this, &ServerFinder::onSurface) {}
+
+// DDS calls it for each sample before it keeps one. The sample is copied here and not kept: DDS would keep the mesh of every
+// session that somebody invents.
+bool ServerFinder::onSurface(const dds::SurfaceMesh& message, void* context) noexcept {
+  constexpr std::size_t kMostArrived = 16;  // between two looks
+  auto& self = *static_cast<ServerFinder*>(context);
+  try {
+    const std::lock_guard lock(self.mutex_);
+    if (self.arrived_.size() == kMostArrived) return false;
+    try {
+      self.arrived_.push_back(checkedSurface(message));
+    } catch (const ClientError& error) {
+      self.arrived_refusal_ = error.what();
+    }
+  } catch (const std::bad_alloc&) {  // too large to keep
+    return false;
+  }
+  return false;
+}
+
+// Each comes once, and maybe before its server's status.
+void ServerFinder::takeSurfaces() {
+  constexpr std::size_t kMostKept = 16;
+  std::vector<Surface> arrived;
+  {
+    const std::lock_guard lock(mutex_);
+    arrived.swap(arrived_);
+    if (!arrived_refusal_.empty()) refusal_ = std::exchange(arrived_refusal_, {});
+  }
+  for (Surface& surface : arrived) {
+    if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
+    kept_.push_back(std::move(surface));
+  }
+}
 
 bool ServerFinder::look(ServerInfo& info) {
-  std::array<dds::ServerStatus, dds::kMaxTake> statuses;
-  const std::size_t count = statuses_.take(statuses);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (statuses[i].state != dds::server_state::kRunning) continue;
-    info.status = statuses[i];
+  takeSurfaces();
+  for (const dds::ServerStatus& status : statuses_.running()) {
+    if (server_id_ != dds::kServerAny && status.server_id != server_id_) continue;
     has_status_ = true;
+    const auto fits = std::find_if(kept_.begin(), kept_.end(), [&](const Surface& surface) {
+      return surface.session == status.session && surface.organ_id == status.organ_id &&
+             surface.model_id == status.model_id;
+    });
+    if (fits == kept_.end()) continue;
+    info = {status, *fits};
+    return true;
   }
-  const auto surfaces = surfaces_.takeLoaned();
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    info.surface = checkedSurface(surfaces[i]);
-    has_surface_ = true;
-  }
-  return has_status_ && has_surface_ && info.status.organ_id == info.surface.organ_id &&
-         info.surface.model_id == info.status.model_id;
+  return false;
+}
+
+std::vector<std::string> ServerFinder::others(const ServerInfo& found) const {
+  std::vector<std::string> lines;
+  for (const dds::ServerStatus& status : statuses_.running())
+    if (runOf(status) != runOf(found)) lines.push_back(describe(status));
+  return lines;
 }
 
 std::string ServerFinder::missing(std::chrono::milliseconds waited) const {
@@ -37,11 +83,14 @@ std::string ServerFinder::missing(std::chrono::milliseconds waited) const {
     if (!mismatch.empty()) return "no server fits" + where + ": " + mismatch;
   const std::string hint =
       "; is palpate-server running there, and does CYCLONEDDS_URI name the same network?";
-  if (!has_status_ && !has_surface_) return "no server" + where + hint;
+  if (!refusal_.empty()) return refusal_;
+  if (!has_status_ && server_id_ != dds::kServerAny)
+    return "no server " + std::to_string(server_id_) + where + hint;
+  if (!has_status_ && kept_.empty()) return "no server" + where + hint;
   if (!has_status_)
     return "no running server's status (" + std::string(dds::TopicTraits<dds::ServerStatus>::kName) + ")" +
            where;
-  if (!has_surface_)
+  if (kept_.empty())
     return "no organ's surface (" + std::string(dds::TopicTraits<dds::SurfaceMesh>::kName) + ")" + where;
   return "the surface and the server's status name different models" + where + ": do two servers run?";
 }
@@ -55,15 +104,20 @@ ServerInfo ServerFinder::wait(std::chrono::milliseconds timeout) {
     if (std::chrono::steady_clock::now() >= deadline) throw ClientError(missing(timeout));
     std::this_thread::sleep_for(5ms);
   }
-  if (!(info.status.tip_radius >= 0.0 && info.status.tip_radius <= 0.05))
-    throw ClientError("the server's status says tip_radius " + std::to_string(info.status.tip_radius) +
-                      " m, expected 0 to 0.05");
+  for (const double radius : info.status.tip_radius)
+    if (!(radius >= 0.0 && radius <= 0.05))
+      throw ClientError("the server's status says tip_radius " + std::to_string(radius) +
+                        " m, expected 0 to 0.05");
   return info;
 }
 
-ServerInfo findServer(const dds::Participant& participant, double seconds) {
+ServerInfo findServer(const dds::Participant& participant, double seconds, std::uint32_t server_id) {
   std::cerr << "waiting for a server on DDS domain " << participant.domain() << "\n";
-  return ServerFinder(participant).wait(std::chrono::milliseconds(static_cast<long>(seconds * 1e3)));
+  ServerFinder finder(participant, server_id);
+  ServerInfo server = finder.wait(std::chrono::milliseconds(static_cast<long>(seconds * 1e3)));
+  for (const std::string& other : finder.others(server))
+    std::cerr << "note: held on to " << describe(server.status) << "; there is " << other << "\n";
+  return server;
 }
 
 }  // namespace palpate::client

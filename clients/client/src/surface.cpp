@@ -86,6 +86,7 @@ void checkModelId(const std::string& model_id) {
 Surface checkedSurface(const dds::SurfaceMesh& message) {
   Surface surface;
   surface.organ_id = message.organ_id;
+  surface.session = message.session;
   surface.model_id = message.model_id;
   checkModelId(surface.model_id);
   surface.topology_revision = message.topology_revision;

@@ -20,14 +20,15 @@ std::uint32_t checkedId(std::uint32_t tool_id) {
 }  // namespace
 
 ToolClient::ToolClient(const dds::Participant& participant, std::uint32_t tool_id, ForceCallback callback,
-                       void* context)
+                       void* context, const ServerRun& wanted)
     : tool_id_(checkedId(tool_id)),
       first_seq_(static_cast<std::uint64_t>(rt::monotonicNow())),
       last_seq_(first_seq_ - 1),
       callback_(callback),
       context_(context),
+      hold_(wanted),
       poses_(participant),
-      forces_(participant, &ToolClient::onData, this) {
+      forces_(participant, &ToolClient::onForce, this) {
   pose_.tool_id = tool_id_;
   pose_.seq = first_seq_ - 1;
 }
@@ -39,14 +40,19 @@ std::uint64_t ToolClient::publish(const Point& position, const std::array<double
   std::copy(orientation.begin(), orientation.end(), pose_.orientation);
   pose_.buttons = buttons;
   pose_.stamp_ns = rt::monotonicNow();
+  pose_.server_id = hold_.address(pose_.stamp_ns);
   last_seq_.store(pose_.seq,
                   std::memory_order_relaxed);  // before the pose is out, so that its answer is known
   return poses_.write(pose_) ? pose_.seq : 0;
 }
 
 bool ToolClient::answersUs(const dds::ToolForce& force) const noexcept {
-  return force.tool_id == tool_id_ && force.pose_seq >= first_seq_ &&
-         force.pose_seq <= last_seq_.load(std::memory_order_relaxed);
+  return force.pose_seq >= first_seq_ && force.pose_seq <= last_seq_.load(std::memory_order_relaxed);
+}
+
+std::string ToolClient::mismatch() const {
+  const std::string poses = poses_.mismatch();
+  return poses.empty() ? forces_.mismatch() : poses;
 }
 
 bool ToolClient::waitForServer(std::chrono::milliseconds timeout) const noexcept {
@@ -57,16 +63,16 @@ bool ToolClient::waitForServer(std::chrono::milliseconds timeout) const noexcept
   return forces_.waitForWriters(1, std::max(left, std::chrono::milliseconds(1)));
 }
 
-void ToolClient::onData(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept {
+void ToolClient::onForce(const dds::ToolForce& force, dds::WriterId writer, void* context) noexcept {
   auto& self = *static_cast<ToolClient*>(context);
+  if (force.tool_id != self.tool_id_) return;
   const std::int64_t received_ns = rt::monotonicNow();
-  std::array<dds::ToolForce, dds::kMaxTake> forces;
-  const std::size_t count = reader.take(forces);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!self.answersUs(forces[i])) continue;
-    self.latest_.write(forces[i]);
-    if (self.callback_ != nullptr) self.callback_(forces[i], received_ns, self.context_);
-  }
+  const bool answers_us = self.answersUs(force);
+  const bool farewell = (force.flags & dds::flag::kShuttingDown) != 0;
+  const ServerRun from{force.server_id, force.session};
+  if (!self.hold_.takes(from, writer, received_ns, answers_us, farewell) || !answers_us) return;
+  self.latest_.write(force);
+  if (self.callback_ != nullptr) self.callback_(force, received_ns, self.context_);
 }
 
 }  // namespace palpate::client

@@ -26,6 +26,7 @@ struct Arguments {
   std::string at;
   std::uint32_t tool_id{0};
   std::uint32_t domain{0};
+  std::uint32_t server_id{dds::kServerAny};
   double wait_s{10.0};
   bool json{false};
   std::string plot;
@@ -49,6 +50,7 @@ void addOptions(program::Options line, Arguments& arguments) {
   line.add("--at", &arguments.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
   line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
+  line.add("--server-id", &arguments.server_id, "which server of the domain; default: the first found");
   line.add("--wait", &arguments.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
   line.flag("--json", &arguments.json, "print one JSON object on standard output");
   line.add("--plot", &arguments.plot, "write the depth over time to this SVG file");
@@ -86,7 +88,7 @@ Session play(const dds::Participant& participant, const Arguments& arguments, co
   const Motion motion = makeMotion(arguments.motion, spot.position, spot.normal, arguments.path);
   HeldDevice device(mechanics, hand, motion.path);
   const Trace without = withoutOrgan(device, motion);
-  const Recording recording = run(participant, arguments.tool_id, device);
+  const Recording recording = run(participant, arguments.tool_id, device, runOf(server));
   return {arguments.preset,
           mechanics,
           hand,
@@ -122,10 +124,10 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(arguments.domain);
-  const client::ServerInfo server = client::findServer(participant, arguments.wait_s);
+  const client::ServerInfo server = client::findServer(participant, arguments.wait_s, arguments.server_id);
 
   // 3. The motion there, once without the organ and once against the server.
-  arguments.path.tip_radius = server.status.tip_radius;
+  arguments.path.tip_radius = server.status.tip_radius[arguments.tool_id];
   const Session session = play(participant, arguments, mechanics, hand, server);
 
   // 4. Tell.

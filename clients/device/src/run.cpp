@@ -78,8 +78,10 @@ void note(const HeldDevice& device, const dds::ToolForce& answer, Recording& rec
 
 }  // namespace
 
-Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device) {
-  client::ToolClient tool(participant, tool_id);
+Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device,
+              const client::ServerRun& server) {
+  const client::StatusBoard statuses(participant);
+  client::ToolClient tool(participant, tool_id, nullptr, nullptr, server);
   if (!client::prepareToSend(tool)) std::cerr << client::kNotRealtime;
   Recording recording;
   recording.trace.dt = kPeriod;
@@ -94,6 +96,8 @@ Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDe
     note(device, answer, recording);
     goes_on = exchange.await(recording);
   }
+  recording.left_out = tool.hold().leftOut();
+  std::cerr << client::leftOutText(recording.left_out, statuses);
   return recording;
 }
 

@@ -16,6 +16,7 @@ struct Recording {
   std::vector<double> penetration;  ///< the server's figure, one per entry, m
   std::vector<double> work;         ///< done on the organ until then, J
   std::uint32_t flags{0};           ///< FLAG_* of all answers, or-ed
+  client::LeftOut left_out;         ///< forces of other servers
   std::uint64_t waited{0};          ///< periods in which the device stood still because an answer was late
   bool server_left{false};          ///< the server said that it shuts down
   bool interrupted{false};
@@ -26,6 +27,7 @@ struct Recording {
 /// is its steps. While that answer is missing, or the server fades the force because poses came late, the device
 /// stands still and keeps sending. So a stall of a process is neither felt nor taken for an instability.
 /// @throw client::ClientError  no server takes poses, or none answers for a second
-[[nodiscard]] Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device);
+[[nodiscard]] Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device,
+                            const client::ServerRun& server);
 
 }  // namespace palpate::device

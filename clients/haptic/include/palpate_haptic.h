@@ -37,29 +37,37 @@ enum { PALPATE_HAPTIC_FREE = 0, PALPATE_HAPTIC_STICK = 1, PALPATE_HAPTIC_SLIDE =
 
 typedef struct palpate_haptic palpate_haptic; /* one tool of one server */
 
+#define PALPATE_HAPTIC_ANY_SERVER 0xFFFFFFFFu
+
 typedef struct palpate_haptic_options {
-  uint32_t domain;          /* DDS domain, 0 to 230 */
-  uint32_t tool_id;         /* 0 to 3 */
-  double force_limit;       /* the device's own, N, 0.01 to 50; the server's limit applies too */
+  uint32_t domain;    /* DDS domain, 0 to 230 */
+  uint32_t server_id; /* the server; PALPATE_HAPTIC_ANY_SERVER: the first that answers */
+  uint32_t tool_id;   /* 0 to 3 */
+  double
+      force_limit; /* largest that the device renders, N, 0.01 to 50: set it, it has no default. The server's applies too */
   double max_extrapolation; /* m, 0 to 0.05 */
   int receive_priority;     /* SCHED_FIFO, 1 to 99; 0: unchanged */
+  const char* device;       /* as in palpate-server --device; null: none said */
 } palpate_haptic_options;
 
 typedef struct palpate_haptic_force {
-  double force[3];   /* on the tool, N: what the device renders */
-  double anchor[3];  /* rest position of the touched point, m */
-  double proxy[3];   /* its current position, m */
-  double age_s;      /* time since the newest answer, s; infinity before the first */
-  double gain;       /* the watchdog's gain, 0 to 1, already in force */
-  uint64_t pose_seq; /* the answered pose; 0 before the first answer */
-  uint32_t flags;    /* PALPATE_HAPTIC_FLAG_* */
-  uint32_t state;    /* PALPATE_HAPTIC_FREE, _STICK, _SLIDE */
+  double force[3];    /* on the tool, N: what the device renders */
+  double anchor[3];   /* rest position of the touched point, m */
+  double proxy[3];    /* its current position, m */
+  double age_s;       /* time since the newest answer, s; infinity before the first */
+  double gain;        /* the watchdog's gain, 0 to 1, already in force */
+  uint64_t pose_seq;  /* the answered pose; 0 before the first answer */
+  uint32_t flags;     /* PALPATE_HAPTIC_FLAG_* */
+  uint32_t state;     /* PALPATE_HAPTIC_FREE, _STICK, _SLIDE */
+  uint32_t server_id; /* of the server whose force it is */
+  uint64_t
+      session; /* of the run of that server; another one: another server has taken over; 0 before the first answer */
 } palpate_haptic_force;
 
-/* Fills in the defaults. Null is ignored. */
+/* Fills in the defaults; force_limit has none and is 0, which palpate_haptic_open refuses. Null is ignored. */
 PALPATE_HAPTIC_C_API void palpate_haptic_default_options(palpate_haptic_options* options);
 
-/* Joins the domain. options null: the defaults. On failure returns null and writes one line to `error` (cut to
+/* Joins the domain. On failure returns null and writes one line to `error` (cut to
  * error_size, always terminated; may be null). */
 PALPATE_HAPTIC_C_API palpate_haptic* palpate_haptic_open(const palpate_haptic_options* options, char* error,
                                                          size_t error_size);
@@ -80,6 +88,9 @@ PALPATE_HAPTIC_C_API int palpate_haptic_read(palpate_haptic* tool, palpate_hapti
 /* The same, extrapolated to the tool's current position. */
 PALPATE_HAPTIC_C_API int palpate_haptic_read_at(palpate_haptic* tool, const double position[3],
                                                 palpate_haptic_force* out);
+
+/* Forces of other servers for this tool that were left out so far; 0 for null. */
+PALPATE_HAPTIC_C_API uint64_t palpate_haptic_left_out(const palpate_haptic* tool);
 
 /* The tip radius (m) and the force limit (N) from the server's status; 0 until it has come, or for null. */
 PALPATE_HAPTIC_C_API double palpate_haptic_tip_radius(const palpate_haptic* tool);

@@ -45,6 +45,7 @@ bool ForceRenderer::answered(const Answer& answer) noexcept PALPATE_NONBLOCKING 
   const bool sane = isFinite(answer.force) && isFinite(answer.stiffness) && isFinite(answer.anchor) &&
                     isFinite(answer.proxy);
   if (!sane || (has_answer_ && answer.pose_seq < answer_.pose_seq)) return false;
+  if (answer.session != answer_.session) gain_ = 0.0;
   answer_ = answer;
   has_answer_ = true;
   return true;
@@ -86,6 +87,8 @@ Force ForceRenderer::at(const Point* position, std::int64_t now_ns,
   out.pose_seq = answer_.pose_seq;
   out.flags = answer_.flags;
   out.state = answer_.state;
+  out.server_id = answer_.server_id;
+  out.session = answer_.session;
   return out;
 }
 

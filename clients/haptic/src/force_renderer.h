@@ -21,6 +21,8 @@ struct Answer {
   std::uint32_t flags{0};
   std::uint32_t state{0};
   std::int64_t arrived_ns{0};  ///< this machine's clock
+  std::uint32_t server_id{0};
+  std::uint64_t session{0};
 };
 
 /// Turns answers into the current force: watchdog, extrapolation, limits (haptic_tool.h). Knows neither DDS nor a clock: the
@@ -39,6 +41,7 @@ class ForceRenderer {
   /// @param[in] seq  rises by one with each pose
   void sent(std::uint64_t seq, const Point& position) noexcept PALPATE_NONBLOCKING;
 
+  /// The force of another session rises from zero.
   /// @return false when it is ignored: a number is not finite, or the pose is older than that of the last answer
   bool answered(const Answer& answer) noexcept PALPATE_NONBLOCKING;
 

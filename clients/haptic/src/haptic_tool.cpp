@@ -6,6 +6,7 @@
 
 #include "force_renderer.h"
 #include "palpate/client/in_range.h"
+#include "palpate/client/status_board.h"
 #include "palpate/client/tool_client.h"
 #include "palpate/idl/receive_threads.h"
 #include "palpate/rt/clock.h"
@@ -19,6 +20,8 @@ const Options& checked(const Options& options) {
   using client::inRange;
   inRange<HapticError>("domain", options.domain, 0, dds::kMaxDomain);
   inRange<HapticError>("tool id", options.tool_id, 0, 3);
+  if (options.force_limit == 0.0)
+    throw HapticError("force limit is missing: say the largest force that the device renders, N");
   inRange<HapticError>("force limit (N)", options.force_limit, 0.01, 50.0);
   inRange<HapticError>("max extrapolation (m)", options.max_extrapolation, 0.0, 0.05);
   inRange<HapticError>("receive priority", options.receive_priority, 0, 99);
@@ -38,10 +41,17 @@ class HapticTool::Impl {
  public:
   explicit Impl(const Options& options)
       : limit_(checked(options).force_limit),
+        tool_id_(options.tool_id),
         renderer_(options.max_extrapolation),
         participant_(options.domain),
+        wanted_(options.server_id),
+        announcements_(participant_),
         statuses_(participant_, &Impl::onStatus, this),
-        tool_(participant_, options.tool_id, &Impl::onForce, this) {
+        tool_(participant_, options.tool_id, &Impl::onForce, this, {options.server_id, 0}) {
+    said_.server_id = options.server_id;
+    said_.tool_id = options.tool_id;
+    dds::assignText(said_.device, options.device);
+    said_.device_force_limit = options.force_limit;
     if (options.receive_priority > 0)
       (void)rt::raiseThreadsNamed(dds::kReceiveThreads, options.receive_priority);
   }
@@ -51,6 +61,7 @@ class HapticTool::Impl {
   }
 
   std::uint64_t send(const Vec3& position, const Quaternion& orientation, std::uint32_t buttons) noexcept {
+    announceIfDue(rt::monotonicNow());
     const Point p{position[0], position[1], position[2]};
     const std::uint64_t seq = tool_.publish(p, orientation, buttons);
     if (seq != 0) renderer_.sent(seq, p);
@@ -64,35 +75,70 @@ class HapticTool::Impl {
     return renderer_.at(position, rt::monotonicNow(), limit);
   }
 
+  [[nodiscard]] std::uint64_t leftOut() const noexcept { return tool_.hold().leftOut().count; }
   [[nodiscard]] double tipRadius() const noexcept { return tip_radius_.load(std::memory_order_relaxed); }
   [[nodiscard]] double serverLimit() const noexcept { return server_limit_.load(std::memory_order_relaxed); }
 
  private:
+  // As long as there are poses: a server may begin at any time, or have had no place for the word.
+  void announceIfDue(std::int64_t now_ns) noexcept {
+    constexpr std::int64_t kPeriod = 500'000'000;
+    if (said_ns_ != 0 && now_ns - said_ns_ < kPeriod) return;
+    said_ns_ = now_ns;
+    (void)announcements_.write(said_);
+  }
+
   static void onForce(const dds::ToolForce& force, std::int64_t received_ns, void* context) noexcept {
-    static_cast<Impl*>(context)->arrivals_.write({arrayOf(force.force), arrayOf(force.stiffness),
-                                                  arrayOf(force.anchor), arrayOf(force.proxy), force.pose_seq,
-                                                  force.flags, force.state, received_ns});
+    auto& self = *static_cast<Impl*>(context);
+    const client::ServerRun run{force.server_id, force.session};
+    if (run != self.heldRun()) {
+      self.setHeld(run);
+      if (const auto status = self.statuses_.find(run))
+        self.adopt(*status);  // it came before the first answer
+    }
+    self.arrivals_.write({arrayOf(force.force), arrayOf(force.stiffness), arrayOf(force.anchor),
+                          arrayOf(force.proxy), force.pose_seq, force.flags, force.state, received_ns,
+                          force.server_id, force.session});
+  }
+
+  // Seen half changed, a status is not adopted; the next one comes within a second.
+  [[nodiscard]] client::ServerRun heldRun() const noexcept {
+    return {held_id_.load(std::memory_order_relaxed), held_session_.load(std::memory_order_relaxed)};
+  }
+  void setHeld(const client::ServerRun& run) noexcept {
+    held_id_.store(run.server_id, std::memory_order_relaxed);
+    held_session_.store(run.session, std::memory_order_relaxed);
+  }
+
+  static void onStatus(const dds::ServerStatus& status, void* context) noexcept {
+    auto& self = *static_cast<Impl*>(context);
+    const client::ServerRun held = self.heldRun();
+    const bool wanted = self.wanted_ == dds::kServerAny || self.wanted_ == status.server_id;
+    if (held == client::runOf(status) || (held == client::ServerRun{} && wanted)) self.adopt(status);
   }
 
   // Two independent numbers: relaxed order suffices.
-  static void onStatus(dds::ReaderView<dds::ServerStatus> reader, void* context) noexcept {
-    auto& self = *static_cast<Impl*>(context);
-    dds::ServerStatus status;
-    while (reader.take({&status, 1}) == 1) {
-      if (status.state != dds::server_state::kRunning) continue;
-      if (status.force_limit > 0.0) self.server_limit_.store(status.force_limit, std::memory_order_relaxed);
-      if (status.tip_radius >= 0.0 && status.tip_radius <= 0.05)
-        self.tip_radius_.store(status.tip_radius, std::memory_order_relaxed);
-    }
+  void adopt(const dds::ServerStatus& status) noexcept {
+    if (status.state != dds::server_state::kRunning) return;
+    if (status.force_limit > 0.0) server_limit_.store(status.force_limit, std::memory_order_relaxed);
+    const double radius = status.tip_radius[tool_id_];
+    if (radius >= 0.0 && radius <= 0.05) tip_radius_.store(radius, std::memory_order_relaxed);
   }
 
   double limit_;
+  std::uint32_t tool_id_;
   ForceRenderer renderer_;
   rt::TripleBuffer<Answer> arrivals_;  // from the receive thread to the caller's
   std::atomic<double> server_limit_{0.0};
   std::atomic<double> tip_radius_{0.0};
   dds::Participant participant_;
-  dds::Reader<dds::ServerStatus> statuses_;
+  std::uint32_t wanted_;
+  dds::Writer<dds::ToolAnnouncement> announcements_;
+  dds::ToolAnnouncement said_{};                         // the sender's
+  std::int64_t said_ns_{0};                              // 0: never
+  std::atomic<std::uint32_t> held_id_{dds::kServerAny};  // the receive threads' only
+  std::atomic<std::uint64_t> held_session_{0};
+  client::StatusBoard statuses_;
   client::ToolClient tool_;  // last: nothing is received while the other members are destroyed
 };
 
@@ -123,6 +169,10 @@ Force HapticTool::force() noexcept {
 Force HapticTool::forceAt(const Vec3& position) noexcept {
   const Point p{position[0], position[1], position[2]};
   return impl_->read(&p);
+}
+
+std::uint64_t HapticTool::leftOut() const noexcept {
+  return impl_->leftOut();
 }
 
 double HapticTool::tipRadius() const noexcept {

@@ -19,7 +19,13 @@ using palpate::haptic::Force;
 using palpate::haptic::Options;
 
 Options optionsOf(const palpate_haptic_options& from) {
-  return {from.domain, from.tool_id, from.force_limit, from.max_extrapolation, from.receive_priority};
+  return {from.domain,
+          from.server_id,
+          from.tool_id,
+          from.force_limit,
+          from.max_extrapolation,
+          from.receive_priority,
+          from.device == nullptr ? "" : from.device};
 }
 
 void tell(std::string_view text, char* error, std::size_t error_size) noexcept {
@@ -45,6 +51,8 @@ int hand(const Force& force, palpate_haptic_force& out) noexcept {
   out.pose_seq = force.pose_seq;
   out.flags = force.flags;
   out.state = force.state;
+  out.server_id = force.server_id;
+  out.session = force.session;
   return force.age_s >= 0.050 ? PALPATE_HAPTIC_NO_ANSWER : PALPATE_HAPTIC_OK;
 }
 
@@ -55,15 +63,20 @@ extern "C" {
 void palpate_haptic_default_options(palpate_haptic_options* options) {
   if (options == nullptr) return;
   const Options defaults;
-  *options = {defaults.domain, defaults.tool_id, defaults.force_limit, defaults.max_extrapolation,
-              defaults.receive_priority};
+  *options = {defaults.domain,
+              defaults.server_id,
+              defaults.tool_id,
+              defaults.force_limit,
+              defaults.max_extrapolation,
+              defaults.receive_priority,
+              nullptr};
 }
 
 palpate_haptic* palpate_haptic_open(const palpate_haptic_options* options, char* error, size_t error_size) {
   try {
     tell("", error, error_size);
-    return new palpate_haptic{
-        palpate::haptic::HapticTool(options == nullptr ? Options{} : optionsOf(*options))};
+    if (options == nullptr) throw palpate::haptic::HapticError("no options: force_limit has no default");
+    return new palpate_haptic{palpate::haptic::HapticTool(optionsOf(*options))};
   } catch (const std::exception& failure) {
     tell(failure.what(), error, error_size);
   } catch (...) {
@@ -99,6 +112,10 @@ int palpate_haptic_read(palpate_haptic* tool, palpate_haptic_force* out) {
 int palpate_haptic_read_at(palpate_haptic* tool, const double position[3], palpate_haptic_force* out) {
   if (tool == nullptr || position == nullptr || out == nullptr) return PALPATE_HAPTIC_INVALID_ARGUMENT;
   return hand(tool->tool.forceAt(arrayOf<3>(position)), *out);
+}
+
+uint64_t palpate_haptic_left_out(const palpate_haptic* tool) {
+  return tool == nullptr ? 0 : tool->tool.leftOut();
 }
 
 double palpate_haptic_tip_radius(const palpate_haptic* tool) {

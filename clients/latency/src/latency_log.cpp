@@ -20,7 +20,7 @@ void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noex
   if (!known) newest_pose_ = force.pose_seq;
   if (!recording_.load(std::memory_order_relaxed)) return;
   const std::uint64_t restarts_before = answers_.restarts();
-  answers_.add(force.seq);
+  answers_.add(force.session, force.seq);
   last_ = {force.overruns, force.superseded};
   if (answers_.received() == 1 || answers_.restarts() != restarts_before) first_ = last_;
   wakeup_.add(force.wakeup_ns);

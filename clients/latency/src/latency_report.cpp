@@ -58,6 +58,7 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
       static_cast<unsigned long long>(log.received()), static_cast<unsigned long long>(log.lost()),
       static_cast<unsigned long long>(log.late()), static_cast<unsigned long long>(log.superseded()),
       static_cast<unsigned long long>(log.overruns()));
+  text += sender.left_out_text;
   text += std::string("real-time priority: server ") + (server.realtime ? "yes" : "no") + ", sender " +
           (sender.realtime ? "yes" : "no") +
           "; server's memory locked: " + (server.memory_locked ? "yes" : "no") + "\n";
@@ -76,6 +77,7 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"overruns", log.overruns()},
           {"lost", log.lost()},
           {"late", log.late()},
+          {"left_out", sender.left_out.count},
           {"superseded", log.superseded()},
           {"seconds", sender.seconds},
           {"sent", sender.sent},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-latency: how long a pose takes to become a force, and how steadily the server ticks.
-#include <array>
 #include <iostream>
 #include <optional>
 
@@ -23,6 +22,7 @@ struct Options {
   MeasureOptions measure;
   std::string at;
   std::uint32_t domain{0};
+  std::uint32_t server_id{dds::kServerAny};
   double wait_s{10.0};
   bool json{false};
   std::string plot;
@@ -34,19 +34,10 @@ void addOptions(program::Options line, Options& options) {
   line.add("--at", &options.at, "press the accessible node nearest to x,y,z (m); default: the highest one");
   line.add("--tool", &options.measure.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
   line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.add("--plot", &options.plot, "write the histograms to this SVG file");
-}
-
-// The newest status: the server sends one per second.
-dds::ServerStatus newest(const dds::Reader<dds::ServerStatus>& statuses, const dds::ServerStatus& before) {
-  std::array<dds::ServerStatus, dds::kMaxTake> taken;
-  dds::ServerStatus status = before;
-  const std::size_t count = statuses.take(taken);
-  for (std::size_t i = 0; i < count; ++i)
-    if (taken[i].server_id == before.server_id) status = taken[i];
-  return status;
 }
 
 int body(int argc, char** argv) {
@@ -63,10 +54,11 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and a place to press.
   const dds::Participant participant(options.domain);
-  client::ServerInfo server = client::findServer(participant, options.wait_s);
-  const dds::Reader<dds::ServerStatus> statuses(participant);
+  client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
+  const client::StatusBoard statuses(participant);
   const client::Spot spot = client::chooseSpot(server.surface, at);
-  options.measure.tip_radius = server.status.tip_radius;
+  options.measure.server = runOf(server);
+  options.measure.tip_radius = server.status.tip_radius[options.measure.tool_id];
 
   // 3. Measure.
   LatencyLog log(static_cast<std::int64_t>(1e9 / options.measure.rate_hz));
@@ -75,7 +67,7 @@ int body(int argc, char** argv) {
   if (log.received() == 0)
     throw client::ClientError("no force came back for " + std::to_string(sender.sent) + " poses");
 
-  server.status = newest(statuses, server.status);
+  server.status = statuses.find(runOf(server)).value_or(server.status);
 
   // 4. Tell.
   (options.json ? std::cerr : std::cout) << textOf(log, sender, server.status) << std::flush;

@@ -48,7 +48,8 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   const auto on_force = [](const dds::ToolForce& force, std::int64_t received_ns, void* context) noexcept {
     static_cast<LatencyLog*>(context)->add(force, received_ns);
   };
-  client::ToolClient tool(participant, options.tool_id, on_force, &log);
+  const client::StatusBoard statuses(participant);
+  client::ToolClient tool(participant, options.tool_id, on_force, &log, options.server);
   const client::Path path = gentlePress(spot, options);
   SenderStats unmeasured;
   SenderStats stats;
@@ -59,6 +60,8 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   send(tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats);
   log.record(false);
   send(tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
+  stats.left_out = tool.hold().leftOut();
+  stats.left_out_text = client::leftOutText(stats.left_out, statuses);
   return stats;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "latency_log.h"
+#include "palpate/client/server_hold.h"
 #include "palpate/client/surface.h"
 #include "palpate/idl/participant.h"
 
@@ -13,6 +16,7 @@ struct MeasureOptions {
   double rate_hz{1000.0};    ///< of the poses, in [10, 4000]
   double tip_radius{0.005};  ///< R, m; the server's
   std::uint32_t tool_id{0};
+  client::ServerRun server;  ///< to be measured
 };
 
 /// The sender's side of the measurement.
@@ -20,6 +24,8 @@ struct SenderStats {
   rt::CycleStats wakeup;  ///< lateness of the sending thread's wake-ups
   double seconds{0.0};    ///< duration of the measurement
   std::uint64_t sent{0};
+  client::LeftOut left_out;   ///< forces of other servers
+  std::string left_out_text;  ///< whose; empty: none
   bool realtime{false};
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -17,13 +18,30 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::optional<dds::ServerParameters> answerTo(std::uint64_t request_id,
-                                              const dds::Reader<dds::ServerParameters>& answers) {
-  std::array<dds::ServerParameters, dds::kMaxTake> samples;
-  const std::size_t count = answers.take(samples);
-  for (std::size_t i = 0; i < count; ++i)
-    if (samples[i].request_id == request_id) return samples[i];
-  return std::nullopt;
+// The first answer to a request, and who else answers it.
+struct Answers {
+  std::optional<dds::ServerParameters> first;
+  std::set<dds::WriterId> writers;
+
+  void take(std::uint64_t request_id, const dds::Reader<dds::ServerParameters>& reader) {
+    std::array<dds::ServerParameters, dds::kMaxTake> samples;
+    std::array<dds::WriterId, dds::kMaxTake> from;
+    const std::size_t count = reader.view().take(samples, from);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (samples[i].request_id != request_id) continue;
+      if (!first) first = samples[i];
+      writers.insert(from[i]);
+    }
+  }
+};
+
+// Two servers of one id take the same request, each for itself.
+dds::ServerParameters onlyAnswer(const Answers& answers) {
+  if (answers.writers.size() > 1)
+    throw client::ClientError(std::to_string(answers.writers.size()) + " servers have the id " +
+                              std::to_string(answers.first->server_id) +
+                              " and each took the request for itself: stop all but one");
+  return *answers.first;
 }
 
 std::string missing(std::uint32_t server_id, const dds::Participant& participant,
@@ -42,15 +60,22 @@ dds::ServerParameters exchange(const dds::Participant& participant, dds::Paramet
   const dds::Reader<dds::ServerParameters> answers(participant);
   request.request_id = client::firstRequestId();
   const Clock::time_point end = Clock::now() + patience;
+  constexpr auto kLinger = std::chrono::milliseconds(50);  // for another server of the same id
   Clock::time_point next = Clock::now();
+  Clock::time_point answered = end;
+  Answers found;
   while (Clock::now() <= end && !client::stopRequested()) {
-    if (Clock::now() >= next && requests.matched() > 0) {
+    if (requests.matched() == 0) next = Clock::now() + kLinger;
+    if (Clock::now() >= next) {
       (void)requests.write(request);
       next = Clock::now() + std::chrono::milliseconds(200);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    if (const auto answer = answerTo(request.request_id, answers)) return *answer;
+    found.take(request.request_id, answers);
+    if (found.first && answered == end) answered = Clock::now();
+    if (found.first && Clock::now() - answered >= kLinger) return onlyAnswer(found);
   }
+  if (found.first) return onlyAnswer(found);
   throw client::ClientError(missing(request.server_id, participant, answers));
 }
 

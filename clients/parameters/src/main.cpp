@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-parameters: changes what the hand feels while the server runs, or says what is in force.
+#include <array>
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
@@ -8,6 +9,7 @@
 
 #include "exchange.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/idl/printable.h"
 #include "palpate/program/command_line.h"
 #include "palpate/program/json.h"
 #include "palpate/program/run.h"
@@ -19,6 +21,7 @@ struct Options {
   LiveFields<std::optional<double>> values;
   std::uint32_t domain{0};
   std::uint32_t server_id{0};
+  std::optional<int> tool;
   double wait_s{10.0};
   bool json{false};
 };
@@ -29,6 +32,7 @@ void addOptions(program::Options line, Options& options) {
     line.add(info.option, &(options.values.*kLiveFields<LiveFields<std::optional<double>>>[i]), info.help);
   }
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--tool", &options.tool, "change this tool only, 0 to 3; default: all of them").range(0, 3);
   line.add("--server-id", &options.server_id, "which server of the domain");
   line.add("--wait", &options.wait_s, "how long to wait for an answer, s").range(0.0, 3600.0);
   line.flag("--json", &options.json, "print one JSON object on standard output");
@@ -37,6 +41,7 @@ void addOptions(program::Options line, Options& options) {
 dds::ParameterRequest requestOf(const Options& options) {
   dds::ParameterRequest request{};
   request.server_id = options.server_id;
+  request.tool_id = options.tool ? static_cast<std::uint32_t>(*options.tool) : dds::kAllTools;
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const std::optional<double>& value = options.values.*kLiveFields<LiveFields<std::optional<double>>>[i];
     if (!value) continue;
@@ -47,28 +52,51 @@ dds::ParameterRequest requestOf(const Options& options) {
 }
 
 // JSON has no infinity: null says "no bound".
-program::Json jsonOf(const dds::ServerParameters& answer) {
+void addTool(const dds::ToolParameters& tool, program::Json& json) {
+  json["device"] = tool.device;
+  json["tip_radius_m"] = tool.tip_radius;
+  json["announced"] = tool.announced;
+  json["refusal"] = tool.refusal;
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+    const auto field = kLiveFields<dds::LiveValues>[i];
+    const char* const key = kLiveParameters[i].json;
+    json[key] = tool.now.*field;
+    json["limits"][key] = std::array{tool.lowest.*field, tool.highest.*field};
+  }
+}
+
+// Values of the tool that was asked for, or of tool 0, and those of all.
+program::Json jsonOf(const dds::ServerParameters& answer, std::size_t tool) {
   program::Json json{{"accepted", answer.accepted},
                      {"message", answer.message},
                      {"revision", answer.revision},
                      {"server_id", answer.server_id},
-                     {"model_youngs_modulus_Pa", answer.model_youngs_modulus}};
-  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
-    json[kLiveParameters[i].json] = answer.*kLiveFields<dds::ServerParameters>[i];
+                     {"model_youngs_modulus_Pa", answer.model_youngs_modulus},
+                     {"open", answer.open}};
+  addTool(answer.tools[tool], json);
+  for (const dds::ToolParameters& each : answer.tools) {
+    program::Json entry;
+    addTool(each, entry);
+    json["tools"].push_back(entry);
+  }
   return json;
 }
 
-void print(const dds::ServerParameters& answer) {
-  std::cout << "in force, revision " << answer.revision << ":\n";
+void print(const dds::ServerParameters& answer, std::size_t shown) {
+  const dds::ToolParameters& tool = answer.tools[shown];
+  std::cout << "in force, revision " << answer.revision << ", tool " << shown << ", device " << tool.device
+            << ", tip of " << tool.tip_radius << " m:\n";
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
-    std::cout << "  " << std::left << std::setw(20) << info.name
-              << answer.*kLiveFields<dds::ServerParameters>[i];
+    const auto field = kLiveFields<dds::LiveValues>[i];
+    std::cout << "  " << std::left << std::setw(20) << info.name << tool.now.*field;
     if (*info.unit != '\0') std::cout << " " << info.unit;
+    if (answer.open) std::cout << ", may be " << tool.lowest.*field << " to " << tool.highest.*field;
     if (info.zero_is_models)
       std::cout << " (model: " << answer.model_youngs_modulus << " " << info.unit << ")";
     std::cout << "\n";
   }
+  if (!answer.open) std::cout << "the server takes no changes from clients\n";
 }
 
 int body(int argc, char** argv) {
@@ -79,7 +107,9 @@ int body(int argc, char** argv) {
   Options options;
   addOptions(line.options(), options);
   line.footer(
-      "The server's device and start may allow less coupling, force and change of force.\n"
+      "The server's operator sets which values are allowed; by default none above that of its start. Without "
+      "values "
+      "the answer says them.\n"
       "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4\nWithout values: says what is in "
       "force.");
   if (!line.read(argc, argv)) return 0;
@@ -91,13 +121,15 @@ int body(int argc, char** argv) {
   const dds::ServerParameters answer = exchange(participant, requestOf(options), patience);
 
   // 3. Tell.
+  const auto tool = static_cast<std::size_t>(options.tool.value_or(0));
   if (options.json) {
-    program::printJson(jsonOf(answer));
+    program::printJson(jsonOf(answer, tool));
   } else {
-    print(answer);
+    print(answer, tool);
   }
   if (!answer.accepted)
-    std::cerr << "palpate-parameters: refused, nothing has changed: " << answer.message << "\n";
+    std::cerr << "palpate-parameters: refused, nothing has changed: "
+              << dds::printable(answer.message, sizeof answer.message) << "\n";
   return answer.accepted ? 0 : 1;
 }
 

@@ -23,6 +23,7 @@ struct Options {
   std::string at;
   std::uint32_t tool_id{0};
   std::uint32_t domain{0};
+  std::uint32_t server_id{dds::kServerAny};
   double wait_s{10.0};
   bool json{false};
   std::string plot;
@@ -40,6 +41,7 @@ void addOptions(program::Options line, Options& options) {
   line.add("--tip-radius", &options.tip_radius, "radius of the tip, m; default: the server's");
   line.add("--tool", &options.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
   line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.add("--plot", &options.plot, "write the force over time to this SVG file");
@@ -47,10 +49,10 @@ void addOptions(program::Options line, Options& options) {
 
 Played prepare(const Options& options, const client::ServerInfo& server) {
   client::ScriptOptions path_options = options.path;
-  path_options.tip_radius = options.tip_radius.value_or(server.status.tip_radius);
-  if (path_options.tip_radius != server.status.tip_radius)
+  path_options.tip_radius = options.tip_radius.value_or(server.status.tip_radius[options.tool_id]);
+  if (path_options.tip_radius != server.status.tip_radius[options.tool_id])
     std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
-              << server.status.tip_radius << " m\n";
+              << server.status.tip_radius[options.tool_id] << " m\n";
   std::optional<client::Point> at;
   if (!options.at.empty()) at = client::Point{program::parseVector("--at", options.at)};
   const client::Spot spot = client::chooseSpot(server.surface, at);
@@ -73,11 +75,11 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(options.domain);
-  const client::ServerInfo server = client::findServer(participant, options.wait_s);
+  const client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
 
   // 3. Play the path.
   const Played played = prepare(options, server);
-  const Recording recording = play(participant, options.tool_id, played.path);
+  const Recording recording = play(participant, options.tool_id, played.path, runOf(server));
 
   // 4. Tell.
   (options.json ? std::cerr : std::cout) << tableOf(played, recording) << std::flush;

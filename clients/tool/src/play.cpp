@@ -25,7 +25,7 @@ struct AnswerLog {
 
   static void onForce(const dds::ToolForce& force, std::int64_t, void* context) noexcept {
     auto& self = *static_cast<AnswerLog*>(context);
-    self.answers.add(force.seq);
+    self.answers.add(force.session, force.seq);
     if ((force.flags & dds::flag::kShuttingDown) != 0)
       self.server_left.store(true, std::memory_order_relaxed);
     const bool first = force.pose_seq > self.newest_pose;
@@ -73,17 +73,21 @@ void sendAlong(const client::Path& path, client::ToolClient& tool, const AnswerL
 
 }  // namespace
 
-Recording play(const dds::Participant& participant, std::uint32_t tool_id, const client::Path& path) {
+Recording play(const dds::Participant& participant, std::uint32_t tool_id, const client::Path& path,
+               const client::ServerRun& server) {
   Recording recording;
   const auto capacity = static_cast<std::size_t>(path.seconds() * 1e3) + 1000;
   AnswerLog log(capacity);
   std::vector<SentPose> sent;
   sent.reserve(capacity);
   {
-    client::ToolClient tool(participant, tool_id, &AnswerLog::onForce, &log);
+    const client::StatusBoard statuses(participant);
+    client::ToolClient tool(participant, tool_id, &AnswerLog::onForce, &log, server);
     if (!client::prepareToSend(tool)) std::cerr << client::kNotRealtime;
     sendAlong(path, tool, log, sent, recording);
     std::this_thread::sleep_for(20ms);  // the last answers are on their way
+    recording.left_out = tool.hold().leftOut();
+    recording.left_out_text = client::leftOutText(recording.left_out, statuses);
   }
   recording.samples = join(sent, log.first_answers);
   recording.answers = log.answers;

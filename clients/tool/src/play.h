@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "palpate/client/gap_counter.h"
 #include "palpate/client/path.h"
+#include "palpate/client/server_hold.h"
 #include "palpate/idl/participant.h"
 #include "palpate/idl/types.h"
 
@@ -23,6 +25,8 @@ struct Recording {
   std::vector<Sample> samples;  ///< in the order of the poses
   client::GapCounter answers;
   std::uint64_t sent{0};
+  client::LeftOut left_out;         ///< forces of other servers
+  std::string left_out_text;        ///< whose; empty: none
   std::uint64_t missed_periods{0};  ///< periods that this process missed
   bool server_left{false};          ///< the server said that it shuts down
   /// Poses without a recorded answer: superseded, or their answer was lost.
@@ -33,10 +37,10 @@ struct Recording {
   }
 };
 
-/// Sends poses along the path at 1 kHz and records the answers. Ends early on a stop signal or when the
+/// Sends poses along the path at 1 kHz to one server and records the answers. Ends early on a stop signal or when the
 /// server leaves.
 /// @throw client::ClientError  no server takes poses, or none answers
 [[nodiscard]] Recording play(const dds::Participant& participant, std::uint32_t tool_id,
-                             const client::Path& path);
+                             const client::Path& path, const client::ServerRun& server);
 
 }  // namespace palpate::tool

@@ -57,6 +57,7 @@ std::string summaryOf(const Played& played, const Recording& recording) {
              static_cast<unsigned long long>(recording.superseded()),
              static_cast<unsigned long long>(recording.unanswered()),
              static_cast<unsigned long long>(recording.answers.lost())) +
+         recording.left_out_text +
          (recording.server_left ? "the server shut down before the script's end\n" : "");
 }
 
@@ -138,6 +139,7 @@ program::Json jsonOf(const Played& played, const Recording& recording) {
             {"unanswered", recording.unanswered()},
             {"received", recording.answers.received()},
             {"lost", recording.answers.lost()},
+            {"left_out", recording.left_out.count},
             {"missed_periods", recording.missed_periods},
             {"server_left", recording.server_left},
             {"flags_seen", report::flagNames(flagsOf(recording))}}}};

@@ -69,8 +69,9 @@ void check(const AccessOptions& options) {
                               "', expected a numeric address, e.g. 127.0.0.1, ::1 or 0.0.0.0");
   if (!options.token.empty()) checkToken(options.token);
   if (options.token.empty() && !isLoopback(options.listen))
-    throw client::ClientError("--listen " + options.listen +
-                              " lets other machines in: it needs --token or --token-file");
+    throw client::ClientError(
+        "--listen " + options.listen +
+        " lets other machines in: it needs --token-file (openssl rand -hex 16 makes a token)");
   for (const std::string& origin : options.origins) checkOrigin(origin);
 }
 
@@ -82,15 +83,6 @@ bool isLoopback(std::string_view address) noexcept {
   return inet_pton(AF_INET6, text.c_str(), &v6) == 1 && IN6_IS_ADDR_LOOPBACK(&v6) != 0;
 }
 
-bool sameSecret(std::string_view given, std::string_view secret) noexcept {
-  unsigned difference = given.size() == secret.size() ? 0U : 1U;
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    const char other = secret.empty() ? '\0' : secret[i % secret.size()];
-    difference |= static_cast<unsigned char>(given[i] ^ other);
-  }
-  return difference == 0 && !secret.empty();
-}
-
 bool AccessRules::hostAllowed(std::string_view host) const {
   const std::string whole = lower(host);
   for (const std::string& origin : options_.origins)
@@ -98,22 +90,21 @@ bool AccessRules::hostAllowed(std::string_view host) const {
   std::string_view rest;
   const std::string name = nameOf(host, rest);
   const std::string port = std::string(":").append(std::to_string(options_.port));
-  if (rest != port && !(rest.empty() && options_.port == 80)) return false;
+  if (rest != port && !(rest.empty() && options_.port == (options_.tls ? 443 : 80))) return false;
   if (name == "localhost") return true;
   return isLoopback(options_.listen) ? isLoopback(name) : isNumeric(name);
 }
 
 bool AccessRules::originAllowed(std::string_view origin, std::string_view host) const {
-  if (lower(origin) == "http://" + lower(host)) return true;
+  if (lower(origin) == (options_.tls ? "https://" : "http://") + lower(host)) return true;
   return std::any_of(options_.origins.begin(), options_.origins.end(),
                      [&](const std::string& other) { return lower(other) == lower(origin); });
 }
 
 const char* AccessRules::refusal(const UpgradeRequest& request) const {
   if (!hostAllowed(request.host)) return "Host is not this viewer's";
-  const bool token_fits = sameSecret(request.token, options_.token);
-  if (!options_.token.empty() && !token_fits) return "the token is missing or wrong";
-  if (request.origin.empty()) return token_fits ? nullptr : "Origin is missing";
+  if (request.origin.empty())
+    return request.bears_token && !options_.token.empty() ? nullptr : "Origin is missing";
   return originAllowed(request.origin, request.host) ? nullptr : "Origin is not this viewer's";
 }
 

@@ -14,13 +14,14 @@ struct AccessOptions {
   std::uint16_t port{8080};          ///< the port in use
   std::string token;                 ///< 16 to 128 letters, digits, - and _; empty: none is needed
   std::vector<std::string> origins;  ///< further ones, e.g. "https://viewer.example.org"
+  bool tls{false};                   ///< our own pages come by https
 };
 
 /// The headers of a request that are judged. Empty: absent.
 struct UpgradeRequest {
   std::string_view host;
   std::string_view origin;
-  std::string_view token;
+  bool bears_token{false};  ///< has an Authorization header; Login judges it
 };
 
 /// @throw client::ClientError  the address is not numeric, or reaches beyond this machine without a token; the token or
@@ -29,9 +30,6 @@ void check(const AccessOptions& options);
 
 /// Whether only this machine can reach a numeric address.
 [[nodiscard]] bool isLoopback(std::string_view address) noexcept;
-
-/// Whether the two are equal. The time depends only on the length of `given`.
-[[nodiscard]] bool sameSecret(std::string_view given, std::string_view secret) noexcept;
 
 /// Judges requests. Browsers fill in Host and Origin truthfully. These tell a page of another site, and a name that was
 /// made to point here (DNS rebinding), from our page. Threads: any, const.
@@ -43,7 +41,9 @@ class AccessRules {
   /// allowed: the host of a further origin.
   [[nodiscard]] bool hostAllowed(std::string_view host) const;
 
-  /// @return nullptr when a WebSocket may be opened, else the reason against it
+  /// Judges where a request comes from, before Login judges who sends it. Without an Origin only a program that bears a
+  /// token goes on.
+  /// @return nullptr when it may go on, else the reason against it
   [[nodiscard]] const char* refusal(const UpgradeRequest& request) const;
 
   [[nodiscard]] const AccessOptions& options() const noexcept { return options_; }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <span>
 #include <utility>
 
@@ -28,23 +27,21 @@ Arrivals::Arrivals(const dds::Participant& participant, double rate_hz, WakeFunc
       field_reader_(participant, &Arrivals::onField, this, &Arrivals::admits),
       force_reader_(participant, &Arrivals::onForce, this, &Arrivals::admitsForce) {}
 
-std::uint64_t Arrivals::keyOf(std::uint32_t organ_id, std::string_view model_id) noexcept {
-  return (std::hash<std::string_view>{}(model_id)*31 + organ_id) | 1U << 31;
-}
-
-// Judged before the pace, so that other organs' fields do not use it up.
+// Judged before the pace, so that other servers' fields do not use it up.
 bool Arrivals::admits(const dds::SurfaceDisplacement& field, void* context) noexcept {
   auto& self = *static_cast<Arrivals*>(context);
-  if (keyOf(field.organ_id, field.model_id) != self.organ_.load(std::memory_order_relaxed)) return false;
+  if (field.session == 0 || field.session != self.session_.load(std::memory_order_relaxed)) return false;
   const std::int64_t now_ns = rt::monotonicNow();
   self.pace_.setRate(self.rate_hz_.load(std::memory_order_relaxed));
   if (!self.pace_.admits(now_ns)) return false;
   return true;
 }
 
-bool Arrivals::admitsForce(const dds::ToolForce& force, void*) noexcept {
+bool Arrivals::admitsForce(const dds::ToolForce& force, void* context) noexcept {
+  const auto& self = *static_cast<const Arrivals*>(context);
   const double sizes[] = {force.penetration, force.domain_radius};
-  return force.tool_id < 4 &&  // palpate.idl
+  return force.session != 0 && force.session == self.session_.load(std::memory_order_relaxed) &&
+         force.tool_id < 4 &&  // palpate.idl
          allFit(force.force) && allFit(force.stiffness) && allFit(force.anchor) && allFit(force.proxy) &&
          allFit(sizes);
 }
@@ -53,6 +50,7 @@ void Arrivals::keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns) 
   const auto& u = field.displacement;
   if (u._length > kMostNumbers) return;
   const std::lock_guard lock(mutex_);
+  field_.session = field.session;
   field_.organ_id = field.organ_id;
   field_.model_id = field.model_id;
   field_.topology_revision = field.topology_revision;

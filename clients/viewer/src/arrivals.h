@@ -18,6 +18,7 @@ using WakeFunction = void (*)(void* context) noexcept;
 
 /// A displacement field as it came, unchecked.
 struct ArrivedField {
+  std::uint64_t session{0};
   std::uint32_t organ_id{0};
   std::string model_id;
   std::uint32_t topology_revision{0};
@@ -44,10 +45,8 @@ class Arrivals {
   /// Takes at most this many fields per second. Threads: any.
   void setRate(double rate_hz) noexcept { rate_hz_.store(rate_hz, std::memory_order_relaxed); }
 
-  /// Takes only fields of this organ and model; none before the first call. Threads: any.
-  void setOrgan(std::uint32_t organ_id, std::string_view model_id) noexcept {
-    organ_.store(keyOf(organ_id, model_id), std::memory_order_relaxed);
-  }
+  /// Takes only what this run of a server sends; nothing before the first call. Threads: any.
+  void follow(std::uint64_t session) noexcept { session_.store(session, std::memory_order_relaxed); }
 
   /// The newest field, if one came since the last call. Threads: one.
   [[nodiscard]] bool takeField(ArrivedField& field);
@@ -59,15 +58,13 @@ class Arrivals {
   static bool admitsForce(const dds::ToolForce& force, void* context) noexcept;
   static void onField(dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept;
   static void onForce(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept;
-  /// Organ and model as one number, never 0. Two models may share it; the surface tells them apart later.
-  static std::uint64_t keyOf(std::uint32_t organ_id, std::string_view model_id) noexcept;
   void keep(const dds::SurfaceDisplacement& field, std::int64_t now_ns);
 
   WakeFunction wake_;
   void* context_;
   std::atomic<double> rate_hz_;
-  std::atomic<std::uint64_t> organ_{0};  // keyOf(); 0: none yet
-  client::FramePace pace_;               // the filter's only
+  std::atomic<std::uint64_t> session_{0};  // 0: none yet
+  client::FramePace pace_;                 // the filter's only
   std::mutex mutex_;
   ArrivedField field_;
   bool fresh_{false};

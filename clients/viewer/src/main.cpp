@@ -37,10 +37,10 @@ void addOptions(program::Options line, Options& options) {
            "numeric address to listen on; one that other machines reach needs a token");
   line.add("--port", &web.access.port, "TCP port; 0: any that is free");
   line.add("--page", &options.page, "folder with the page's index.html");
-  line.add("--token", &web.access.token,
-           "secret that pages must bring, 16 to 128 letters, digits, - and _ (seen in the list of processes: "
-           "better --token-file)");
-  line.add("--token-file", &options.token_file, "file whose first line is the token");
+  line.add("--token-file", &options.token_file,
+           "file whose first line is the secret that lets people in: 16 to 128 letters, digits, - and _");
+  line.add("--tls-cert", &web.tls.certificate, "PEM file with the certificate of this machine, for https");
+  line.add("--tls-key", &web.tls.key, "PEM file with the certificate's key");
   line.add(
       "--origin", &web.access.origins,
       "further address under which browsers see the page, e.g. https://viewer.example.org; may be repeated");
@@ -63,12 +63,25 @@ void announce(const WebServer& server, const Options& options) {
   const bool token = !options.web.access.token.empty();
   if (options.json) {
     program::printJson({{"address", server.address()},
+                        {"login_address", server.loginAddress()},
                         {"port", server.port()},
                         {"domain", options.domain},
-                        {"needs_token", token}});
+                        {"needs_token", token},
+                        {"tls", options.web.tls.given()}});
   } else {
-    std::cout << "page at " << server.address() << (token ? " (with ?token=... behind it)" : "") << std::endl;
+    std::cout << "page at " << server.loginAddress()
+              << (token ? " (lets one browser in, within 10 minutes; others give the token)" : "")
+              << std::endl;
   }
+}
+
+void warnOfOpenDoors(const WebOptions& web) {
+  if (!isLoopback(web.access.listen) && !web.tls.given())
+    spdlog::warn(
+        "--listen {} without TLS: anyone on the way reads the token and all that pages see. Give --tls-cert "
+        "and "
+        "--tls-key, or listen on 127.0.0.1 behind a proxy (clients/viewer/ACCESS.md)",
+        web.access.listen);
 }
 
 int body(int argc, char** argv) {
@@ -84,6 +97,8 @@ int body(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("palpate-viewer"));
   client::catchStopSignals();
   std::signal(SIGPIPE, SIG_IGN);
+
+  warnOfOpenDoors(options.web);
 
   // 2. Listen, and join the domain.
   WebServer server(options.web);

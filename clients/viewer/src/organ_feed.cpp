@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/idl/printable.h"
+
 namespace palpate::viewer {
 namespace {
 
@@ -25,7 +27,7 @@ double normalStiffness(const dds::ToolForce& force, const client::Point& n) {
   return force.state == dds::tool_state::kFree ? 0.0 : sum;
 }
 
-bool admitsPose(const dds::ToolPose& pose, void*) noexcept {
+bool isShowable(const dds::ToolPose& pose) noexcept {
   constexpr double kFurthest = 1e6;  // m: larger than any organ; pages get float32
   return pose.tool_id < OrganFeed::kTools && std::all_of(std::begin(pose.position), std::end(pose.position),
                                                          [](double x) { return std::fabs(x) <= kFurthest; });
@@ -49,13 +51,12 @@ OrganFeed::OrganFeed(const dds::Participant& participant, double rate_hz, WakeFu
       statuses_(participant),
       parameter_answers_(participant),
       surfaces_(participant),
-      poses_(participant, nullptr, nullptr, &admitsPose),
+      poses_(participant, nullptr, this, &OrganFeed::admitsPose),
       arrivals_(participant, rate_hz, wake, context) {}
 
 std::vector<std::uint32_t> OrganFeed::poll(std::int64_t now_ns, dds::WriterId own_writer) {
   pollServer(now_ns);
-  const auto& status = watch_.status();
-  surfaces_.poll(status ? status->organ_id : 0, status ? status->model_id : "");
+  surfaces_.poll(watch_.session());
   selectSurface();
   pollField();
   pollForces();
@@ -63,56 +64,75 @@ std::vector<std::uint32_t> OrganFeed::poll(std::int64_t now_ns, dds::WriterId ow
 }
 
 void OrganFeed::pollServer(std::int64_t now_ns) {
-  std::array<dds::ServerStatus, dds::kMaxTake> statuses;
-  const std::size_t count = statuses_.take(statuses);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto followed = watch_.status() ? std::optional(watch_.status()->server_id) : std::nullopt;
-    if (!watch_.saw(statuses[i], now_ns)) continue;
+  for (const client::HeardStatus& heard : statuses_.heardAfter(heard_ns_)) {
+    heard_ns_ = heard.heard_ns;
+    const std::uint64_t followed = watch_.session();
+    if (!watch_.saw(heard.status, now_ns, heard.writer)) continue;
     ++status_version_;
-    if (followed != statuses[i].server_id) stamp_clock_ = StampClock();
+    followed_id_.store(heard.status.server_id, std::memory_order_relaxed);
+    followed_answers_any_.store(heard.status.answers_any, std::memory_order_relaxed);
+    if (followed != heard.status.session) follow(heard.status.session);
   }
+  lookForMismatch(now_ns);
   std::array<dds::ServerParameters, dds::kMaxTake> answers;
   const std::size_t answered = parameter_answers_.take(answers);
   for (std::size_t i = 0; i < answered; ++i) keepParameters(answers[i]);
 }
 
+// Once a second while there is no server: it looks at all that DDS discovered.
+void OrganFeed::lookForMismatch(std::int64_t now_ns) {
+  constexpr std::int64_t kPause = 1'000'000'000;
+  if (watch_.status() || now_ns - looked_ns_ < kPause) return;
+  looked_ns_ = now_ns;
+  std::string mismatch = statuses_.mismatch();
+  if (mismatch.empty()) mismatch = surfaces_.mismatch();
+  if (!mismatch.empty() && mismatch != mismatch_) spdlog::warn(mismatch);
+  mismatch_ = std::move(mismatch);
+}
+
+// Nothing of the run before is left.
+void OrganFeed::follow(std::uint64_t session) {
+  arrivals_.follow(session);
+  stamp_clock_ = StampClock();
+  tools_ = {};
+  has_field_ = false;
+}
+
 // Also of a server that is not followed yet: parameters come once.
 void OrganFeed::keepParameters(const dds::ServerParameters& parameters) {
   constexpr std::size_t kMostServers = 64;
-  const auto& status = watch_.status();
-  if (parameters_.size() >= kMostServers && !parameters_.contains(parameters.server_id))
-    std::erase_if(parameters_, [&](const auto& kept) { return !status || kept.first != status->server_id; });
-  parameters_[parameters.server_id] = parameters;
+  if (parameters_.size() >= kMostServers && !parameters_.contains(parameters.session))
+    std::erase_if(parameters_, [&](const auto& kept) { return kept.first != watch_.session(); });
+  parameters_[parameters.session] = parameters;
   new_parameters_.push_back(parameters);
   ++status_version_;
 }
 
 std::optional<dds::ServerParameters> OrganFeed::parameters() const {
-  const auto& status = watch_.status();
-  const auto at = status ? parameters_.find(status->server_id) : parameters_.end();
+  const auto at = watch_.status() ? parameters_.find(watch_.session()) : parameters_.end();
   return at == parameters_.end() ? std::nullopt : std::optional(at->second);
 }
 
 const client::Surface* OrganFeed::followedSurface() const {
   const auto& status = watch_.status();
-  return status ? surfaces_.find(status->organ_id, status->model_id) : nullptr;
+  return status ? surfaces_.find(status->session, status->organ_id) : nullptr;
 }
 
 void OrganFeed::selectSurface() {
   const client::Surface* wanted = followedSurface();
-  if (wanted == nullptr || (revision_ > 0 && sameSurface(surface_, *wanted))) return;
+  if (wanted == nullptr || wanted->model_id != watch_.status()->model_id) return;
+  if (revision_ > 0 && sameSurface(surface_, *wanted)) return;
   surface_ = *wanted;
-  arrivals_.setOrgan(surface_.organ_id, surface_.model_id);
   outward_ = Outward(surface_);
   has_field_ = false;
   ++revision_;
-  spdlog::info("surface of model {}: {} nodes, {} triangles", surface_.model_id, surface_.positions.size(),
-               surface_.triangles.size());
+  spdlog::info("surface of model {}: {} nodes, {} triangles", dds::printable(surface_.model_id.c_str()),
+               surface_.positions.size(), surface_.triangles.size());
 }
 
 bool OrganFeed::fits(const ArrivedField& field) const {
-  return revision_ > 0 && field.model_id == surface_.model_id && field.organ_id == surface_.organ_id &&
-         field.topology_revision == surface_.topology_revision &&
+  return revision_ > 0 && field.session == watch_.session() && field.model_id == surface_.model_id &&
+         field.organ_id == surface_.organ_id && field.topology_revision == surface_.topology_revision &&
          field.displacement.size() == 3 * surface_.positions.size() &&
          std::all_of(field.displacement.begin(), field.displacement.end(),
                      [](float u) { return std::isfinite(u); });
@@ -135,6 +155,7 @@ void OrganFeed::pollField() {
 void OrganFeed::pollForces() {
   arrivals_.takeForces(forces_);
   for (const TimedForce& timed : forces_) {
+    if (timed.force.session != watch_.session()) continue;  // it came before the next server was followed
     ToolView& view = tools_[timed.force.tool_id];
     const bool same_anchor =
         view.received_ns != 0 && std::equal(std::begin(view.force.anchor), std::end(view.force.anchor),
@@ -159,12 +180,23 @@ void OrganFeed::addAnswer(const TimedForce& timed) {
   answers_.add(answer);
 }
 
+bool OrganFeed::addressesFollowed(const dds::ToolPose& pose) const noexcept {
+  return pose.server_id == dds::kServerAny ? followed_answers_any_.load(std::memory_order_relaxed)
+                                           : pose.server_id == followed_id_.load(std::memory_order_relaxed);
+}
+
+// On DDS's receive thread: ids that somebody invents, of servers or tools, take no place in the reader.
+bool OrganFeed::admitsPose(const dds::ToolPose& pose, void* context) noexcept {
+  return isShowable(pose) && static_cast<const OrganFeed*>(context)->addressesFollowed(pose);
+}
+
 std::vector<std::uint32_t> OrganFeed::pollPoses(dds::WriterId own_writer) {
   std::array<dds::ToolPose, dds::kMaxTake> poses;
   std::array<dds::WriterId, dds::kMaxTake> writers{};
   const std::size_t count = poses_.view().take(poses, writers);
   std::vector<std::uint32_t> foreign;
   for (std::size_t i = 0; i < count; ++i) {
+    if (!addressesFollowed(poses[i])) continue;
     ToolView& view = tools_[poses[i].tool_id];
     view.tip = pointOf(poses[i].position);
     view.tip_known = true;
@@ -181,12 +213,8 @@ const OrganFeed::ToolView* OrganFeed::tool(std::uint32_t id, std::int64_t now_ns
 }
 
 ServerState OrganFeed::state(std::int64_t now_ns) const {
-  const auto& status = watch_.status();
   const client::Surface* wanted = followedSurface();
-  const std::string other = status ? surfaces_.anyModel(status->organ_id) : "";
-  std::string mismatch = statuses_.mismatch();
-  if (mismatch.empty()) mismatch = surfaces_.mismatch();
-  ServerState state = watch_.state(now_ns, wanted != nullptr ? wanted->model_id : other, mismatch);
+  ServerState state = watch_.state(now_ns, wanted != nullptr ? wanted->model_id : "", mismatch_);
   if (state.name == "waiting" && !surfaces_.refusal().empty()) state.text = surfaces_.refusal();
   return state;
 }

@@ -13,6 +13,7 @@
 #include "arrivals.h"
 #include "frame.h"
 #include "outward.h"
+#include "palpate/client/status_board.h"
 #include "palpate/idl/reader.h"
 #include "server_watch.h"
 #include "surfaces.h"
@@ -20,7 +21,7 @@
 namespace palpate::viewer {
 
 /// What comes over DDS for the pages: the newest surface, field, status and parameters, and every answer. It outlives
-/// servers and follows the next one. Threads: one, the web thread.
+/// servers and follows the next one; nothing of one that is not followed is shown. Threads: one, the web thread.
 class OrganFeed {
  public:
   static constexpr std::size_t kTools = 4;
@@ -74,7 +75,9 @@ class OrganFeed {
   }
 
  private:
+  void lookForMismatch(std::int64_t now_ns);
   void pollServer(std::int64_t now_ns);
+  void follow(std::uint64_t session);
   void keepParameters(const dds::ServerParameters& parameters);
   void selectSurface();
   void pollField();
@@ -82,11 +85,15 @@ class OrganFeed {
   [[nodiscard]] std::vector<std::uint32_t> pollPoses(dds::WriterId own_writer);
   void addAnswer(const TimedForce& timed);
   [[nodiscard]] bool fits(const ArrivedField& field) const;
+  [[nodiscard]] bool addressesFollowed(const dds::ToolPose& pose) const noexcept;
+  static bool admitsPose(const dds::ToolPose& pose, void* context) noexcept;
   [[nodiscard]] const client::Surface* followedSurface() const;
 
   double rate_hz_;
   ServerWatch watch_;
-  std::map<std::uint32_t, dds::ServerParameters> parameters_;  // by server id
+  std::string mismatch_;  // newest reason why a server's endpoint does not match ours
+  std::int64_t looked_ns_{0};
+  std::map<std::uint64_t, dds::ServerParameters> parameters_;  // by session
   std::vector<dds::ServerParameters> new_parameters_;
   std::uint64_t status_version_{0};
   client::Surface surface_;
@@ -101,9 +108,12 @@ class OrganFeed {
   std::array<ToolView, kTools> tools_{};
   AnswerLog answers_;
   StampClock stamp_clock_;
-  dds::Reader<dds::ServerStatus> statuses_;
+  client::StatusBoard statuses_;
+  std::int64_t heard_ns_{0};  // the newest status that was looked at
   dds::Reader<dds::ServerParameters> parameter_answers_;
   Surfaces surfaces_;
+  std::atomic<std::uint32_t> followed_id_{dds::kServerAny};  // poll() -> admitsPose(); relaxed, like the next
+  std::atomic<bool> followed_answers_any_{false};
   dds::Reader<dds::ToolPose> poses_;
   Arrivals arrivals_;  // last: its callbacks stop first
 };

@@ -124,7 +124,8 @@ std::optional<std::string> Page::nextText(std::int64_t now_ns) {
   }
   if (meshDue() && mesh_text_revision_ != viewer_.feed.revision()) {
     mesh_text_revision_ = viewer_.feed.revision();
-    return meshText(*viewer_.feed.surface(), mesh_text_revision_, viewer_.feed.watch().status()->tip_radius);
+    return meshText(*viewer_.feed.surface(), mesh_text_revision_,
+                    viewer_.feed.watch().status()->tip_radius[0]);
   }
   if (!statusDue(now_ns)) return std::nullopt;
   const double seconds = static_cast<double>(now_ns - status_ns_) * 1e-9;

@@ -9,7 +9,7 @@
 #include "page_message.h"
 #include "page_text.h"
 #include "palpate/client/frame_pace.h"
-#include "token_bucket.h"
+#include "palpate/rt/token_bucket.h"
 #include "viewer.h"
 
 namespace palpate::viewer {
@@ -64,8 +64,8 @@ class Page {
   Viewer& viewer_;
   double max_rate_hz_;
   client::FramePace pace_;
-  TokenBucket messages_{kMessagesPerSecond, kMessagesPerSecond};
-  TokenBucket parts_{kPartsPerSecond, kPartsPerSecond};
+  rt::TokenBucket messages_{kMessagesPerSecond, kMessagesPerSecond};
+  rt::TokenBucket parts_{kPartsPerSecond, kPartsPerSecond};
   std::string incoming_;
 
   bool hello_{true};  // messages to send

@@ -35,7 +35,7 @@ Json serverOf(const dds::ServerStatus& s) {
           {"organ_id", s.organ_id},
           {"state", s.state},
           {"rate_hz", s.rate_hz},
-          {"tip_radius", s.tip_radius},
+          {"tip_radius", s.tip_radius[0]},
           {"memory_locked", s.memory_locked},
           {"realtime", s.realtime},
           {"realtime_detail", s.realtime_detail},
@@ -58,11 +58,21 @@ Json serverOf(const dds::ServerStatus& s) {
           {"phase_lock", s.phase_lock}};
 }
 
-/// Live parameters by their names, from ServerStatus or ServerParameters.
+/// Live parameters by their names, from ServerStatus or one tool's of ServerParameters.
 template <class Message>
 void addLive(const Message& message, Json& object) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     object[kLiveParameters[i].name] = message.*kLiveFields<Message>[i];
+}
+
+// What every tool allows: the page asks for all of them.
+std::array<double, 2> limitsOf(const dds::ServerParameters& parameters, double dds::LiveValues::*bound) {
+  std::array<double, 2> common{parameters.tools[0].lowest.*bound, parameters.tools[0].highest.*bound};
+  for (const dds::ToolParameters& tool : parameters.tools) {
+    common[0] = std::max(common[0], tool.lowest.*bound);
+    common[1] = std::min(common[1], tool.highest.*bound);
+  }
+  return common;
 }
 
 Json boxOf(const client::Surface& surface) {
@@ -89,7 +99,8 @@ std::string helloText(std::uint64_t page_id, double rate_hz) {
 }
 
 std::string stateText(const ServerState& state) {
-  return Json({{"type", "state"}, {"server", state.name}, {"text", state.text}}).dump();
+  return Json({{"type", "state"}, {"server", state.name}, {"text", state.text}, {"others", state.others}})
+      .dump();
 }
 
 std::string meshText(const client::Surface& surface, std::uint32_t revision, double tip_radius) {
@@ -108,9 +119,14 @@ std::string statusText(const std::optional<dds::ServerStatus>& status,
   Json object = status ? serverOf(*status) : Json::object();
   if (status) addLive(*status, object);
   if (parameters) {  // newer than those in the status
-    addLive(*parameters, object);
+    addLive(parameters->tools[0].now, object);
     object["model_youngs_modulus"] = parameters->model_youngs_modulus;
     object["parameters_revision"] = parameters->revision;
+    object["parameters_open"] = parameters->open;
+    for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
+      const auto bound = kLiveFields<dds::LiveValues>[i];
+      object["limits"][kLiveParameters[i].name] = limitsOf(*parameters, bound);
+    }
   }
   object["type"] = "status";
   object["viewer"] = {{"pages", figures.pages},

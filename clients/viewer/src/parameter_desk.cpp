@@ -15,6 +15,7 @@ SetParameters merged(const SetParameters& earlier, const SetParameters& later) {
 
 dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs_modulus) {
   dds::ParameterRequest request{};
+  request.tool_id = dds::kAllTools;
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const std::optional<double>& value = wanted.*kLiveFields<SetParameters>[i];
     if (!value) continue;
@@ -35,8 +36,7 @@ void ParameterDesk::set(std::uint64_t page_id, const SetParameters& wanted) {
 
 void ParameterDesk::saw(const dds::ServerParameters& answer) {
   for (auto& [page_id, wish] : wishes_) {
-    if (!wish.asked || wish.request.request_id != answer.request_id ||
-        wish.request.server_id != answer.server_id)
+    if (!wish.asked || wish.request.request_id != answer.request_id || wish.request.session != answer.session)
       continue;
     answers_.push_back({page_id, wish.asked->request, answer.accepted, answer.message});
     wish.asked.reset();
@@ -53,6 +53,7 @@ bool ParameterDesk::startNext(std::uint64_t page_id, Wish& wish,
   wish.asked = std::exchange(wish.waiting, std::nullopt);
   wish.request = requestOf(*wish.asked, server->model_youngs_modulus);
   wish.request.server_id = server->server_id;
+  wish.request.session = server->session;
   wish.request.request_id = next_id_++;
   wish.since_ns = now_ns;
   wish.sent_ns = 0;

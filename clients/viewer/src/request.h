@@ -6,24 +6,29 @@
 #include <string>
 #include <string_view>
 
-#include "page_files.h"
-
 namespace palpate::viewer {
 
-/// A request's header; empty when absent or longer than 1 kB. Headers of the same name come joined.
+/// A request's header; empty when absent or longer than 16 kB. Headers of the same name come joined.
 [[nodiscard]] std::string headerOf(lws* wsi, lws_token_indexes header);
 
-/// Value of ?token=; empty when absent.
-[[nodiscard]] std::string tokenOf(lws* wsi);
+/// Whether a body follows. None is read: what comes next would be taken for another request.
+[[nodiscard]] bool hasBody(lws* wsi);
 
-/// Whether a comma-separated list has the name.
-[[nodiscard]] bool names(std::string_view list, std::string_view name);
+/// Numeric address of the sender; that of a proxy, where there is one.
+[[nodiscard]] std::string peerOf(lws* wsi);
 
-/// Headers of a file's response: what the page may load, and from where. @param[in] host  our own, checked
-[[nodiscard]] std::string headersOf(const PageFile& file, const std::string& host);
+/// What every answer says: what the page may load and who may hold it.
+[[nodiscard]] const lws_protocol_vhost_options* securityHeaders();
 
-/// Answers with an error page. @return the callback's result
-int refuse(lws* wsi, unsigned code, const char* reason);
-int refuseUpgrade(lws* wsi, unsigned code, const char* reason);
+/// An answer that is no file.
+struct Answer {
+  unsigned status{200};
+  std::string_view body{};
+  const char* type{"text/plain; charset=utf-8"};
+  std::string set_cookie{};
+};
+
+/// Writes an answer. @return whether it went out
+[[nodiscard]] bool send(lws* wsi, const Answer& answer);
 
 }  // namespace palpate::viewer

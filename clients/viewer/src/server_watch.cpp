@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server_watch.h"
 
+#include "palpate/idl/printable.h"
+
 namespace palpate::viewer {
 namespace {
 
@@ -10,12 +12,39 @@ std::string secondsOf(std::int64_t ns) {
 
 }  // namespace
 
-bool ServerWatch::saw(const dds::ServerStatus& status, std::int64_t now_ns) noexcept {
-  const bool another = status_ && status_->server_id != status.server_id;
-  if (another && alive(now_ns) && status_->state != dds::server_state::kStopping) return false;
+bool ServerWatch::saw(const dds::ServerStatus& status, std::int64_t now_ns, dds::WriterId writer) {
+  const bool another = status_ && status_->session != status.session;
+  if (status_ && !another && alive(now_ns) && writer != writer_) return false;
+  const bool begins = status_ && status_->state == dds::server_state::kStarting &&
+                      status.state == dds::server_state::kRunning;  // the other one began first
+  const bool held = alive(now_ns) && status_->state != dds::server_state::kStopping && !begins;
+  const bool stopping = status.state == dds::server_state::kStopping;
+  if (another && (held || stopping)) {
+    others_.erase(status.session);
+    if (!stopping) keepOther(status, now_ns);
+    return false;
+  }
+  others_.erase(status.session);
   status_ = status;
+  writer_ = writer;
   heard_ns_ = now_ns;
   return true;
+}
+
+void ServerWatch::keepOther(const dds::ServerStatus& status, std::int64_t now_ns) {
+  std::erase_if(others_, [&](const auto& other) { return now_ns - other.second.heard_ns > kSilenceNs; });
+  if (others_.size() >= kMostOthers) return;
+  others_[status.session] = {"server " + std::to_string(status.server_id) + " (" +
+                                 dds::printable(status.host) + ", process " + std::to_string(status.pid) +
+                                 ")",
+                             now_ns};
+}
+
+std::string ServerWatch::othersAt(std::int64_t now_ns) const {
+  std::string words;
+  for (const auto& [session, other] : others_)
+    if (now_ns - other.heard_ns <= kSilenceNs) words += (words.empty() ? "" : ", ") + other.words;
+  return words;
 }
 
 ServerState ServerWatch::state(std::int64_t now_ns, const std::string& surface_model,
@@ -29,8 +58,10 @@ ServerState ServerWatch::state(std::int64_t now_ns, const std::string& surface_m
   if (surface_model.empty()) return {"waiting", "waiting for the organ's surface"};
   if (surface_model != status_->model_id)
     return {"waiting",
-            "the surface is of another model: waiting for that of " + std::string(status_->model_id)};
-  return {"serving", "serving"};
+            "the surface is of another model: waiting for that of " + dds::printable(status_->model_id)};
+  const std::string others = othersAt(now_ns);
+  return {"serving", others.empty() ? "serving" : "serving; also on the domain, not shown: " + others,
+          others};
 }
 
 }  // namespace palpate::viewer

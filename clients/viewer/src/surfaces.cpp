@@ -34,6 +34,7 @@ bool Surfaces::copy(const dds::SurfaceMesh& message, void* context) noexcept {
   auto& self = *static_cast<Surfaces*>(context);
   try {
     Arrived arrived;
+    arrived.session = message.session;
     try {
       arrived.surface = bounded(message);
     } catch (const client::ClientError& error) {
@@ -47,43 +48,37 @@ bool Surfaces::copy(const dds::SurfaceMesh& message, void* context) noexcept {
   return false;
 }
 
-void Surfaces::poll(std::uint32_t organ_id, std::string_view model_id) {
+void Surfaces::poll(std::uint64_t followed) {
   std::vector<Arrived> arrived;
   {
     const std::lock_guard lock(mutex_);
     arrived.swap(arrived_);
   }
   for (Arrived& one : arrived) {
-    refusal_ = one.refusal;
-    if (refusal_.empty()) keep(std::move(one.surface), organ_id, model_id);
-    if (!refusal_.empty()) spdlog::warn("{}", refusal_);
+    const std::string refusal = one.refusal;
+    if (refusal.empty()) keep(std::move(one), followed);
+    if (!refusal.empty()) spdlog::warn("{}", refusal);
+    refusal_ = refusal;
   }
 }
 
-void Surfaces::keep(client::Surface surface, std::uint32_t organ_id, std::string_view model_id) {
-  std::erase_if(kept_, [&](const client::Surface& old) {
-    return old.organ_id == surface.organ_id && old.model_id == surface.model_id;
+void Surfaces::keep(Arrived arrived, std::uint64_t followed) {
+  std::erase_if(kept_, [&](const Arrived& old) {
+    return old.session == arrived.session && old.surface.organ_id == arrived.surface.organ_id;
   });
   if (kept_.size() >= kMostKept) {
-    const auto oldest = std::find_if(kept_.begin(), kept_.end(), [&](const client::Surface& old) {
-      return old.organ_id != organ_id || old.model_id != model_id;
-    });
-    if (oldest != kept_.end()) kept_.erase(oldest);
+    const auto oldest =
+        std::find_if(kept_.begin(), kept_.end(), [&](const Arrived& old) { return old.session != followed; });
+    kept_.erase(oldest == kept_.end() ? kept_.begin() : oldest);
   }
-  kept_.push_back(std::move(surface));
+  kept_.push_back(std::move(arrived));
 }
 
-const client::Surface* Surfaces::find(std::uint32_t organ_id, std::string_view model_id) const {
-  const auto at = std::find_if(kept_.begin(), kept_.end(), [&](const client::Surface& surface) {
-    return surface.organ_id == organ_id && surface.model_id == model_id;
+const client::Surface* Surfaces::find(std::uint64_t session, std::uint32_t organ_id) const {
+  const auto at = std::find_if(kept_.begin(), kept_.end(), [&](const Arrived& one) {
+    return one.session == session && one.surface.organ_id == organ_id;
   });
-  return at == kept_.end() ? nullptr : &*at;
-}
-
-std::string Surfaces::anyModel(std::uint32_t organ_id) const {
-  const auto at = std::find_if(kept_.rbegin(), kept_.rend(),
-                               [&](const client::Surface& surface) { return surface.organ_id == organ_id; });
-  return at == kept_.rend() ? "" : at->model_id;
+  return at == kept_.end() ? nullptr : &at->surface;
 }
 
 }  // namespace palpate::viewer

@@ -12,9 +12,8 @@
 
 namespace palpate::viewer {
 
-/// Rest surfaces of all organs and models on the domain. Each comes once, and DDS keeps only one per organ id. Two servers
-/// with different models may share an id, so each surface is copied on arrival. Threads: poll() and the const functions,
-/// the web thread.
+/// Rest surfaces of all servers on the domain. Each comes once, before or after its server is followed, so each is copied on
+/// arrival. Threads: poll() and the const functions, the web thread.
 class Surfaces {
  public:
   static constexpr std::size_t kMostKept = 16;  ///< then the oldest is dropped, but not the followed one
@@ -24,13 +23,11 @@ class Surfaces {
   /// @throw dds::DdsError
   explicit Surfaces(const dds::Participant& participant);
 
-  /// Takes in what came. @param[in] organ_id, model_id  of the followed surface
-  void poll(std::uint32_t organ_id, std::string_view model_id);
+  /// Takes in what came. @param[in] followed  session of the followed server
+  void poll(std::uint64_t followed);
 
   /// nullptr before it has come. Valid until the next poll().
-  [[nodiscard]] const client::Surface* find(std::uint32_t organ_id, std::string_view model_id) const;
-  /// Model of the organ's newest surface; empty before the first.
-  [[nodiscard]] std::string anyModel(std::uint32_t organ_id) const;
+  [[nodiscard]] const client::Surface* find(std::uint64_t session, std::uint32_t organ_id) const;
   /// Why the newest surface was refused; empty when it was accepted.
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
   [[nodiscard]] std::string mismatch() const { return reader_.mismatch(); }
@@ -40,15 +37,16 @@ class Surfaces {
 
  private:
   struct Arrived {
+    std::uint64_t session{0};
     client::Surface surface;
     std::string refusal;  // empty: there is one
   };
   static bool copy(const dds::SurfaceMesh& message, void* context) noexcept;
-  void keep(client::Surface surface, std::uint32_t organ_id, std::string_view model_id);
+  void keep(Arrived arrived, std::uint64_t followed);
 
   std::mutex mutex_;
-  std::vector<Arrived> arrived_;      // DDS's thread adds, poll() takes
-  std::deque<client::Surface> kept_;  // oldest first
+  std::vector<Arrived> arrived_;  // DDS's thread adds, poll() takes
+  std::deque<Arrived> kept_;      // oldest first
   std::string refusal_;
   dds::Reader<dds::SurfaceMesh> reader_;  // last: its filter stops first
 };

@@ -11,9 +11,10 @@
 namespace palpate::viewer {
 namespace {
 
-dds::ToolPose poseAt(std::uint32_t tool_id, std::uint64_t seq, std::int64_t now_ns,
+dds::ToolPose poseAt(std::uint32_t server_id, std::uint32_t tool_id, std::uint64_t seq, std::int64_t now_ns,
                      const client::Point& p_WT) {
   dds::ToolPose pose{};
+  pose.server_id = server_id;
   pose.tool_id = tool_id;
   pose.seq = seq;
   pose.stamp_ns = now_ns;
@@ -39,9 +40,15 @@ ToolDesk::~ToolDesk() {
   thread_.join();
 }
 
-void ToolDesk::setServer(std::uint32_t tools, double speed_limit) {
-  server_tools_ = tools;
-  speed_ = speed_limit > 0.0 ? std::min(kMaxSpeed, 0.5 * speed_limit) : kMaxSpeed;
+void ToolDesk::setServer(const Server& server) {
+  server_tools_ = server.tools;
+  speed_ = server.speed_limit > 0.0 ? std::min(kMaxSpeed, 0.5 * server.speed_limit) : kMaxSpeed;
+  if (std::exchange(session_, server.session) == server.session) return;
+  const std::int64_t now_ns = rt::monotonicNow();
+  const std::lock_guard lock(mutex_);
+  server_id_ = server.server_id;
+  for (Tool& tool : tools_)
+    if (tool.driven) end(tool, "another server serves now", now_ns);
 }
 
 void ToolDesk::sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept {
@@ -151,7 +158,8 @@ void ToolDesk::stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses) {
     PoseFollower& follower = tool.driven->follower;
     const bool released = follower.state() == PoseFollower::State::kLifting ||
                           follower.state() == PoseFollower::State::kOver;  // before its first target
-    if (const auto p_WT = follower.step(now_ns)) poses.push_back(poseAt(id, ++tool.seq, now_ns, *p_WT));
+    if (const auto p_WT = follower.step(now_ns))
+      poses.push_back(poseAt(server_id_, id, ++tool.seq, now_ns, *p_WT));
     if (follower.state() == PoseFollower::State::kOver)
       end(tool, released ? "released" : "no target came for 250 ms", now_ns);
   }

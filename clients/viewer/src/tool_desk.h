@@ -28,6 +28,14 @@ class ToolDesk {
   static constexpr std::int64_t kRestNs = 120'000'000;
   static constexpr double kMaxSpeed = 0.6;  ///< m/s, and at most half of the server's speed limit
 
+  /// One run of a server.
+  struct Server {
+    std::uint64_t session;
+    std::uint32_t server_id;  ///< whose poses these are
+    std::uint32_t tools;      ///< 0 .. tools - 1 are answered
+    double speed_limit;       ///< m/s; 0: none
+  };
+
   /// A page lost its tool, and why.
   struct Ending {
     std::uint64_t page_id;
@@ -41,8 +49,9 @@ class ToolDesk {
   ToolDesk(const ToolDesk&) = delete;
   ToolDesk& operator=(const ToolDesk&) = delete;
 
-  /// The tools that the server answers. @param[in] tools  0: no server, so no page gets a tool
-  void setServer(std::uint32_t tools, double speed_limit);
+  /// The server that answers tools. Tools of the one before end. Without one, no page gets a tool.
+  void setServer(const Server& server);
+  void setNoServer() { server_tools_ = 0; }
   void setSurface(const client::Surface& surface) { outward_ = Outward(surface); }
   /// A pose of this tool came over the wire from another program.
   void sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept;
@@ -85,12 +94,14 @@ class ToolDesk {
   [[nodiscard]] bool anyDriven() const;
 
   std::vector<std::uint32_t> ids_;
-  std::uint32_t server_tools_{0};  // web thread's, like outward_ and speed_
+  std::uint32_t server_tools_{0};  // web thread's, like session_, outward_ and speed_
+  std::uint64_t session_{0};
   double speed_{kMaxSpeed};
   Outward outward_;
   dds::Writer<dds::ToolPose> writer_;
   mutable std::mutex mutex_;  // what is below
   std::condition_variable driven_;
+  std::uint32_t server_id_{dds::kServerAny};
   std::array<Tool, kTools> tools_;
   std::vector<Ending> endings_;
   bool stop_{false};

@@ -32,9 +32,9 @@ void Viewer::tend(std::int64_t now_ns) {
 void Viewer::tendTools(std::int64_t now_ns) {
   const auto& status = feed.watch().status();
   if (state_.name == "serving" && status) {
-    tools.setServer(status->tools, status->speed_limit);
+    tools.setServer({status->session, status->server_id, status->tools, status->speed_limit});
   } else {
-    tools.setServer(0, 0.0);
+    tools.setNoServer();
   }
   if (feed.revision() != surface_revision_) {
     surface_revision_ = feed.revision();

@@ -3,10 +3,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include "door.h"
+#include "header_text.h"
 #include "page.h"
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/rt/clock.h"
+#include "rare_warning.h"
 #include "request.h"
 
 namespace palpate::viewer {
@@ -14,25 +17,35 @@ namespace {
 
 constexpr std::int64_t kPeriodUs = 20'000;
 constexpr std::size_t kMoreConnections = 64;  // beside the pages: files under way, handshakes, refusals
+constexpr unsigned kMostHeaders = 16'384;     // bytes of a request: browsers bring the cookies of all ports
 constexpr int kGoOn = 0;
 constexpr int kHangUp = -1;
 
 // A silent page is pinged after 10 s and closed after 20 s.
 constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, 10, 20, 0};
 
-// Strangers can cause these lines and must not fill the disk: one per second. The service thread's.
-void warn(std::string_view text) {
-  static std::int64_t next_ns = 0;
-  const std::int64_t now_ns = rt::monotonicNow();
-  if (now_ns < next_ns) return;
-  next_ns = now_ns + 1'000'000'000;
-  spdlog::warn("{}", text);
-}
-
 void logLine(int, const char* line) {
   std::string_view text(line);
   while (text.ends_with('\n')) text.remove_suffix(1);
-  warn(text);
+  warnRarely(text);
+}
+
+// The callback's result after an answer that is no file.
+int finish(lws* wsi, const Answer& answer) {
+  return !send(wsi, answer) || lws_http_transaction_completed(wsi) != 0 ? kHangUp : kGoOn;
+}
+
+int refuseUpgrade(lws* wsi, const Refusal& refusal) {
+  spdlog::debug("refused: {}", refusal.reason);
+  return send(wsi, {.status = refusal.status, .body = refusal.reason}) ? 1 : kHangUp;
+}
+
+void useTls(const TlsFiles& files, lws_context_creation_info& info) {
+  info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+  info.ssl_cert_filepath = files.certificate.c_str();
+  info.ssl_private_key_filepath = files.key.c_str();
+  info.ssl_options_set = SSL_OP_NO_SSLv3 | SSL_OP_NO_TLSv1 | SSL_OP_NO_TLSv1_1;
+  info.alpn = "http/1.1";  // upgrades within HTTP/2 would not be judged
 }
 
 }  // namespace
@@ -42,7 +55,9 @@ struct WebServer::Connection {  // lws gives zeroed memory
 };
 
 WebServer::WebServer(const WebOptions& options) : options_(options), files_(options.page) {
+  options_.access.tls = options_.tls.given();
   check(options_.access);
+  check(options_.tls);
   lws_set_log_level(LLL_ERR, &logLine);
   listen();
 }
@@ -67,6 +82,9 @@ void WebServer::listen() {
   info.timeout_secs_ah_idle = 5;
   info.keepalive_timeout = 10;
   info.retry_and_idle_policy = &kIdle;
+  info.max_http_header_data2 = kMostHeaders;
+  info.headers = securityHeaders();
+  if (options_.tls.given()) useTls(options_.tls, info);
   context_ = lws_create_context(&info);
   lws_vhost* vhost = context_ ? lws_create_vhost(context_, &info) : nullptr;
   if (vhost == nullptr) {
@@ -76,7 +94,9 @@ void WebServer::listen() {
         ": is the port in use (--port 0 takes a free one), or the address not this machine's?");
   }
   options_.access.port = static_cast<std::uint16_t>(lws_get_vhost_listen_port(vhost));
-  rules_ = std::make_unique<AccessRules>(options_.access);
+  const std::string code = options_.access.token.empty() ? "" : randomCode();
+  door_ = std::make_unique<Door>(options_.access, code);
+  login_address_ = WebServer::address() + (code.empty() ? "" : "#code=" + code);
 }
 
 WebServer::~WebServer() {
@@ -89,9 +109,11 @@ WebServer::~WebServer() {
 }
 
 std::string WebServer::address() const {
+  if (!options_.access.origins.empty()) return options_.access.origins.front() + "/";
   const std::string& listen = options_.access.listen;
   const bool all = listen == "0.0.0.0" || listen == "::";
-  return "http://" + hostAndPort(all ? "localhost" : listen, port()) + "/";
+  return (options_.access.tls ? "https://" : "http://") + hostAndPort(all ? "localhost" : listen, port()) +
+         "/";
 }
 
 void WebServer::wake(void* server) noexcept {
@@ -129,7 +151,7 @@ void WebServer::tend() noexcept {
   try {
     lookForNews();
   } catch (const std::exception& error) {
-    warn(error.what());
+    warnRarely(error.what());
   }
 }
 
@@ -166,7 +188,7 @@ int WebServer::handle(lws* wsi, lws_callback_reasons reason, void* user, void* i
       connections_.erase(wsi);
       return kGoOn;
     case LWS_CALLBACK_HTTP:
-      return serveFile(wsi, std::string_view(static_cast<const char*>(in), length));
+      return serve(wsi, std::string_view(static_cast<const char*>(in), length));
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
       return judgeUpgrade(wsi, static_cast<const char*>(in));
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
@@ -201,30 +223,35 @@ int WebServer::handlePage(lws* wsi, lws_callback_reasons reason, Connection* con
   return write(wsi, *connection);
 }
 
+int WebServer::serve(lws* wsi, std::string_view uri) {
+  const bool get = lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) > 0;
+  const bool post = lws_hdr_total_length(wsi, WSI_TOKEN_POST_URI) > 0;
+  if (hasBody(wsi)) {
+    (void)send(wsi, {.status = 413, .body = "no request has a body here"});
+    return kHangUp;
+  }
+  if (!door_->hostAllowed(wsi)) return finish(wsi, {.status = 403, .body = "Host is not this viewer's"});
+  if (uri == "/login" && (get || post)) return finish(wsi, post ? door_->login(wsi) : door_->loginState(wsi));
+  if (!get) return finish(wsi, {.status = 405, .body = "only GET, and POST of /login"});
+  return serveFile(wsi, uri);
+}
+
 int WebServer::serveFile(lws* wsi, std::string_view uri) const {
-  const std::string host = headerOf(wsi, WSI_TOKEN_HOST);
-  if (!rules_->hostAllowed(host)) return refuse(wsi, 403, "Host is not this viewer's");
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) <= 0) return refuse(wsi, 405, "only GET");
   const auto file = files_.find(uri);
-  if (!file) return refuse(wsi, 404, "no such file");
-  const std::string headers = headersOf(*file, host);
+  if (!file) return finish(wsi, {.status = 404, .body = "no such file"});
+  const std::string headers = "cache-control: " + std::string(file->cache) + "\x0d\x0a";
   const int sent = lws_serve_http_file(wsi, file->path.c_str(), file->type, headers.data(),
                                        static_cast<int>(headers.size()));
   return sent < 0 || (sent > 0 && lws_http_transaction_completed(wsi) != 0) ? kHangUp : kGoOn;
 }
 
-int WebServer::judgeUpgrade(lws* wsi, std::string_view kind) const {
+int WebServer::judgeUpgrade(lws* wsi, std::string_view kind) {
   if (kind != "websocket") return kHangUp;
-  const std::string host = headerOf(wsi, WSI_TOKEN_HOST);
-  const std::string origin = headerOf(wsi, WSI_TOKEN_ORIGIN);
-  const std::string token = tokenOf(wsi);
-  const char* refusal = rules_->refusal({host, origin, token});
-  if (refusal != nullptr) spdlog::debug("refused: {}", refusal);
-  if (refusal != nullptr) return refuseUpgrade(wsi, 403, refusal);
-  if (headerOf(wsi, WSI_TOKEN_GET_URI) != "/ws") return refuseUpgrade(wsi, 404, "the WebSocket is at /ws");
+  if (const auto refusal = door_->refusal(wsi)) return refuseUpgrade(wsi, *refusal);
+  if (headerOf(wsi, WSI_TOKEN_GET_URI) != "/ws") return refuseUpgrade(wsi, {404, "the WebSocket is at /ws"});
   if (!names(headerOf(wsi, WSI_TOKEN_PROTOCOL), kSubprotocol))
-    return refuseUpgrade(wsi, 400, "the subprotocol is palpate.viewer.v1");
-  if (pages_.size() >= options_.max_pages) return refuseUpgrade(wsi, 503, "too many pages are open");
+    return refuseUpgrade(wsi, {400, "the subprotocol is palpate.viewer.v1"});
+  if (pages_.size() >= options_.max_pages) return refuseUpgrade(wsi, {503, "too many pages are open"});
   return kGoOn;
 }
 
@@ -244,8 +271,8 @@ int WebServer::receive(lws* wsi, Connection& connection, std::string_view part) 
                                 : connection.page->receive(part, lws_is_first_fragment(wsi) != 0, last,
                                                            lws_frame_is_binary(wsi) != 0, now_ns);
   if (close != Close::kNone) {
-    warn("page " + std::to_string(connection.page->id()) + " is shut out: close code " +
-         std::to_string(static_cast<unsigned>(close)));
+    warnRarely("page " + std::to_string(connection.page->id()) + " is shut out: close code " +
+               std::to_string(static_cast<unsigned>(close)));
     lws_close_reason(wsi, static_cast<lws_close_status>(close), nullptr, 0);
     return kHangUp;
   }

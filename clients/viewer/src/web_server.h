@@ -11,22 +11,26 @@
 
 #include "access.h"
 #include "page_files.h"
+#include "tls.h"
 #include "viewer.h"
 
 namespace palpate::viewer {
+
+class Door;
 
 /// Name of the WebSocket's subprotocol.
 inline constexpr const char* kSubprotocol = "palpate.viewer.v1";
 
 struct WebOptions {
-  AccessOptions access;        ///< port 0: any free port
+  AccessOptions access;  ///< port 0: any free port
+  TlsFiles tls;
   std::filesystem::path page;  ///< folder
   std::size_t max_pages{16};   ///< in [1, 256]
   double rate_hz{60.0};        ///< most frames per second to a page
 };
 
-/// Serves the page's files and its WebSocket at /ws, on the thread that calls run(). Refuses requests against AccessRules
-/// with 403, and pages beyond max_pages with 503.
+/// Serves the page's files, /login and its WebSocket at /ws, on the thread that calls run(). Door judges requests; pages
+/// beyond max_pages get 503.
 class WebServer {
  public:
   /// @throw client::ClientError  the page is missing, or the address cannot be bound
@@ -42,9 +46,11 @@ class WebServer {
   /// Makes run() look for news. Threads: any.
   static void wake(void* server) noexcept;
 
-  /// "http://127.0.0.1:8080/"
+  /// "http://127.0.0.1:8080/"; the first further origin, where there is one.
   [[nodiscard]] std::string address() const;
-  [[nodiscard]] std::uint16_t port() const noexcept { return rules_->options().port; }
+  /// The address that lets a browser in once, within 10 minutes; without a token the same as address().
+  [[nodiscard]] const std::string& loginAddress() const noexcept { return login_address_; }
+  [[nodiscard]] std::uint16_t port() const noexcept { return options_.access.port; }
 
  private:
   struct Connection;
@@ -60,16 +66,18 @@ class WebServer {
   void listen();
   void tend() noexcept;
   void lookForNews();
+  int serve(lws* wsi, std::string_view uri);
   int serveFile(lws* wsi, std::string_view uri) const;
-  int judgeUpgrade(lws* wsi, std::string_view kind) const;
+  int judgeUpgrade(lws* wsi, std::string_view kind);
   void open(lws* wsi, Connection& connection);
   int receive(lws* wsi, Connection& connection, std::string_view part);
   int write(lws* wsi, Connection& connection);
 
   WebOptions options_;
   PageFiles files_;
-  std::unique_ptr<AccessRules> rules_;  // made once the port is known
-  std::mutex context_mutex_;            // wake() against the destructor
+  std::unique_ptr<Door> door_;  // made once the port is known
+  std::string login_address_;
+  std::mutex context_mutex_;  // wake() against the destructor
   lws_context* context_{nullptr};
   Timer timer_{};
   Viewer* viewer_{nullptr};

@@ -2,7 +2,9 @@
 import { defineConfig } from 'vite';
 
 // Relative addresses and no inline scripts: palpate-viewer serves the page under a strict content policy.
-// `npm run dev` passes /ws on to a running palpate-viewer (or to test/pretend_viewer.mjs) at PALPATE_VIEWER.
+// `npm run dev` passes /ws and /login on to a running palpate-viewer (or to test/pretend_viewer.mjs) at PALPATE_VIEWER.
+const viewer = process.env['PALPATE_VIEWER'] ?? 'http://127.0.0.1:8080';
+
 export default defineConfig({
   base: './',
   build: {
@@ -14,6 +16,9 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
   },
   server: {
-    proxy: { '/ws': { target: process.env['PALPATE_VIEWER'] ?? 'http://127.0.0.1:8080', ws: true, changeOrigin: true } },
+    proxy: {
+      '/ws': { target: viewer, ws: true, changeOrigin: true },
+      '/login': { target: viewer, changeOrigin: true },
+    },
   },
 });

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/rt/clock.h"
+
 namespace palpate::watch {
 namespace {
 
@@ -20,7 +22,11 @@ NodeDisplacement largestOf(const dds::SurfaceDisplacement& field) noexcept {
 }  // namespace
 
 FieldLog::FieldLog(const client::Surface& surface)
-    : surface_(surface), peak_field_(3 * surface.positions.size(), 0.0F) {}
+    : surface_(surface),
+      hold_({dds::kServerAny, surface.session}, kSilenceNs),
+      peak_field_(3 * surface.positions.size(), 0.0F) {
+  (void)hold_.address(rt::monotonicNow());  // its silence counts from here on
+}
 
 bool FieldLog::fits(const dds::SurfaceDisplacement& field) const noexcept {
   const auto& u = field.displacement;
@@ -30,11 +36,14 @@ bool FieldLog::fits(const dds::SurfaceDisplacement& field) const noexcept {
 }
 
 void FieldLog::add(const dds::SurfaceDisplacement& field) noexcept {
-  if (!fits(field)) {
+  const bool fit = fits(field);
+  const client::ServerRun from{dds::kServerAny, field.session};
+  if (!hold_.takes(from, 0, rt::monotonicNow(), fit) && fit) return;
+  if (!fit) {
     ++refused_;
     return;
   }
-  fields_.add(field.seq);
+  fields_.add(field.session, field.seq);
   largest_ = largestOf(field);
   if (largest_.size <= peak_.size) return;
   peak_ = largest_;
@@ -50,7 +59,7 @@ void FieldLog::take(dds::ReaderView<dds::SurfaceDisplacement> reader) noexcept {
 
 FieldSummary FieldLog::summary() const {
   const std::lock_guard lock(mutex_);
-  return {fields_.received(), fields_.lost(), refused_, largest_, peak_};
+  return {fields_.received(), fields_.lost(), refused_, hold_.leftOut().count, largest_, peak_};
 }
 
 std::vector<float> FieldLog::peakField() const {

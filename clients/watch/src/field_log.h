@@ -8,6 +8,7 @@
 
 #include "palpate/client/gap_counter.h"
 #include "palpate/client/path.h"
+#include "palpate/client/server_hold.h"
 #include "palpate/client/surface.h"
 #include "palpate/idl/reader.h"
 
@@ -26,16 +27,21 @@ struct FieldSummary {
   std::uint64_t superseded{
       0};                    ///< sent by the server but replaced, lost, or not admitted before they came here
   std::uint64_t refused{0};  ///< of another model, of another size, or with a number that is not finite
-  NodeDisplacement largest;  ///< of the newest field
-  NodeDisplacement peak;     ///< of all fields so far
+  std::uint64_t left_out{0};  ///< of another server
+  NodeDisplacement largest;   ///< of the newest field
+  NodeDisplacement peak;      ///< of all fields so far
 };
 
-/// Follows an organ's displacement field. Threads: take() on the receive thread, the rest on one other; they
+/// Follows an organ's displacement field, of one server as long as that sends. Threads: take() on the receive thread, the rest on one other; they
 /// share a lock. Real-time: no.
 class FieldLog {
  public:
   /// @param[in] surface  must outlive the log
   explicit FieldLog(const client::Surface& surface);
+  static constexpr std::int64_t kSilenceNs = 2'500'000'000;  ///< a server sends a field each second at least
+
+  /// Whether it is this run's fields that are followed. Threads: any
+  [[nodiscard]] bool holds(std::uint64_t session) const noexcept { return hold_.held().session == session; }
 
   void take(dds::ReaderView<dds::SurfaceDisplacement> reader) noexcept;
 
@@ -49,6 +55,7 @@ class FieldLog {
 
   const client::Surface& surface_;
   mutable std::mutex mutex_;
+  client::ServerHold hold_;
   client::GapCounter fields_;
   std::uint64_t refused_{0};
   NodeDisplacement largest_;

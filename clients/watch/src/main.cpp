@@ -23,6 +23,7 @@ namespace {
 struct Options {
   double seconds{10.0};
   std::uint32_t domain{0};
+  std::uint32_t server_id{dds::kServerAny};
   double wait_s{10.0};
   double rate_hz{0.0};
   bool json{false};
@@ -40,6 +41,7 @@ void addOptions(program::Options line, Options& options) {
   line.add("--rate", &options.rate_hz, "most fields per second to look at; 0: all of them")
       .range(0.0, 10000.0);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
   line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
   line.add("--vtk", &options.vtk, "write the surface at its largest displacement to this .vtu or .vtk file");
   line.flag("--json", &options.json, "print one JSON object on standard output");
@@ -81,12 +83,17 @@ program::Json jsonOf(const FieldSummary& summary, const client::Surface& surface
             {"node", surface.mesh_tags[at.node]},
             {"position", surface.positions[at.node]}};
   };
-  return {
-      {"model_id", surface.model_id},          {"surface_nodes", surface.positions.size()},
-      {"triangles", surface.triangles.size()}, {"seconds", seconds},
-      {"received", summary.received},          {"rate_hz", static_cast<double>(summary.received) / seconds},
-      {"superseded", summary.superseded},      {"refused", summary.refused},
-      {"last", node(summary.largest)},         {"peak", node(summary.peak)}};
+  return {{"model_id", surface.model_id},
+          {"surface_nodes", surface.positions.size()},
+          {"triangles", surface.triangles.size()},
+          {"seconds", seconds},
+          {"received", summary.received},
+          {"rate_hz", static_cast<double>(summary.received) / seconds},
+          {"superseded", summary.superseded},
+          {"refused", summary.refused},
+          {"left_out", summary.left_out},
+          {"last", node(summary.largest)},
+          {"peak", node(summary.peak)}};
 }
 
 int body(int argc, char** argv) {
@@ -101,7 +108,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(options.domain);
-  const client::Surface surface = client::findServer(participant, options.wait_s).surface;
+  const client::Surface surface = client::findServer(participant, options.wait_s, options.server_id).surface;
 
   // 3. Follow the field.
   FieldLog log(surface);
@@ -110,9 +117,10 @@ int body(int argc, char** argv) {
   const auto on_data = [](dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept {
     static_cast<Watch*>(context)->log.take(reader);
   };
-  const auto admits = [](const dds::SurfaceDisplacement&, void* context) noexcept {
-    auto& pace = static_cast<Watch*>(context)->pace;
-    return !pace || pace->admits(rt::monotonicNow());
+  // Fields of other servers use up none of the rate.
+  const auto admits = [](const dds::SurfaceDisplacement& field, void* context) noexcept {
+    auto& self = *static_cast<Watch*>(context);
+    return !self.pace || !self.log.holds(field.session) || self.pace->admits(rt::monotonicNow());
   };
   const dds::Reader<dds::SurfaceDisplacement> reader(participant, on_data, &watch, admits);
   const double seconds = follow(log, surface, options.seconds, options.json ? std::cerr : std::cout);

@@ -45,13 +45,12 @@ RecordReader::~RecordReader() = default;
 
 void RecordReader::readFacts() {
   ByteSource& in = block_->source();
-  const auto size = in.get<std::uint32_t>();
-  if (size > 63)
-    throw RecordError("the model id has " + std::to_string(size) + " characters, expected at most 63");
-  const auto text = in.take(size);
-  facts_.model_id.assign(text.begin(), text.end());
+  in.get(facts_.model.bytes);
   in.get(facts_.started_ns);
   forEachConfigField(facts_.config, [&](const char*, auto& field) { in.get(field); });
+  AllToolSettings settings;
+  forEachSetting(settings, [&](const char*, double& field) { in.get(field); });
+  std::copy(settings.begin(), settings.end(), facts_.config.own.begin());
   if (!in.empty()) throw RecordError("longer than expected");
   block_.reset();
 }

@@ -14,10 +14,11 @@ namespace {
 
 Bytes bytesOf(const SessionFacts& facts) {
   Bytes bytes;
-  put(bytes, static_cast<std::uint32_t>(facts.model_id.size()));
-  putBytes(bytes, facts.model_id.data(), facts.model_id.size());
+  put(bytes, facts.model.bytes);
   put(bytes, facts.started_ns);
   forEachConfigField(facts.config, [&](const char*, const auto& field) { put(bytes, field); });
+  const AllToolSettings settings = toolSettings(facts.config);
+  forEachSetting(settings, [&](const char*, const double& field) { put(bytes, field); });
   return bytes;
 }
 

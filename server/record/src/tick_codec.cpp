@@ -11,7 +11,7 @@ namespace {
 // What follows for a tick,
 constexpr std::uint8_t kPeriod = 1;    // period_ns: it changed
 constexpr std::uint8_t kShutting = 2;  // shutting_down: it changed
-constexpr std::uint8_t kLive = 4;      // has_live, and the live parameters
+constexpr std::uint8_t kSettings = 4;  // has_settings, and the settings of all tools
 constexpr std::uint8_t kSkip = 8;      // skip_surface is 1
 constexpr std::uint8_t kTickBits = 15;
 // and for a tool of it.
@@ -48,16 +48,16 @@ void TickCodec::encode(const RecordedTick& tick, Bytes& out) {
   std::uint8_t bits = 0;
   if (input.period_ns != last_.input.period_ns) bits |= kPeriod;
   if (input.shutting_down != last_.input.shutting_down) bits |= kShutting;
-  if (input.has_live != 0) bits |= kLive;
+  if (input.has_settings != 0) bits |= kSettings;
   if (input.skip_surface != 0) bits |= kSkip;
   put(out, tick.index);
   put(out, input.dt_ns);
   put(out, bits);
   if ((bits & kPeriod) != 0) put(out, input.period_ns);
   if ((bits & kShutting) != 0) put(out, input.shutting_down);
-  if ((bits & kLive) != 0) {
-    put(out, input.has_live);
-    forEachLiveField(input.live, [&](const char*, const double& field) { put(out, field); });
+  if ((bits & kSettings) != 0) {
+    put(out, input.has_settings);
+    forEachSetting(input.settings, [&](const char*, const double& field) { put(out, field); });
   }
   for (std::size_t tool = 0; tool < input.tools.size(); ++tool)
     encodeTool(input.tools[tool], tick.result.tools[tool], tool, out);
@@ -97,10 +97,10 @@ void TickCodec::decode(ByteSource& in, RecordedTick& tick) {
   if ((bits & kPeriod) != 0) in.get(input.period_ns);
   if ((bits & kShutting) != 0) in.get(input.shutting_down);
   input.skip_surface = (bits & kSkip) != 0 ? 1 : 0;
-  input.has_live = 0;
-  if ((bits & kLive) != 0) {
-    in.get(input.has_live);
-    forEachLiveField(input.live, [&](const char*, double& field) { in.get(field); });
+  input.has_settings = 0;
+  if ((bits & kSettings) != 0) {
+    in.get(input.has_settings);
+    forEachSetting(input.settings, [&](const char*, double& field) { in.get(field); });
   }
   for (std::size_t tool = 0; tool < input.tools.size(); ++tool) decodeTool(in, tool);
   tick = last_;

@@ -57,37 +57,43 @@ TEST(Access, FromOutsideANumericAddressIsOurs) {
 
 TEST(Access, APageOfAnotherSiteIsRefused) {
   const AccessRules rules(local());
-  EXPECT_EQ(rules.refusal({"127.0.0.1:8080", "http://127.0.0.1:8080", ""}), nullptr);
+  EXPECT_EQ(rules.refusal({"127.0.0.1:8080", "http://127.0.0.1:8080"}), nullptr);
   for (const char* origin :
        {"", "null", "http://evil.example", "https://127.0.0.1:8080", "http://127.0.0.1:8081",
         "http://localhost:8080", "http://127.0.0.1:8080.evil.example"})
-    EXPECT_NE(rules.refusal({"127.0.0.1:8080", origin, ""}), nullptr) << origin;
-  EXPECT_NE(rules.refusal({"evil.example:8080", "http://evil.example:8080", ""}), nullptr);
+    EXPECT_NE(rules.refusal({"127.0.0.1:8080", origin}), nullptr) << origin;
+  EXPECT_NE(rules.refusal({"evil.example:8080", "http://evil.example:8080"}), nullptr);
 }
 
-TEST(Access, WithATokenNothingGoesWithoutIt) {
-  const AccessRules rules(open());
+TEST(Access, AProgramWithoutAnOriginNeedsAToken) {
   const char* host = "192.168.1.5:8080";
-  const char* origin = "http://192.168.1.5:8080";
-  EXPECT_EQ(rules.refusal({host, origin, kToken}), nullptr);
-  EXPECT_EQ(rules.refusal({host, "", kToken}), nullptr) << "a program, not a browser";
-  for (const char* token : {"", "0", "0123456789abcdef-_Y", "0123456789abcdef-_XX", "0123456789abcdef"})
-    EXPECT_NE(rules.refusal({host, origin, token}), nullptr) << token;
-  EXPECT_NE(rules.refusal({host, "http://evil.example", kToken}), nullptr)
+  EXPECT_EQ(AccessRules(open()).refusal({host, "http://192.168.1.5:8080"}), nullptr);
+  EXPECT_EQ(AccessRules(open()).refusal({host, "", true}), nullptr) << "the token itself is judged by Login";
+  EXPECT_NE(AccessRules(open()).refusal({host, ""}), nullptr) << "a program with a cookie";
+  EXPECT_NE(AccessRules(open()).refusal({host, "http://evil.example", true}), nullptr)
       << "a stolen token in another page";
+  EXPECT_NE(AccessRules(local()).refusal({"127.0.0.1:8080", "", true}), nullptr)
+      << "there is no token to bear";
 }
 
-TEST(Access, NoTokenIsNoSecretThatAnEmptyOneMatches) {
-  EXPECT_FALSE(sameSecret("", ""));
-  EXPECT_TRUE(sameSecret(kToken, kToken));
+TEST(Access, UnderTlsOurOriginIsHttps) {
+  AccessOptions options = open();
+  options.tls = true;
+  const AccessRules rules(options);
+  EXPECT_EQ(rules.refusal({"192.168.1.5:8080", "https://192.168.1.5:8080"}), nullptr);
+  EXPECT_NE(rules.refusal({"192.168.1.5:8080", "http://192.168.1.5:8080"}), nullptr);
+  options.port = 443;
+  EXPECT_TRUE(AccessRules(options).hostAllowed("192.168.1.5"));
+  options.port = 80;
+  EXPECT_FALSE(AccessRules(options).hostAllowed("192.168.1.5"));
 }
 
 TEST(Access, AFurtherOriginComesInUnderItsOwnName) {
   const AccessRules rules({"127.0.0.1", 8080, "", {"https://viewer.example.org"}});
-  EXPECT_EQ(rules.refusal({"viewer.example.org", "https://viewer.example.org", ""}), nullptr);
-  EXPECT_EQ(rules.refusal({"127.0.0.1:8080", "https://viewer.example.org", ""}), nullptr)
+  EXPECT_EQ(rules.refusal({"viewer.example.org", "https://viewer.example.org"}), nullptr);
+  EXPECT_EQ(rules.refusal({"127.0.0.1:8080", "https://viewer.example.org"}), nullptr)
       << "proxies may set Host";
-  EXPECT_NE(rules.refusal({"viewer.example.org", "https://evil.example.org", ""}), nullptr);
+  EXPECT_NE(rules.refusal({"viewer.example.org", "https://evil.example.org"}), nullptr);
 }
 
 }  // namespace

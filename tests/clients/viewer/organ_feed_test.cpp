@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -40,36 +41,67 @@ class FeedOfManyServers : public ::testing::Test {
   }
   [[nodiscard]] std::string state() const { return feed_.state(rt::monotonicNow()).name; }
 
-  void sayStatus(std::uint32_t server_id, std::uint32_t organ_id, const char* model,
-                 std::uint32_t state = dds::server_state::kRunning) {
+  // One run of a server, on the wire.
+  struct Run {
+    std::uint32_t server_id{0};
+    std::uint64_t session{1};
+    const char* model{"aa"};
+    std::uint32_t organ_id{0};
+  };
+  void sayStatus(const Run& run, std::uint32_t state = dds::server_state::kRunning) {
     dds::ServerStatus status{};
-    status.server_id = server_id;
-    status.organ_id = organ_id;
+    status.server_id = run.server_id;
+    status.session = run.session;
+    status.answers_any = true;
+    status.organ_id = run.organ_id;
     status.state = state;
-    dds::assignText(status.model_id, model);
+    dds::assignText(status.model_id, run.model);
+    dds::assignText(status.host, "bench");
     ASSERT_TRUE(statuses_.write(status));
   }
-  void saySurface(std::uint32_t organ_id, const char* model) {
+  void saySurface(const Run& run, double width = 0.1) {
     testing::SmallSurface small;
-    small.model_id = model;
+    small.model_id = run.model;
+    small.positions[3] = width;
     dds::SurfaceMesh message = small.message();
-    message.organ_id = organ_id;
+    message.session = run.session;
+    message.organ_id = run.organ_id;
     ASSERT_TRUE(surfaces_.write(message));
   }
-  void sayField(std::uint32_t organ_id, const char* model, std::uint64_t seq) {
+  void sayField(const Run& run, std::uint64_t seq) {
     std::vector<float> u(15, 0.001F);
     dds::SurfaceDisplacement field{};
-    field.organ_id = organ_id;
-    dds::assignText(field.model_id, model);
+    field.session = run.session;
+    field.organ_id = run.organ_id;
+    dds::assignText(field.model_id, run.model);
     field.seq = seq;
     field.displacement = {15, 15, u.data(), false};
     ASSERT_TRUE(fields_.write(field));
   }
-  void sayParameters(std::uint32_t server_id, double model_youngs_modulus) {
+  void sayForce(const Run& run, double newton) {
+    dds::ToolForce force{};
+    force.server_id = run.server_id;
+    force.session = run.session;
+    force.tool_id = 1;
+    force.force[0] = newton;
+    ASSERT_TRUE(forces_.write(force));
+  }
+  void sayParameters(const Run& run, double model_youngs_modulus) {
     dds::ServerParameters parameters{};
-    parameters.server_id = server_id;
+    parameters.server_id = run.server_id;
+    parameters.session = run.session;
     parameters.model_youngs_modulus = model_youngs_modulus;
     ASSERT_TRUE(parameters_.write(parameters));
+  }
+  void sayAll(const Run& run) {
+    sayStatus(run);
+    saySurface(run);
+    sayParameters(run, 100e3);
+    ASSERT_TRUE(until([&] { return state() == "serving" && feed_.parameters(); }));
+  }
+  [[nodiscard]] double shownForce() const {
+    const auto* tool = feed_.tool(1, rt::monotonicNow());
+    return tool ? tool->force.force[0] : 0.0;
   }
 
   dds::Participant participant_{testing::exclusiveDomain()};
@@ -82,58 +114,142 @@ class FeedOfManyServers : public ::testing::Test {
   OrganFeed feed_{participant_, kNeverTwice, [](void*) noexcept {}, nullptr};
 };
 
-TEST_F(FeedOfManyServers, AnotherModelOfTheSameOrganDoesNotHideTheOneThatIsFollowed) {
-  sayStatus(1, 0, "aa");
+TEST_F(FeedOfManyServers, TheServerThatIsHeldIsNotMixedWithAnotherOfTheSameIdAndModel) {
+  const Run held{0, 7, "aa", 0}, other{0, 8, "aa", 0};
+  sayAll(held);
+  for (int i = 1; i <= 20; ++i) {
+    sayStatus(other);
+    saySurface(other, 0.5);
+    sayField(other, 1000);
+    sayParameters(other, 900e3);
+    sayForce(held, 0.372);
+    sayForce(other, 8.614);
+    (void)until([&] { return shownForce() != 0.0; });
+    ASSERT_EQ(shownForce(), 0.372) << i;
+  }
+  EXPECT_FALSE(until([&] { return feed_.field() != nullptr; })) << "a field of the other";
+  sayField(held, 3);
+  ASSERT_TRUE(until([&] { return feed_.field() != nullptr; }));
+  EXPECT_EQ(feed_.field()->seq, 3U);
+  EXPECT_EQ(feed_.surface()->positions[1][0], 0.1);
+  EXPECT_EQ(feed_.parameters()->model_youngs_modulus, 100e3);
+  EXPECT_EQ(feed_.watch().session(), 7U);
+  EXPECT_EQ(feed_.answers().end(), 20U);
+}
+
+TEST_F(FeedOfManyServers, AFloodOfSessionsHidesNoWordOfTheServerThatIsFollowed) {
+  const Run held{0, 7};
+  sayAll(held);
+  for (std::uint64_t session = 100; session < 2100; ++session) sayStatus({3, session});
+  const std::uint64_t before = feed_.statusVersion();
+  sayStatus(held, dds::server_state::kStopping);
+  EXPECT_TRUE(until([&] { return state() == "gone"; }));
+  EXPECT_GT(feed_.statusVersion(), before);
+}
+
+TEST_F(FeedOfManyServers, PosesForOtherServersKeepNoneOfOursOut) {
+  sayAll({0, 7});
+  dds::ToolPose pose{};
+  pose.tool_id = 1;
+  for (pose.server_id = 1; pose.server_id <= 2 * dds::kMaxInstances; ++pose.server_id)
+    ASSERT_TRUE(poses_.write(pose));
+  pose.server_id = 0;
+  ASSERT_TRUE(poses_.write(pose));
+  std::vector<std::uint32_t> foreign;
+  for (int i = 0; i < 4 && foreign.empty(); ++i) foreign = feed_.poll(rt::monotonicNow(), 0);
+  EXPECT_EQ(foreign, std::vector<std::uint32_t>{1});
+}
+
+TEST_F(FeedOfManyServers, ThatAnotherServerIsThereIsSaid) {
+  sayAll({0, 7});
+  EXPECT_EQ(feed_.state(rt::monotonicNow()).others, "");
+  sayStatus({5, 8, "bb"});
+  ASSERT_TRUE(until([&] { return !feed_.state(rt::monotonicNow()).others.empty(); }));
+  EXPECT_EQ(state(), "serving");
+  EXPECT_NE(feed_.state(rt::monotonicNow()).text.find("server 5 (bench, process 0)"), std::string::npos);
+  sayStatus({5, 8, "bb"}, dds::server_state::kStopping);
+  EXPECT_TRUE(until([&] { return feed_.state(rt::monotonicNow()).others.empty(); }));
+}
+
+TEST_F(FeedOfManyServers, TheNextServersSurfaceIsKnownThoughItCameOnceBeforeItWasFollowed) {
+  const Run first{1, 7, "aa"}, next{2, 8, "bb"};
+  sayStatus(first);
   ASSERT_TRUE(until([&] { return state() == "waiting"; }));
-  saySurface(0, "aa");
-  saySurface(0, "bb");  // before the first was looked at, and on the same DDS instance
+  saySurface(first);
+  saySurface(next);  // before the first was looked at
   EXPECT_TRUE(until([&] { return state() == "serving"; })) << feed_.state(rt::monotonicNow()).text;
   ASSERT_NE(feed_.surface(), nullptr);
   EXPECT_EQ(feed_.surface()->model_id, "aa");
-  sayStatus(1, 0, "aa", dds::server_state::kStopping);
-  sayStatus(2, 0, "bb");
-  EXPECT_TRUE(until([&] { return feed_.surface()->model_id == "bb" && state() == "serving"; }))
-      << "the other server's surface, which came once";
+  sayStatus(first, dds::server_state::kStopping);
+  sayStatus(next);
+  EXPECT_TRUE(until([&] { return feed_.surface()->model_id == "bb" && state() == "serving"; }));
 }
 
-TEST_F(FeedOfManyServers, OtherOrgansHoweverManyDoNotHideTheOneThatIsFollowed) {
-  sayStatus(1, 500, "aa");
-  saySurface(500, "aa");
-  ASSERT_TRUE(until([&] { return state() == "serving"; }));
-  for (std::uint32_t organ = 0; organ < 3 * Surfaces::kMostKept; ++organ) {
-    saySurface(organ, "cc");
+TEST_F(FeedOfManyServers, OtherServersHoweverManyDoNotHideTheOneThatIsFollowed) {
+  sayAll({1, 7, "aa", 500});
+  for (std::uint32_t i = 0; i < 3 * Surfaces::kMostKept; ++i) {
+    saySurface({2, 100 + i, "cc", i});
+    sayStatus({2, 100 + i, "cc", i});
     (void)feed_.poll(rt::monotonicNow(), 0);
   }
   EXPECT_FALSE(until([&] { return state() != "serving"; }));
 }
 
+TEST_F(FeedOfManyServers, NothingOfARunIsLeftInTheNextRunOfItsServer) {
+  const Run run{0, 7}, again{0, 8};
+  sayAll(run);
+  sayField(run, 3);
+  sayForce(run, 0.372);
+  ASSERT_TRUE(until([&] { return feed_.field() != nullptr && shownForce() != 0.0; }));
+  sayStatus(run, dds::server_state::kStopping);
+  sayStatus(again);
+  ASSERT_TRUE(until([&] { return feed_.watch().session() == 8U; }));
+  EXPECT_EQ(feed_.field(), nullptr);
+  EXPECT_EQ(feed_.tool(1, rt::monotonicNow()), nullptr);
+  EXPECT_FALSE(feed_.parameters());
+  EXPECT_EQ(state(), "waiting") << "for its surface";
+  sayForce(run, 0.372);
+  EXPECT_FALSE(until([&] { return feed_.tool(1, rt::monotonicNow()) != nullptr; }));
+}
+
 TEST_F(FeedOfManyServers, TheNextServersParametersAreKnownThoughTheyCameBeforeItWasFollowed) {
-  sayStatus(1, 0, "aa");
-  sayParameters(1, 100e3);
+  const Run first{1, 7}, next{2, 8, "bb"};
+  sayStatus(first);
+  sayParameters(first, 100e3);
   ASSERT_TRUE(until([&] { return feed_.parameters().has_value(); }));
-  sayParameters(2, 300e3);
+  sayParameters(next, 300e3);
   bool came = false;
   ASSERT_TRUE(until([&] {
-    for (const dds::ServerParameters& parameters : feed_.newParameters()) came |= parameters.server_id == 2;
+    for (const dds::ServerParameters& parameters : feed_.newParameters()) came |= parameters.session == 8;
     return came;
   }));
   ASSERT_TRUE(feed_.parameters());
   EXPECT_EQ(feed_.parameters()->model_youngs_modulus, 100e3);
-  sayStatus(1, 0, "aa", dds::server_state::kStopping);
-  sayStatus(2, 0, "bb");
-  ASSERT_TRUE(until([&] { return feed_.watch().status()->server_id == 2; }));
+  sayStatus(first, dds::server_state::kStopping);
+  sayStatus(next);
+  ASSERT_TRUE(until([&] { return feed_.watch().session() == 8; }));
   ASSERT_TRUE(feed_.parameters());
   EXPECT_EQ(feed_.parameters()->model_youngs_modulus, 300e3);
 }
 
-TEST_F(FeedOfManyServers, AServerThatSaidNoParametersHasNotThoseOfTheOneBefore) {
-  sayStatus(1, 0, "aa");
-  sayParameters(1, 100e3);
-  ASSERT_TRUE(until([&] { return feed_.parameters().has_value(); }));
-  sayStatus(1, 0, "aa", dds::server_state::kStopping);
-  sayStatus(2, 0, "bb");
-  ASSERT_TRUE(until([&] { return feed_.watch().status()->server_id == 2; }));
-  EXPECT_FALSE(feed_.parameters());
+TEST_F(FeedOfManyServers, PosesForAnotherServerTakeNoToolHere) {
+  sayAll({3, 7});
+  std::vector<std::uint32_t> foreign;
+  const auto pose = [&](std::uint32_t server_id, std::uint32_t tool_id) {
+    dds::ToolPose message{};
+    message.server_id = server_id;
+    message.tool_id = tool_id;
+    ASSERT_TRUE(poses_.write(message));
+  };
+  pose(4, 0);
+  pose(3, 1);
+  pose(dds::kServerAny, 2);
+  for (int i = 0; i < 200 && foreign.size() < 2; ++i) {
+    for (const std::uint32_t id : feed_.poll(rt::monotonicNow(), 0)) foreign.push_back(id);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  std::sort(foreign.begin(), foreign.end());
+  EXPECT_EQ(foreign, (std::vector<std::uint32_t>{1, 2}));
 }
 
 TEST_F(FeedOfManyServers, NonFiniteAnswersAndPosesAreNotShown) {
@@ -141,6 +257,7 @@ TEST_F(FeedOfManyServers, NonFiniteAnswersAndPosesAreNotShown) {
                infinity = std::numeric_limits<double>::infinity();
   const auto answer = [&](std::uint32_t tool_id, const std::function<void(dds::ToolForce&)>& spoil) {
     dds::ToolForce message{};
+    message.session = 7;
     message.tool_id = tool_id;
     message.force[1] = 1.0;
     spoil(message);
@@ -148,6 +265,7 @@ TEST_F(FeedOfManyServers, NonFiniteAnswersAndPosesAreNotShown) {
   };
   const auto pose = [&](double x) {
     dds::ToolPose message{};
+    message.server_id = dds::kServerAny;
     message.tool_id = 3;
     message.position[0] = x;
     ASSERT_TRUE(poses_.write(message));
@@ -161,6 +279,7 @@ TEST_F(FeedOfManyServers, NonFiniteAnswersAndPosesAreNotShown) {
     answer(2, [&](dds::ToolForce& f) { f.domain_radius = wrong; });
   }
   const auto good = [](dds::ToolForce&) {};
+  sayAll({0, 7});
   pose(0.25);
   const auto shown = [&](std::uint32_t id) { return feed_.tool(id, rt::monotonicNow()); };
   ASSERT_TRUE(until([&] {
@@ -176,15 +295,14 @@ TEST_F(FeedOfManyServers, NonFiniteAnswersAndPosesAreNotShown) {
   for (const std::uint32_t id : {0U, 1U, 2U}) EXPECT_EQ(shown(id), nullptr) << id;
 }
 
-TEST_F(FeedOfManyServers, FieldsOfOtherOrgansAndModelsDoNotSpendThePace) {
-  sayStatus(1, 0, "aa");
-  saySurface(0, "aa");
-  ASSERT_TRUE(until([&] { return state() == "serving"; }));
+TEST_F(FeedOfManyServers, FieldsOfOtherServersDoNotSpendThePace) {
+  const Run held{1, 7};
+  sayAll(held);
   for (std::uint64_t i = 1; i <= 5; ++i) {
-    sayField(1, "aa", i);
-    sayField(0, "bb", i);
+    sayField({1, 8}, i);
+    sayField({2, 9, "bb"}, i);
   }
-  sayField(0, "aa", 77);
+  sayField(held, 77);
   ASSERT_TRUE(until([&] { return feed_.field() != nullptr; }));
   EXPECT_EQ(feed_.field()->seq, 77U);
   EXPECT_EQ(feed_.droppedFields(), 0U);

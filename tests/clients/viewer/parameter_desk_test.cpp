@@ -46,6 +46,7 @@ struct Asked {
   static dds::ServerParameters server(std::uint32_t id, double model_youngs_modulus) {
     dds::ServerParameters known{};
     known.server_id = id;
+    known.session = 100 + id;
     known.model_youngs_modulus = model_youngs_modulus;
     return known;
   }
@@ -77,7 +78,7 @@ TEST(ParameterDesk, ASliderThatIsDraggedLeavesNoQueue) {
   for (std::uint64_t i = 2; i <= 50; ++i) asked.drag(0.01 * static_cast<double>(i), i);
   EXPECT_TRUE(asked.at(kStart + 10 * kMs).empty()) << "one at a time";
   EXPECT_EQ(asked.at(kStart + 210 * kMs).front().request_id, first[0].request_id) << "asked again, the same";
-  dds::ServerParameters answer{};
+  dds::ServerParameters answer = Asked::server(0, 100e3);
   answer.request_id = first[0].request_id;
   answer.accepted = true;
   asked.desk.saw(answer);
@@ -110,12 +111,16 @@ TEST(ParameterDesk, TheFactorIsOfTheModelOfTheServerThatIsAsked) {
   const auto requests = asked.at(kStart, Asked::server(2, 300e3));
   ASSERT_EQ(requests.size(), 1U);
   EXPECT_EQ(requests[0].server_id, 2U);
+  EXPECT_EQ(requests[0].session, 102U);
   EXPECT_EQ(requests[0].youngs_modulus, 600e3);
   dds::ServerParameters answer = Asked::server(1, 100e3);  // another's, with the same number
   answer.request_id = requests[0].request_id;
   asked.desk.saw(answer);
   EXPECT_TRUE(asked.desk.answers().empty());
   answer.server_id = 2;
+  asked.desk.saw(answer);
+  EXPECT_TRUE(asked.desk.answers().empty()) << "another run of it";
+  answer.session = 102;
   asked.desk.saw(answer);
   EXPECT_EQ(asked.desk.answers().size(), 1U);
 }

@@ -19,6 +19,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 dds::ServerStatus running(std::uint32_t id, const char* model) {
   dds::ServerStatus status{};
   status.server_id = id;
+  status.session = 100 + id;
   status.state = dds::server_state::kRunning;
   dds::assignText(status.model_id, model);
   return status;
@@ -58,6 +59,64 @@ TEST(ServerWatch, OfTwoServersTheFirstIsFollowedWhileItLives) {
   EXPECT_STREQ(watch.status()->model_id, "bb");
 }
 
+TEST(ServerWatch, ARunOfTheSameServerIsAnotherServerWhileTheFirstLives) {
+  ServerWatch watch(0);
+  dds::ServerStatus again = running(1, "aa");
+  again.session = 999;
+  EXPECT_TRUE(watch.saw(running(1, "aa"), kSecond));
+  EXPECT_FALSE(watch.saw(again, 2 * kSecond));
+  EXPECT_EQ(watch.session(), 101U);
+  EXPECT_FALSE(watch.state(2 * kSecond, "aa", "").others.empty());
+  dds::ServerStatus stopping = running(1, "aa");
+  stopping.state = dds::server_state::kStopping;
+  EXPECT_TRUE(watch.saw(stopping, 2 * kSecond));
+  EXPECT_TRUE(watch.saw(again, 2 * kSecond));
+  EXPECT_EQ(watch.state(2 * kSecond, "aa", "").text, "serving");
+}
+
+TEST(ServerWatch, AnotherWriterDoesNotSpeakForTheServerThatIsFollowed) {
+  ServerWatch watch(0);
+  EXPECT_TRUE(watch.saw(running(1, "aa"), kSecond, 11));
+  dds::ServerStatus stopping = running(1, "aa");
+  stopping.state = dds::server_state::kStopping;
+  EXPECT_FALSE(watch.saw(stopping, 2 * kSecond, 12));
+  EXPECT_EQ(watch.state(2 * kSecond, "aa", "").name, "serving");
+  EXPECT_TRUE(watch.saw(stopping, 2 * kSecond, 11));
+}
+
+TEST(ServerWatch, NamesFromTheWireMoveNoTerminal) {
+  ServerWatch watch(0);
+  EXPECT_TRUE(watch.saw(running(1, "aa"), kSecond));
+  dds::ServerStatus other = running(2, "aa");
+  dds::assignText(other.host, "a\x1b[2Jb\n");
+  EXPECT_FALSE(watch.saw(other, kSecond));
+  EXPECT_EQ(watch.state(kSecond, "aa", "").others, "server 2 (a?[2Jb?, process 0)");
+}
+
+TEST(ServerWatch, AServerThatRunsIsTakenBeforeOneThatOnlyStarts) {
+  ServerWatch watch(0);
+  dds::ServerStatus starting = running(1, "aa");
+  starting.state = dds::server_state::kStarting;
+  EXPECT_TRUE(watch.saw(starting, kSecond));
+  EXPECT_TRUE(watch.saw(running(2, "bb"), kSecond));
+  EXPECT_FALSE(watch.saw(starting, kSecond));
+}
+
+TEST(ServerWatch, AServerThatStopsIsNeverTaken) {
+  ServerWatch watch(0);
+  dds::ServerStatus stopping = running(2, "bb");
+  stopping.state = dds::server_state::kStopping;
+  EXPECT_TRUE(watch.saw(running(1, "aa"), kSecond));
+  EXPECT_FALSE(watch.saw(stopping, 9 * kSecond)) << "though the first is gone";
+}
+
+TEST(ServerWatch, SessionsWithoutEndAreNotAllKept) {
+  ServerWatch watch(0);
+  EXPECT_TRUE(watch.saw(running(1, "aa"), kSecond));
+  for (std::uint32_t id = 2; id < 5000; ++id) EXPECT_FALSE(watch.saw(running(id, "bb"), kSecond));
+  EXPECT_LT(watch.state(kSecond, "aa", "").others.size(), 1500U);
+}
+
 TEST(PageText, AStatusNamesFlagsAndSaysNullForNoBound) {
   dds::ServerStatus status = running(3, "aa");
   status.flags = dds::flag::kInContact | dds::flag::kForceLimited;
@@ -65,13 +124,22 @@ TEST(PageText, AStatusNamesFlagsAndSaysNullForNoBound) {
   status.tick_us.p99 = 71.5;
   dds::ServerParameters parameters{};
   parameters.model_youngs_modulus = 160e3;
-  parameters.friction = 0.25;
+  parameters.tools[0].now.friction = 0.25;
+  parameters.open = true;
+  for (dds::ToolParameters& tool : parameters.tools) {
+    tool.highest.friction = 0.4;
+    tool.highest.force_rate_limit = std::numeric_limits<double>::infinity();
+  }
+  parameters.tools[2].highest.friction = 0.3;
   const json text = json::parse(statusText(status, parameters, {2, 59.5, 1}));
   EXPECT_EQ(text["type"], "status");
   EXPECT_EQ(text["flags_text"], json::array({"contact", "force-limited"}));
   EXPECT_EQ(text["tick_us"]["p99"], 71.5);
   EXPECT_EQ(text["friction"], 0.25) << "the parameters' word is newer";
   EXPECT_EQ(text["model_youngs_modulus"], 160e3);
+  EXPECT_EQ(text["parameters_open"], true);
+  EXPECT_EQ(text["limits"]["friction"], json::array({0.0, 0.3})) << "tool 2's: the page sets all";
+  EXPECT_TRUE(text["limits"]["force_rate_limit"][1].is_null()) << "no bound";
   EXPECT_EQ(text["viewer"]["pages"], 2);
   EXPECT_TRUE(json::parse(statusText(status, std::nullopt, {}))["friction"].is_null());
   EXPECT_EQ(json::parse(statusText(std::nullopt, std::nullopt, {})).size(), 2U)

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
+#include <thread>
 
+#include "palpate/idl/reader.h"
 #include "palpate/testing/test_domain.h"
 
 namespace palpate::viewer {
@@ -15,7 +18,7 @@ constexpr std::uint64_t kPage = 7;
 
 class ToolDeskOfAPage : public ::testing::Test {
  protected:
-  ToolDeskOfAPage() { desk_.setServer(4, 0.0); }
+  ToolDeskOfAPage() { desk_.setServer({7, 3, 4, 0.0}); }
 
   // Waits until the page's tool is over.
   [[nodiscard]] bool over() {
@@ -70,6 +73,34 @@ TEST_F(ToolDeskOfAPage, AGrabRightAfterAReleaseGetsAToolThatStays) {
     desk_.drop(kPage);
     std::this_thread::sleep_for(std::chrono::nanoseconds(2 * ToolDesk::kRestNs));
   }
+}
+
+TEST_F(ToolDeskOfAPage, PosesGoToTheServerThatIsFollowed) {
+  dds::Reader<dds::ToolPose> poses(participant_);
+  for (int i = 0; i < 1000 && poses.matched() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  std::array<dds::ToolPose, dds::kMaxTake> taken{};
+  std::size_t count = 0;
+  for (int i = 0; i < 1000 && count == 0; ++i) {
+    ASSERT_TRUE(desk_.target(kPage, {{0.0, 0.0, 0.1}}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    count = poses.take(taken);
+  }
+  ASSERT_GT(count, 0U);
+  EXPECT_EQ(taken[0].server_id, 3U);
+}
+
+TEST_F(ToolDeskOfAPage, AToolOfOneServerIsNotHandedToTheNext) {
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  ASSERT_TRUE(desk_.target(kPage, {{0.0, 0.0, 0.1}}));
+  desk_.setServer({7, 3, 4, 0.0});
+  EXPECT_TRUE(desk_.toolOf(kPage)) << "the same run";
+  desk_.setServer({8, 3, 4, 0.0});
+  EXPECT_FALSE(desk_.toolOf(kPage));
+  const auto endings = desk_.endings();
+  ASSERT_EQ(endings.size(), 1U);
+  EXPECT_EQ(endings[0].message, "another server serves now");
 }
 
 TEST_F(ToolDeskOfAPage, OfAPageThatIsSilentTheToolIsTakenAway) {

@@ -187,6 +187,25 @@ TEST_F(ViewerEndToEnd, OutlivesItsServerAndShowsTheNextOnesOrgan) {
   EXPECT_TRUE(page->listen(seconds(20), [&] { return page->texts["state"]["server"] == "gone"; }));
 }
 
+TEST_F(ViewerEndToEnd, OfTwoServersOneIsPressedAndTheOtherNamed) {
+  server_ = newServer(3, {"--server-id", "4", "--addressed-only"});
+  startViewer();
+  auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  const auto other = newServer(2, {"--server-id", "5", "--addressed-only"});
+  const auto named = [&] { return page->texts["state"]["others"].get<std::string>(); };
+  EXPECT_TRUE(page->listen(seconds(10), [&] { return !named().empty(); }));
+  EXPECT_NE(named().find("server 5"), std::string::npos) << named();
+  EXPECT_TRUE(page->serving());
+  EXPECT_TRUE(grab(*page)["granted"]);
+  EXPECT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));
+  EXPECT_EQ(page->texts["status"]["server_id"], 4);
+  EXPECT_EQ(page->texts["mesh"]["nodes"], 642);
+  server_->signal(SIGKILL);
+  EXPECT_TRUE(
+      page->listen(seconds(10), [&] { return page->serving() && page->texts["mesh"]["nodes"] == 162; }));
+}
+
 TEST_F(ViewerEndToEnd, TheForceOfAServerThatWasKilledGoesBeforeTheServerIsGivenUp) {
   const auto page = openHoldingPage();
   ASSERT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));

@@ -24,13 +24,19 @@ inline double sizeOf(const std::array<float, 3>& v) {
 /// palpate-server with an organ known in closed form, and palpate-viewer, as processes on a DDS domain of their own.
 class ViewerEndToEnd : public ::testing::Test {
  protected:
-  void startServer(int subdivisions = 3) {
+  void startServer(int subdivisions = 3) { server_ = newServer(subdivisions); }
+  [[nodiscard]] std::unique_ptr<ServerProcess> newServer(int subdivisions,
+                                                         const std::vector<std::string>& more = {}) {
     SyntheticOptions options;
     options.subdivisions = subdivisions;
     writeSyntheticModel(model_.path(), options);
-    server_ = std::make_unique<ServerProcess>(std::vector<std::string>{"--model", model_.path().string(),
-                                                                       "--domain", domain_, "--device",
-                                                                       "custom", "--surface-rate", "100"});
+    std::vector<std::string> arguments{"--model",        model_.path().string(),
+                                       "--limit",        "youngs-modulus=100:1e9",
+                                       "--domain",       domain_,
+                                       "--device",       "custom",
+                                       "--surface-rate", "100"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return std::make_unique<ServerProcess>(arguments);
   }
   void startViewer(const std::vector<std::string>& more = {}) {
     viewer_ = std::make_unique<ViewerProcess>(domain_, more);

@@ -26,9 +26,8 @@ int connectTo(std::uint16_t port) {
   throw std::runtime_error("no program listens on port " + std::to_string(port));
 }
 
-std::string httpGet(std::uint16_t port, const std::string& path, const std::string& host) {
+std::string httpExchange(std::uint16_t port, const std::string& request) {
   const int fd = connectTo(port);
-  const std::string request = "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n\r\n";
   std::string answer;
   if (::send(fd, request.data(), request.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(request.size())) {
     char chunk[4096];
@@ -40,6 +39,10 @@ std::string httpGet(std::uint16_t port, const std::string& path, const std::stri
   return answer;
 }
 
+std::string httpGet(std::uint16_t port, const std::string& path, const std::string& host) {
+  return httpExchange(port, "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n\r\n");
+}
+
 WsClient::WsClient(const WsRequest& request) : socket_(connectTo(request.port)) {
   const std::string host = request.host.empty() ? "127.0.0.1:" + std::to_string(request.port) : request.host;
   const std::string origin = request.origin.value_or("http://" + host);
@@ -48,7 +51,7 @@ WsClient::WsClient(const WsRequest& request) : socket_(connectTo(request.port)) 
                      "Sec-WebSocket-Key: cGFscGF0ZS1wYWdlLTAwMQ==\r\n";
   if (!origin.empty()) text += "Origin: " + origin + "\r\n";
   if (!request.subprotocol.empty()) text += "Sec-WebSocket-Protocol: " + request.subprotocol + "\r\n";
-  sendRaw(text + "\r\n");
+  sendRaw(text + request.headers + "\r\n");
   static constexpr std::string_view kEnd = "\r\n\r\n";
   const auto end = Clock::now() + std::chrono::seconds(10);
   auto at = buffer_.end();

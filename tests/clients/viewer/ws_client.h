@@ -17,6 +17,7 @@ struct WsRequest {
   std::string host;                   ///< empty: 127.0.0.1:port
   std::optional<std::string> origin;  ///< nothing: http://host; "": none
   std::string subprotocol{"palpate.viewer.v1"};
+  std::string headers;  ///< further ones, each with its line end
 };
 
 /// One message, or the end.
@@ -59,6 +60,9 @@ class WsClient {
 
 /// A TCP connection to this machine. @throw std::runtime_error  no program listens
 [[nodiscard]] int connectTo(std::uint16_t port);
+
+/// What comes for a request that is sent unchanged, until the connection ends; empty when nothing does.
+[[nodiscard]] std::string httpExchange(std::uint16_t port, const std::string& request);
 
 /// The whole answer to GET, head and body; empty when the connection ends without one.
 /// @param[in] path  sent unchanged

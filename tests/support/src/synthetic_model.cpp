@@ -170,15 +170,10 @@ ModelData syntheticModel(const SyntheticOptions& o) {
   const Icosphere sphere = icosphere(o.subdivisions);
   const MonomialBasis basis(o.order), force_basis(forceOrder(o));
   ModelData data;
-  data.attributes = {"0123456789abcdef",
-                     "stvk",
-                     R"({"program": "synthetic", "fit_error": 0.0})",
-                     160e3,
-                     0.48,
-                     o.order,
-                     0.008,
-                     o.near_radius,
-                     o.reference_displacement};
+  data.attributes = {"stvk",        R"({"program": "synthetic", "fit_error": 0.0})",
+                     160e3,         0.48,
+                     o.order,       0.008,
+                     o.near_radius, o.reference_displacement};
   data.attributes.force_order = force_basis.order();
   data.attributes.parameters = o.parameters;
   data.attributes.reference_force = o.reference_force;

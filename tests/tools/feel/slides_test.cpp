@@ -4,6 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "palpate/testing/paths.h"
+#include "palpate/testing/run_program.h"
 #include "uneven_organ.h"
 
 namespace palpate::testing {
@@ -45,6 +56,53 @@ TEST_P(SlidesWithFriction, ForceNeitherLagsNorClicksOnceItSlides) {
   }
 }
 
+TEST(Slides, TipGoesAtOneSpeedAroundNoCorner) {
+  constexpr double kHeight = 3e-3, kStep = 5e-5, kSharpest = 2.0;  // m, m, degrees a step
+  std::mt19937 random(1);
+  const auto path = feel::randomPath(unevenOrgan(), kHeight, kStep, 0.05, random);
+  ASSERT_TRUE(path);
+  ASSERT_EQ(path->size(), 1001U);
+  const auto tip = [&](std::size_t i) { return Vec3((*path)[i].position + kHeight * (*path)[i].normal); };
+  for (std::size_t i = 2; i < path->size(); ++i) {
+    const Vec3 last = tip(i - 1) - tip(i - 2), next = tip(i) - tip(i - 1);
+    EXPECT_NEAR(next.norm(), kStep, 0.01 * kStep);
+    EXPECT_LT(std::atan2(last.cross(next).norm(), last.dot(next)) * 180.0 / std::numbers::pi, kSharpest) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Friction, SlidesWithFriction, ::testing::Values(0.0, 0.05, 0.3));
+
+/// A real, coarse mesh with thin lobes: 432 surface nodes.
+class SlidesOnACoarseLiver : public ::testing::TestWithParam<double> {
+ protected:
+  static const MetaModel* model() {
+    static const std::unique_ptr<const MetaModel> model = [] {
+      const std::string mesh = dataDir() + "/sofa-liver/liver2.msh";
+      const TemporaryFile organ("coarse.msh"), solved("coarse.h5");
+      const bool made =
+          std::filesystem::exists(mesh) &&
+          runProgram("palpate-organ", {"import", mesh, "--scale", "0.0933", "--fixed", "lowest-z:0.08", "-o",
+                                       organ.path().string()})
+                  .exit_code == 0 &&
+          runProgram("palpate-solve", {organ.path().string(), "-o", solved.path().string(), "-q"})
+                  .exit_code == 0;
+      return made ? std::make_unique<const MetaModel>(MetaModel::load(solved.path())) : nullptr;
+    }();
+    return model.get();
+  }
+};
+
+TEST_P(SlidesOnACoarseLiver, HardlyEverClickOnceTheySlideAndNeverJump) {
+  if (!std::filesystem::exists(dataDir() + "/sofa-liver/liver2.msh")) GTEST_SKIP() << "no mesh";
+  ASSERT_NE(model(), nullptr);
+  feel::SlideOptions options;
+  options.friction = GetParam();
+  const auto slides = feel::slides(*model(), options);
+  EXPECT_LE(std::ranges::count_if(slides, [](const auto& s) { return s.largest_ratio_later > 1.0; }),
+            GetParam() > 0.1 ? 6 : 4);
+  for (const feel::SlideResult& slide : slides) EXPECT_LE(slide.largest_slow_step, 0.5 * slide.largest_step);
+}
+
+INSTANTIATE_TEST_SUITE_P(Friction, SlidesOnACoarseLiver, ::testing::Values(0.0, 0.05, 0.3));
 
 }  // namespace palpate::testing

@@ -35,14 +35,14 @@ def row(title):
 class Wire(unittest.TestCase):
     def test_sizes_are_those_of_the_types_that_cross_the_wire(self):
         idl = ROOT / "idl/palpate.idl"
-        self.assertEqual(wire.size_of(idl, "ToolPose"), 84)
-        self.assertEqual(wire.size_of(idl, "ToolForce"), 296)
+        self.assertEqual(wire.size_of(idl, "ToolPose"), 116)
+        self.assertEqual(wire.size_of(idl, "ToolForce"), 316)
 
-    def test_numbers_lie_at_multiples_of_their_size(self):
+    def test_numbers_lie_at_multiples_of_their_size_up_to_four(self):
         with tempfile.TemporaryDirectory() as folder:
             idl = pathlib.Path(folder) / "a.idl"
-            idl.write_text("struct A {\n  unsigned long a; // one\n  double b[2];\n  @key long c;\n};\n")
-            self.assertEqual(wire.size_of(idl, "A"), 4 + 4 + 16 + 4)
+            idl.write_text("struct A {\n  unsigned long a; // one\n  double b[2];\n  @key long c;\n  boolean d;\n  double e;\n};\n")
+            self.assertEqual(wire.size_of(idl, "A"), 4 + 4 + 16 + 4 + 1 + 3 + 8)
             idl.write_text("struct A {\n  string<8> name;\n};\n")
             with self.assertRaisesRegex(processes.Failure, "string<8> name"):
                 wire.size_of(idl, "A")

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/run_program.h"
 #include "palpate/testing/synthetic_model.h"
 
@@ -27,6 +29,8 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   const ProgramResult run = inspect({"--json", file.path().string()});
   ASSERT_EQ(run.exit_code, 0);
   const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["digest"]["sha256"].get<std::string>().substr(0, 40), json["model_id"]);
+  EXPECT_TRUE(json["digest"]["verified"]);
   EXPECT_EQ(json["parameters"], "displacement");
   EXPECT_EQ(json["nodes"], 163);
   EXPECT_EQ(json["tetrahedra"], 320);
@@ -45,6 +49,21 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   EXPECT_DOUBLE_EQ(json["domain_radius"]["p05"], 0.008);
   EXPECT_EQ(json["bytes"]["far_field"],
             4U * (4U * 3U * 162U + json["contact_positions"].get<unsigned>() * 19U * 4U));
+}
+
+TEST(Inspect, DoesNotDescribeAModelThatWasChanged) {
+  const TemporaryFile file("inspect-changed.h5");
+  modelfile::ModelData data = syntheticModel({.subdivisions = 1});
+  data.attributes.E = 123456.75;
+  modelfile::writeModel(file.path(), data);
+  std::string bytes = contentOf(file.path());
+  const auto number = [](double x) { return std::string(reinterpret_cast<const char*>(&x), sizeof x); };
+  bytes.replace(bytes.find(number(123456.75)), sizeof(double), number(123456.5));
+  std::ofstream(file.path(), std::ios::binary) << bytes;
+  const ProgramResult run = inspect({"--json", file.path().string()});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, HasSubstr("the digest of its content is"));
 }
 
 TEST(Inspect, TellsWhatAForceModelIsTrustedFor) {

@@ -30,7 +30,6 @@ class SolvedBlock : public ::testing::Test {
       BuildReport report;
       modelfile::ModelData data =
           buildModel(c, organ, {2, std::filesystem::temp_directory_path(), true}, report);
-      data.attributes.model_id = "b10c";
       data.attributes.provenance = "{}";
       modelfile::writeModel(file.path(), data);
       fe = std::make_unique<FeModel>(organ.nodes, organ.tetrahedra, organ.groups.at("fixed"),

@@ -34,7 +34,6 @@ class Block : public ::testing::Test {
   MetaModel solve(BuildReport& report) {
     modelfile::ModelData data =
         buildModel(c_, organ_, {2, std::filesystem::temp_directory_path(), true}, report);
-    data.attributes.model_id = "b10c";
     data.attributes.provenance = "{}";
     modelfile::writeModel(file_.path(), data);
     setup_ = std::make_unique<SolverSetup>(c_, organ_);

@@ -54,7 +54,6 @@ inline void writeBoxModel(const std::filesystem::path& path) {
   c.sweeps = 2;
   offline::BuildReport report;
   modelfile::ModelData data = offline::buildModel(c, BoxMesh::make(), {1, path.parent_path(), true}, report);
-  data.attributes.model_id = "b0c5";
   data.attributes.provenance = "{}";
   modelfile::writeModel(path, data);
 }

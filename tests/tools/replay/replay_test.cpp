@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "palpate/modelfile/write_model.h"
 #include "palpate/record/record_writer.h"
 #include "palpate/testing/synthetic_model.h"
 
@@ -19,7 +22,7 @@ using record::RecordedTick;
 class Replay : public ::testing::Test {
  protected:
   Replay() : model_(load()) {
-    facts_.model_id = model_.attributes().model_id;
+    facts_.model = model_.digest();
     Workspace work(model_, facts_.config);
     RecordedTick tick;
     for (std::uint64_t i = 0; i < 600; ++i) {
@@ -92,9 +95,66 @@ TEST_F(Replay, FindsAnInputThatWasAnother) {
 }
 
 TEST_F(Replay, RefusesAnotherModel) {
-  facts_.model_id = "another";
+  facts_.model.bytes.back() ^= 1U;  // its id begins as that of the model
   EXPECT_THROW((void)replayed(), record::RecordError);
   EXPECT_THROW((void)replayed(Demand::kPartial), record::RecordError);
+}
+
+TEST_F(Replay, RefusesAModelOfTheSameNameThatAnswersOtherwise) {
+  const palpate::testing::TemporaryFile file("replay-model.h5");  // the name of the recorded one
+  modelfile::ModelData data = palpate::testing::syntheticModel();
+  for (double& force : data.contact_force) force *= 3.0;
+  modelfile::writeModel(file.path(), data);
+  model_ = MetaModel::load(file.path());
+  for (const Demand demand : {Demand::kWhole, Demand::kPartial}) try {
+      (void)replayed(demand);
+      ADD_FAILURE() << "the other model was replayed";
+    } catch (const record::RecordError& error) {
+      EXPECT_NE(std::string(error.what()).find("their contents differ"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(Replay, RefusesLiveParametersThatTheWireRefuses) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::pair<std::string, std::function<void(LiveParameters&)>>> cases{
+      {"tick 321: tool 1: youngs_modulus is 1e+300, expected ",
+       [](LiveParameters& l) { l.youngs_modulus = 1e300; }},
+      {"tick 321: tool 1: coupling_stiffness is nan, expected ",
+       [](LiveParameters& l) { l.coupling_stiffness = kNaN; }},
+      {"tick 321: tool 1: friction is -1, expected 0 to ", [](LiveParameters& l) { l.friction = -1.0; }},
+      {"tick 321: tool 1: force_limit is ", [](LiveParameters& l) { l.force_limit = -5.0; }},
+      {"tick 321: tool 1: coupling_damping is 50, expected at most 1.5 ",
+       [](LiveParameters& l) {
+         l.coupling_stiffness = 300.0;
+         l.coupling_damping = 50.0;
+       }},
+      {"tick 321: tool 1: youngs_modulus is 7000.000000, expected that of tool 0, ",
+       [](LiveParameters& l) { l.youngs_modulus = 7000.0; }},
+  };
+  StepInput& input = session_[321].input;
+  input.has_settings = 1;
+  for (const auto& [expected, spoil] : cases) {
+    input.settings = toolSettings(facts_.config);
+    spoil(input.settings[1].live);
+    for (const Demand demand : {Demand::kWhole, Demand::kPartial}) try {
+        (void)replayed(demand);
+        ADD_FAILURE() << expected;
+      } catch (const record::RecordError& error) {
+        EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+      }
+  }
+}
+
+TEST_F(Replay, RefusesAConfigurationThatTheServerRefuses) {
+  facts_.config.ramp_time = 1e300;
+  try {
+    (void)replayed();
+    ADD_FAILURE() << "it was replayed";
+  } catch (const record::RecordError& error) {
+    EXPECT_NE(std::string(error.what()).find("header: ramp_time is 1e+300, expected 0 to 1 s"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(Replay, RefusesMissingTicksUnlessToldThatTheyMayBe) {

@@ -31,8 +31,8 @@ export async function openBrowser() {
 }
 
 /**
- * The page as a user sees it: `see` gives pictures, `figures` the panel's numbers. Errors of its scripts fail the
- * test that closes it.
+ * The page as a user sees it: `see` gives pictures, `figures` the panel's numbers. Errors of its scripts, and what the
+ * content security policy forbids it, fail the test that closes it.
  */
 export class Seen {
   static async open(browser, address, { width = 1000, height = 700, dark = false, phone = false } = {}) {
@@ -40,10 +40,14 @@ export class Seen {
     const size = phone ? { width: 390, height: 844 } : { width, height };
     seen.context = await browser.newContext({
       viewport: size, colorScheme: dark ? 'dark' : 'light', hasTouch: phone, isMobile: phone, acceptDownloads: true,
+      ignoreHTTPSErrors: true, // a test's certificate signed itself
     });
     seen.page = await seen.context.newPage();
     seen.errors = [];
     seen.page.on('pageerror', (error) => seen.errors.push(error.message));
+    seen.page.on('console', (message) => {
+      if (/content security policy/i.test(message.text())) seen.errors.push(message.text());
+    });
     await seen.page.goto(address);
     return seen;
   }

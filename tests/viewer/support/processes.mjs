@@ -106,7 +106,8 @@ export class Bench {
   }
 
   async server(model, more = []) {
-    const server = this.start(bin('palpate-server'), ['--model', model, '--device', 'custom', '--surface-rate', '60', ...more]);
+    const limits = ['--limit', 'youngs-modulus=100:1e9', '--limit', 'friction=0:2'];
+    const server = this.start(bin('palpate-server'), ['--model', model, '--device', 'custom', '--surface-rate', '60', ...limits, ...more]);
     await server.says(/serving on DDS domain/);
     return server;
   }

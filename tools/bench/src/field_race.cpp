@@ -48,7 +48,7 @@ FieldRace::FieldRace(const SyntheticSize& size)
 void FieldRace::ask() {
   std::mt19937 random(1);
   for (int ways = 0; ways < kWays;) {
-    const auto path = feel::randomPath(model_, kStep, kLength, random);
+    const auto path = feel::randomPath(model_, 0.0, kStep, kLength, random);
     if (!path) continue;
     ++ways;
     for (const feel::PathPoint& point : *path) {

@@ -110,7 +110,6 @@ ModelData syntheticModel(const SyntheticSize& size) {
   const Ellipsoid surface = ellipsoid(size.nodes, kSemiAxes);
   ModelData data;
   ModelAttributes& a = data.attributes;
-  a.model_id = "synthetic" + std::to_string(size.nodes) + "x" + std::to_string(size.modes);
   a.law = "stvk";
   a.provenance = R"({"program": "palpate-bench"})";
   a.E = 160e3;

@@ -35,9 +35,10 @@ std::vector<std::vector<Vec3>> waysOver(const MetaModel& model, const WayOptions
   std::vector<std::vector<Vec3>> ways;
   for (int tries = 0; ways.size() < static_cast<std::size_t>(options.ways); ++tries) {
     if (tries == kMostTries)
-      throw std::runtime_error("the accessible part of " + model.attributes().model_id +
-                               " has no room for slides of " + std::to_string(1e3 * options.length) + " mm");
-    if (const auto path = feel::randomPath(model, kStep, options.length, random))
+      throw std::runtime_error("the accessible part of " + model.id() + " has no room for slides of " +
+                               std::to_string(1e3 * options.length) + " mm");
+    if (const auto path =
+            feel::randomPath(model, options.tip_radius - options.depth, kStep, options.length, random))
       ways.push_back(wayAlong(*path, options));
   }
   return ways;

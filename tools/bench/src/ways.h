@@ -12,7 +12,7 @@ struct WayOptions {
   double press;       ///< by which the depth varies on the path, twice in and out, m
   double tip_radius;  ///< R, m
   int ways{20};
-  double length{0.02};  ///< over the surface, m
+  double length{0.02};  ///< of the tip's way, m
 };
 
 /// Tip centres along random smooth slides at 50 mm/s, one per millisecond; each slide begins above the

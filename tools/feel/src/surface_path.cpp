@@ -15,6 +15,26 @@ PathPoint at(const MetaModel& model, const ContactPoint& s) {
   return {s, model.surface().position(s), model.surface().normal(s)};
 }
 
+PathPoint rounded(const MetaModel& model, const ContactPoint& fine) {
+  const ContactSurface& surface = model.contactSurface();
+  return {surface.rest(fine), surface.mesh().position(fine), surface.mesh().normal(fine)};
+}
+
+/// What lies straight below a tip that goes by v from `height` above a point. @return nothing beyond the border, and where
+/// no tip gets so deep: in a hollow that is sharper than `height`
+std::optional<PathPoint> below(const MetaModel& model, const PathPoint& from, double height, const Vec3& v) {
+  const SurfaceMesh& surface = model.contactSurface().mesh();
+  const double farthest = 20.0 * v.norm();
+  ContactPoint fine = model.contactSurface().fine(from.s);
+  double h = 0.0;
+  if (!surface.project(from.position + height * from.normal + v, fine, h) ||
+      !surface.reachable(fine.triangle))
+    return std::nullopt;
+  const PathPoint next = rounded(model, fine);
+  if ((next.position - from.position).norm() > farthest) return std::nullopt;
+  return next;
+}
+
 Vec3 tangential(const Vec3& v, const Vec3& n) {
   return (v - n * n.dot(v)).normalized();
 }
@@ -48,12 +68,11 @@ double normalStiffness(const MetaModel& model, const ContactPoint& s) {
   return n.dot(response.stiffness * n);
 }
 
-std::optional<std::vector<PathPoint>> randomPath(const MetaModel& model, double step, double length,
-                                                 std::mt19937& random) {
+std::optional<std::vector<PathPoint>> randomPath(const MetaModel& model, double height, double step,
+                                                 double length, std::mt19937& random) {
   constexpr double kSharpest = 60.0 * std::numbers::pi / 180.0 / 0.01;  // rad/m
   std::normal_distribution<double> gauss;
-  ContactPoint s = randomContact(model, random);
-  std::vector<PathPoint> path{at(model, s)};
+  std::vector<PathPoint> path{rounded(model, model.contactSurface().fine(randomContact(model, random)))};
   Vec3 heading = tangential(Vec3(gauss(random), gauss(random), gauss(random)), path.back().normal);
   double bend = 0.0;  // rad/m
   const auto count = static_cast<std::size_t>(length / step);
@@ -61,8 +80,9 @@ std::optional<std::vector<PathPoint>> randomPath(const MetaModel& model, double 
     bend = std::clamp(0.98 * bend + 0.1 * kSharpest * gauss(random), -kSharpest, kSharpest);
     const Vec3 n = path.back().normal;
     heading = tangential(Eigen::AngleAxisd(bend * step, n) * heading, n);
-    if (!model.surface().move(s, step * heading, Reach::kAccessible)) break;
-    path.push_back(at(model, s));
+    const auto next = below(model, path.back(), height, step * heading);
+    if (!next) break;
+    path.push_back(*next);
   }
   if (path.size() < count / 2) return std::nullopt;
   return path;

@@ -78,7 +78,9 @@ Json describe(const MetaModel& model) {
   const ModelView& v = model.view();
   const ModelAttributes& a = model.attributes();
   Json out;
-  out["model_id"] = a.model_id;
+  out["model_id"] = model.id();
+  out["digest"] = {{"sha256", model.digest().hex()},
+                   {"verified", true}};  // else it would not have been loaded
   out["parameters"] = toString(a.parameters);
   out["nodes"] = v.mesh_node_tag.size();
   out["tetrahedra"] = v.mesh_tetrahedron_tag.size();

@@ -5,27 +5,22 @@
 #include <hdf5.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
-#include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "check_sizes.h"
 #include "palpate/core/datasets.h"
 #include "palpate/core/hdf5_handle.h"
-#include "palpate/core/multi_index.h"
-#include "palpate/core/packed_modes.h"
+#include "palpate/core/model_content.h"
 #include "palpate/program/write_file.h"
 
 namespace palpate::modelfile {
 
 namespace {
-
-using Shape = std::vector<hsize_t>;
 
 constexpr hsize_t kAlignment = 4096;
 
@@ -89,28 +84,19 @@ void makeGroup(const Hdf5Handle& file, const std::string& name) {
   require(group.valid(), name);
 }
 
-void makeGroups(const Hdf5Handle& file) {
+void makeGroups(const Hdf5Handle& file, const ModelAttributes& attributes) {
   for (const char* path : {dataset::kSurfacePositions.path, dataset::kContactNode.path, dataset::kModesX.path,
                            dataset::kNearNode.path, dataset::kMeshNodes.path})
     makeGroup(file, groupOf(path));
-}
-
-/// Lengths by the symbols of datasets.h.
-using Lengths = std::map<std::string_view, hsize_t>;
-
-hsize_t lengthOf(std::string_view symbol, const Lengths& lengths) {
-  hsize_t number = 0;
-  const auto [end, error] = std::from_chars(symbol.data(), symbol.data() + symbol.size(), number);
-  return error == std::errc() && end == symbol.data() + symbol.size() ? number : lengths.at(symbol);
+  if (attributes.parameters == Parameters::kLevel) makeGroup(file, groupOf(dataset::kLevelsZ.path));
 }
 
 template <typename T>
-void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, const std::vector<T>& values,
-                  const Lengths& lengths) {
+void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, std::span<const T> values,
+                  const LengthTable& lengths) {
   const char* const name = what.path;
-  Shape shape;
-  for (const char* symbol : what.shape)
-    if (symbol != nullptr) shape.push_back(lengthOf(symbol, lengths));
+  const std::vector<std::uint64_t> numbers = shapeOf(what.shape, lengths);
+  const std::vector<hsize_t> shape(numbers.begin(), numbers.end());
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   require(space.valid() && creation.valid(), name);
@@ -153,104 +139,31 @@ void writeText(const Hdf5Handle& file, const char* name, const std::string& text
   require(attribute.valid() && H5Awrite(attribute.get(), type.get(), &start) >= 0, name);
 }
 
-/// What differs between the kinds.
-void writeKind(const Hdf5Handle& file, const ModelAttributes& a) {
-  if (a.parameters != Parameters::kDisplacement)
-    writeText(file, "parameters", std::string(toString(a.parameters)));
-  if (a.parameters == Parameters::kLevel) {
-    writeNumbers(file, "load_direction", a.load_direction);
-    writeNumber(file, "load", a.load);
-    return;
+/// Writes an attribute by its type.
+struct AttributeWriter {
+  const Hdf5Handle& file;
+  void operator()(const char* name, const std::string& text) const { writeText(file, name, text); }
+  void operator()(const char* name, const std::array<double, 3>& values) const {
+    writeNumbers(file, name, values);
   }
-  writeNumber(file, "order", std::int32_t{a.order});
-  writeNumber(file, "force_order", std::int32_t{forceOrder(a)});
-  if (a.parameters == Parameters::kForce) writeNumber(file, "reference_force", a.reference_force);
+  template <class T>
+  void operator()(const char* name, T value) const {
+    writeNumber(file, name, value);
+  }
+};
+
+void writeContent(const Hdf5Handle& file, const ModelAttributes& a, const ModelView& v) {
+  const LengthTable lengths = lengthsOf(a, v);
+  forEachAttribute(a, AttributeWriter{file});
+  forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, std::span<const T> values) {
+    writeDataset(file, what, values, lengths);
+  });
+  writeText(file, "digest", contentDigest(a, v).hex());
 }
 
-void writeAttributes(const Hdf5Handle& file, const ModelAttributes& a) {
-  writeText(file, "format", "palpate-model");
-  writeNumber(file, "version", std::int32_t{a.parameters == Parameters::kDisplacement ? 1 : 2});
-  writeText(file, "model_id", a.model_id);
-  writeText(file, "law", a.law);
-  writeNumber(file, "E", a.E);
-  writeNumber(file, "nu", a.nu);
-  writeNumber(file, "patch_radius", a.patch_radius);
-  writeNumber(file, "near_radius", a.near_radius);
-  writeNumber(file, "reference_displacement", a.reference_displacement);
-  writeText(file, "provenance", a.provenance);
-  writeKind(file, a);
-}
-
-/// The contact's answer, of one kind or the other, and the level functions.
-void writeContact(const Hdf5Handle& file, const ModelData& d, const Lengths& size) {
-  writeDataset(file, dataset::kContactNode, d.contact_node, size);
-  writeDataset(file, dataset::kContactAccessible, d.contact_accessible, size);
-  writeDataset(file, dataset::kContactDomainRadius, d.contact_domain_radius, size);
-  if (d.attributes.parameters == Parameters::kDisplacement)
-    return writeDataset(file, dataset::kContactForce, d.contact_force, size);
-  writeDataset(file, dataset::kContactDisplacement, d.contact_displacement, size);
-  if (d.attributes.parameters != Parameters::kLevel) return;
-  makeGroup(file, groupOf(dataset::kLevelsZ.path));
-  writeDataset(file, dataset::kLevelsZ, d.levels_Z, size);
-}
-
-/// Modes in mixed precision, where there are any.
-void writePacked(const Hdf5Handle& file, const ModelData& d, const Lengths& size) {
-  const PackedModesData& packed = d.modes_packed;
-  if (packed.view().empty()) return;
-  writeDataset(file, dataset::kModesInt16, packed.X16, size);
-  writeDataset(file, dataset::kModesBytes, packed.X8, size);
-  writeDataset(file, dataset::kModesScale, packed.scale, size);
-  writeDataset(file, dataset::kModesKinds, packed.kinds, size);
-}
-
-Lengths lengthsOf(const ModelData& d) {
-  const hsize_t Ns = d.surface_mesh_tag.size(), M = d.contact_node.size(), C = fieldCoefficients(d);
-  Lengths size{{"Ns", Ns},
-               {"3 Ns", 3 * Ns},
-               {"T", d.surface_triangles.size() / 3},
-               {"M", M},
-               {"M + 1", M + 1},
-               {"C", C},
-               {"L + 1", d.levels_Z.size() / C},
-               {"n", modeCount(d)},
-               {"kinds", kPackedKinds},
-               {"tile", kTile},
-               {"sum K", d.near_node.size()},
-               {"3 C sum K", d.near_field.size()},
-               {"N", d.mesh_node_tag.size()},
-               {"V", d.mesh_tetrahedron_tag.size()},
-               {"F", d.mesh_fixed.size()}};
-  if (d.attributes.parameters == Parameters::kDisplacement)
-    size["Cf"] = static_cast<hsize_t>(MonomialBasis::size(forceOrder(d.attributes)));
-  if (d.modes_packed.view().empty()) return size;
-  const ModeCounts counts = countModes(d.modes_packed.view(), modeCount(d));
-  size["tiles"] = d.modes_packed.tiles;
-  size["pairs"] = counts.pairs();
-  size["quads"] = counts.quads();
-  size["packed"] = counts.packed();
-  return size;
-}
-
-void writeDatasets(const Hdf5Handle& file, const ModelData& d) {
-  const Lengths size = lengthsOf(d);
-  writeDataset(file, dataset::kSurfacePositions, d.surface_positions, size);
-  writeDataset(file, dataset::kSurfaceTriangles, d.surface_triangles, size);
-  writeDataset(file, dataset::kSurfaceMeshTag, d.surface_mesh_tag, size);
-  writeDataset(file, dataset::kPositionOfNode, d.position_of_node, size);
-  writeContact(file, d, size);
-  writeDataset(file, dataset::kModesX, d.modes_X, size);
-  writeDataset(file, dataset::kModesY, d.modes_Y, size);
-  writePacked(file, d, size);
-  writeDataset(file, dataset::kNearOffset, d.near_offset, size);
-  writeDataset(file, dataset::kNearNode, d.near_node, size);
-  writeDataset(file, dataset::kNearField, d.near_field, size);
-  writeDataset(file, dataset::kMeshNodes, d.mesh_nodes, size);
-  writeDataset(file, dataset::kMeshTetrahedra, d.mesh_tetrahedra, size);
-  writeDataset(file, dataset::kMeshNodeTag, d.mesh_node_tag, size);
-  writeDataset(file, dataset::kMeshTetrahedronTag, d.mesh_tetrahedron_tag, size);
-  writeDataset(file, dataset::kMeshFixed, d.mesh_fixed, size);
-  writeDataset(file, dataset::kMeshSurfaceNode, d.mesh_surface_node, size);
+void writeProvenance(const Hdf5Handle& file, const std::string& text) {
+  writeText(file, "provenance", text);
+  writeText(file, "provenance_digest", sha256(std::as_bytes(std::span<const char>(text))).hex());
 }
 
 /// The data have to be on the disk before the name points to them: else a crash could leave a name without a
@@ -265,9 +178,11 @@ void sync(const std::string& path) {
 
 void writeAll(const std::string& path, const ModelData& data) {
   Hdf5Handle file = createFile(path);
-  makeGroups(file);
-  writeAttributes(file, data.attributes);
-  writeDatasets(file, data);
+  ModelAttributes attributes = data.attributes;
+  attributes.force_order = forceOrder(attributes);
+  makeGroups(file, attributes);
+  writeContent(file, attributes, viewOf(data));
+  writeProvenance(file, attributes.provenance);
   require(file.closeNow(), path);
   sync(path);
 }

@@ -41,7 +41,7 @@ program::Json jsonOf(const Findings& findings, const record::SessionFacts& facts
           {"differing_ticks", findings.differing},
           {"first_difference", first},
           {"largest_force_N", findings.largest_force},
-          {"model_id", facts.model_id}};
+          {"model_id", facts.model.id()}};
 }
 
 void print(const Findings& findings) {

@@ -90,6 +90,29 @@ bool nextTick(record::RecordReader& recording, Demand demand, record::RecordedTi
   }
 }
 
+// A recording is a file like any other: what the server refuses on the wire is no input here either.
+void requireFit(const record::SessionFacts& facts, const MetaModel& model) {
+  if (facts.model != model.digest())
+    throw RecordError("recorded with model " + facts.model.id() + ", replayed with model " + model.id() +
+                      ": their contents differ");
+  if (const auto complaint = firstComplaint(facts.config))
+    throw RecordError("the recording's header: " + complaint->sentence());
+}
+
+void requireRange(const record::RecordedTick& tick) {
+  if (tick.input.has_settings == 0) return;
+  for (std::size_t tool = 0; tool < tick.input.settings.size(); ++tool)
+    if (const auto complaint = firstComplaint(tick.input.settings[tool]))
+      throw RecordError("tick " + std::to_string(tick.index) + ": tool " + std::to_string(tool) + ": " +
+                        complaint->sentence());
+  const auto modulus = [&](std::size_t tool) { return tick.input.settings[tool].live.youngs_modulus; };
+  for (std::size_t tool = 1; tool < tick.input.settings.size(); ++tool)
+    if (modulus(tool) != modulus(0))
+      throw RecordError("tick " + std::to_string(tick.index) + ": tool " + std::to_string(tool) +
+                        ": youngs_modulus is " + std::to_string(modulus(tool)) +
+                        ", expected that of tool 0, " + std::to_string(modulus(0)) + ": it is the organ's");
+}
+
 void noteGap(std::uint64_t expected, std::uint64_t found, Demand demand, Findings& findings) {
   if (found == expected) return;
   if (demand == Demand::kWhole)
@@ -103,9 +126,7 @@ void noteGap(std::uint64_t expected, std::uint64_t found, Demand demand, Finding
 Findings replay(record::RecordReader& recording, const MetaModel& model, Demand demand) {
   // 1. The same model and parameters, and a new state.
   const record::SessionFacts& facts = recording.facts();
-  if (facts.model_id != model.attributes().model_id)
-    throw RecordError("recorded with model " + facts.model_id + ", replayed with model " +
-                      model.attributes().model_id);
+  requireFit(facts, model);
   Workspace work(model, facts.config);
   // 2. Tick by tick.
   Findings findings;
@@ -115,6 +136,7 @@ Findings replay(record::RecordReader& recording, const MetaModel& model, Demand 
   while (nextTick(recording, demand, tick, findings)) {
     noteGap(expected, tick.index, demand, findings);
     expected = tick.index + 1;
+    requireRange(tick);
     (void)step(model, work, tick.input, result);
     compare(tick, result, findings);
     ++findings.ticks;

@@ -52,7 +52,6 @@ modelfile::ModelData cut(const offline::SolverSetup& setup, const modelfile::Mod
 
 /// @param id names the model among those of this run
 MetaModel writeAndLoad(const std::filesystem::path& path, modelfile::ModelData data, const std::string& id) {
-  data.attributes.model_id = "reproduce-" + id;
   data.attributes.provenance =
       Json{{"program", "palpate-reproduce"}, {"version", PALPATE_VERSION}, {"model", id}}.dump(
           -1, program::Keys::kAsWritten);

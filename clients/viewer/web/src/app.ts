@@ -6,6 +6,7 @@ import { Hand } from './hand';
 import { Keys } from './keys';
 import { Legend } from './legend';
 import { Line, type LineListener } from './line';
+import { admit, loginNeeded } from './login';
 import type { Colouring } from './organ';
 import { OrganView } from './organ_view';
 import { download, element, followInputKind, numberIn, setText, timeStamp } from './page';
@@ -55,7 +56,7 @@ export class App implements LineListener {
   constructor() {
     this.stage = new Stage(this.canvas);
     this.quality = new Quality(devicePixelRatio || 1, this.stage.software);
-    this.line = new Line(viewerAddress(location), this);
+    this.line = new Line(this);
     this.panel = new Panel(this.figures, this.line, this.stage);
     this.parameters = new Parameters(this.line);
     const organ = () => this.view && { surface: this.view.surface, tipRadius: this.tipRadius };
@@ -71,12 +72,14 @@ export class App implements LineListener {
     element('csv', HTMLButtonElement).addEventListener('click', () => this.saveStrip());
     element('picture', HTMLButtonElement).addEventListener('click', () => this.savePicture());
     requestAnimationFrame((now) => this.turn(now));
+    void admit().then(() => this.line.open(viewerAddress(location)));
   }
 
   link(open: boolean, text: string): void {
     this.lineOpen = open;
     if (open) return this.askRate();
     this.setState('bad', `${text}; trying again`);
+    void loginNeeded().then((needed) => needed && location.reload()); // the cookie is too old, or the token another one
   }
 
   said(message: Said): void {
@@ -85,7 +88,7 @@ export class App implements LineListener {
     else if (message.type === 'tool') this.hand.said(message);
     else if (message.type === 'parameters') this.parameters.answered(message);
     else if (message.type === 'status') this.status(message);
-    else if (message.type === 'state') this.setState(levelOf(String(message['server'])), String(message['text'] ?? ''));
+    else if (message.type === 'state') this.setState(levelOf(String(message['server'])), String(message['text'] ?? ''), Boolean(message['others']));
   }
 
   mesh(mesh: Mesh): void {
@@ -128,9 +131,13 @@ export class App implements LineListener {
     this.flags.add(flagsOfStatus(numberIn(status, 'flags')), performance.now());
   }
 
-  private setState(level: string, text: string): void {
+  /** @param others whether further servers are on the domain */
+  private setState(level: string, text: string, others = false): void {
     this.server = { level, text };
-    element('state', HTMLParagraphElement).dataset['level'] = level;
+    const state = element('state', HTMLParagraphElement);
+    state.dataset['level'] = level;
+    state.title = text; // it may be cut short
+    state.toggleAttribute('data-others', others);
     setText(element('state-text', HTMLSpanElement), text);
     if (!this.serving) this.forget();
   }

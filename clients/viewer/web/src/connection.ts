@@ -121,10 +121,8 @@ export class Connection {
   }
 }
 
-/** The WebSocket's address at this page's viewer, with the token of the page's address. */
-export function viewerAddress(page: { protocol: string; host: string; pathname: string; search: string }): string {
-  const token = new URLSearchParams(page.search).get('token');
+/** The WebSocket's address at this page's viewer. */
+export function viewerAddress(page: { protocol: string; host: string; pathname: string }): string {
   const scheme = page.protocol === 'https:' ? 'wss:' : 'ws:';
-  const folder = page.pathname.replace(/[^/]*$/, '');
-  return `${scheme}//${page.host}${folder}ws${token === null ? '' : `?token=${encodeURIComponent(token)}`}`;
+  return `${scheme}//${page.host}${page.pathname.replace(/[^/]*$/, '')}ws`;
 }

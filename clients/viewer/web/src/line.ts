@@ -31,12 +31,13 @@ export class Line {
   private reading: ClockReading = { tripMs: NaN, offsetUs: NaN };
   private readonly worker = new Worker(new URL('./line_worker.ts', import.meta.url), { type: 'module' });
 
-  constructor(
-    address: string,
-    private readonly listener: LineListener,
-  ) {
+  constructor(private readonly listener: LineListener) {
     this.worker.onmessage = (event: MessageEvent<ToPage>) => this.heard(event.data);
     this.worker.onerror = (event) => this.listener.trouble(event.message || 'the page\'s worker did not start');
+  }
+
+  /** Call once; what is sent before is lost. */
+  open(address: string): void {
     this.tell({ kind: 'open', address });
   }
 

@@ -6,6 +6,14 @@ import { element, numberIn, setText } from './page';
 const ASK_MS = 150; // at most one request in this time
 const HELD_MS = 1500; // after this time without a hand a slider follows the server again
 
+/** Narrows a slider to what the server's operator allows. `place`: where on the slider a value lies. */
+function limit(slider: HTMLInputElement, status: Said, name: string, low: number, high: number, place: (value: number) => number): void {
+  const limits = status['limits'] as Record<string, (number | null)[]> | undefined;
+  const [lowest, highest] = limits?.[name] ?? [null, null]; // null: no bound
+  slider.min = String(typeof lowest === 'number' ? Math.max(low, place(lowest)) : low);
+  slider.max = String(typeof highest === 'number' ? Math.min(high, place(highest)) : high);
+}
+
 /** The sliders of organ stiffness and friction. The server decides which values are in force. */
 export class Parameters {
   private readonly stiffness = element('stiffness', HTMLInputElement);
@@ -30,8 +38,12 @@ export class Parameters {
     const youngsFactor = numberIn(status, 'youngs_modulus') / numberIn(status, 'model_youngs_modulus');
     const friction = 'friction' in status ? (status['friction'] === null ? Infinity : numberIn(status, 'friction')) : NaN;
     this.inForce = { youngsFactor, friction };
-    this.stiffness.disabled = !(youngsFactor > 0);
-    this.friction.disabled = Number.isNaN(friction);
+    const closed = status['parameters_open'] !== true;
+    this.stiffness.disabled = closed || !(youngsFactor > 0);
+    this.friction.disabled = closed || Number.isNaN(friction);
+    const model = numberIn(status, 'model_youngs_modulus');
+    limit(this.stiffness, status, 'youngs_modulus', -2, 2, (E) => Math.log2(E / model));
+    limit(this.friction, status, 'friction', 0, 2, (mu) => mu);
     if (performance.now() - this.touchedMs < HELD_MS) return;
     if (youngsFactor > 0) this.stiffness.value = String(Math.log2(youngsFactor));
     if (!Number.isNaN(friction)) this.friction.value = String(Math.min(2, friction));

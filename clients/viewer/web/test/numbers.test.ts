@@ -8,6 +8,7 @@ import { DISPLACEMENT, encodedOf, labOf, linearOf, niceCeiling, STIFFNESS, type 
 import { viewerAddress } from '../src/connection';
 import { FLAGS } from '../src/flag_list';
 import { flagsOfStatus, flagWords, RecentFlags } from '../src/flags';
+import { codeIn } from '../src/login';
 import { Recent } from '../src/recent';
 import { csvOf, Strip, Strips } from '../src/strip';
 import type { Vec3 } from '../src/vec';
@@ -128,8 +129,13 @@ test('scales end at 1, 2, 5', () => {
   assert.deepEqual([0.3, 1, 1.2, 2.5, 7, 0].map(niceCeiling).map((x) => Number(x.toPrecision(3))), [0.5, 1, 2, 5, 10, 1]);
 });
 
-test('the token of the page goes to the viewer', () => {
-  const page = { protocol: 'http:', host: 'h:1', pathname: '/', search: '?token=a+b' };
-  assert.equal(viewerAddress(page), 'ws://h:1/ws?token=a%20b');
-  assert.equal(viewerAddress({ ...page, protocol: 'https:', pathname: '/sub/index.html', search: '' }), 'wss://h:1/sub/ws');
+test('the line is beside the page, and the address brings no secret to it', () => {
+  const page = { protocol: 'http:', host: 'h:1', pathname: '/', search: '?token=secret', hash: '#code=secret' };
+  assert.equal(viewerAddress(page), 'ws://h:1/ws');
+  assert.equal(viewerAddress({ ...page, protocol: 'https:', pathname: '/sub/index.html' }), 'wss://h:1/sub/ws');
+});
+
+test('a code is in the fragment that palpate-viewer prints, and nowhere else', () => {
+  assert.equal(codeIn('#code=0af3'), '0af3');
+  for (const other of ['', '#', '#0af3', '?code=0af3', '#token=0af3']) assert.equal(codeIn(other), '');
 });

@@ -94,6 +94,7 @@ function frameMessage(seq, target) {
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml' };
 const http = createServer(async (request, response) => {
+  if (request.url === '/login') return response.end('{"needed":false}');
   const path = normalize(new URL(request.url, 'http://x').pathname);
   const file = join(folder, path === '/' ? 'index.html' : path);
   try {

@@ -22,8 +22,8 @@ namespace palpate {
 /// Built before the loop, then const.
 class ContactSurface {
  public:
-  /// As many levels, at most 4, as give no more than 300,000 triangles and
-  /// none without an area (a blade's edge may fold up); 0 is the rest surface itself.
+  /// As many levels, at most 4, as give no more than 300,000 triangles, but one at any size; and as give none without an
+  /// area (a blade's edge may fold up): 0 is the rest surface itself.
   ContactSurface(const ModelView& view, const SurfaceMesh& rest);
 
   /// The rounded surface; its contact points are "fine" ones.

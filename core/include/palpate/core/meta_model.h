@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "palpate/core/contact_response.h"
 #include "palpate/core/contact_surface.h"
@@ -12,6 +14,7 @@
 #include "palpate/core/parameter_functions.h"
 #include "palpate/core/patch_average.h"
 #include "palpate/core/sealed_image.h"
+#include "palpate/core/sha256.h"
 #include "palpate/core/smooth_mixing.h"
 #include "palpate/core/surface_mesh.h"
 
@@ -20,13 +23,20 @@ namespace palpate {
 /// A model file in memory: immutable, checked, mapped, and ready to be evaluated by any number of threads.
 class MetaModel {
  public:
-  /// Copies the file into sealed memory, checks every size, index and number of the copy, and maps it
-  /// read-only, populated, locked where the system allows it (docs/model_file.md).
+  /// Copies the file into sealed memory, checks every size, index and number of the copy and that its digest is
+  /// the one that the file states, and maps it read-only, populated, locked where the system allows it
+  /// (docs/model_file.md).
   /// @throw LoadError one sentence: file, dataset, found, expected. Real-time: no (reads, allocates).
   [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
 
   [[nodiscard]] const ModelAttributes& attributes() const noexcept { return attributes_; }
   [[nodiscard]] const ModelView& view() const noexcept { return view_; }
+  /// Of the content, computed at load: two models with the same one give the same answers.
+  [[nodiscard]] const Digest& digest() const noexcept { return digest_; }
+  /// What names the model to people and on the wire, hexadecimal.
+  [[nodiscard]] std::string id() const { return digest_.id(); }
+  /// The first 8 bytes of the digest, big endian.
+  [[nodiscard]] std::uint64_t contentHash() const noexcept { return digest_.leading64(); }
   /// The functions of the parameter that the fields are sums of.
   [[nodiscard]] const ParameterFunctions& functions() const noexcept { return functions_; }
   [[nodiscard]] const SurfaceMesh& surface() const noexcept { return surface_; }
@@ -45,11 +55,12 @@ class MetaModel {
   [[nodiscard]] bool locked() const noexcept { return image_.locked(); }
 
  private:
-  MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view);
+  MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view, const Digest& digest);
 
   SealedImage image_;
   ModelAttributes attributes_;
   ModelView view_;
+  Digest digest_;
   ParameterFunctions functions_;
   SurfaceMesh surface_;
   ContactSurface contact_surface_;

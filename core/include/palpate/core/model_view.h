@@ -34,7 +34,6 @@ enum class Parameters {
 
 /// Root attributes of a model file.
 struct ModelAttributes {
-  std::string model_id;    ///< hexadecimal hash of content and case
   std::string law;         ///< "stvk"
   std::string provenance;  ///< text of a JSON object: who made it, from what, how well it fits
   double E{0.0};           ///< Young's modulus, Pa, > 0

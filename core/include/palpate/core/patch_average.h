@@ -18,8 +18,12 @@ namespace palpate {
 /// the solver imposes d on. Built at load: the patches, and the modes averaged over each.
 class PatchAverage {
  public:
+  static constexpr std::size_t kMostNodes = 2048;             ///< of a patch: 25 edges from its centre
+  static constexpr std::size_t kMostTogether = 64ULL << 20U;  ///< of all patches: half a GiB
+
   /// Borrows nothing of `view` afterwards. O(M k (log k + n)) for patches of k nodes; not real-time.
-  /// @throw std::invalid_argument when patch_radius is so large that a patch has more than 2048 nodes
+  /// @throw std::invalid_argument when patch_radius is so large that a patch has more than kMostNodes, or
+  /// all have more than kMostTogether, those that are fixed included
   PatchAverage(const ModelView& view, const ModelAttributes& attributes);
 
   /// Nodes of a position's patch, nearest first, none when all are fixed.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "palpate/core/budget.h"
 #include "palpate/core/contact_point.h"
 #include "palpate/core/meta_model.h"
 #include "palpate/core/types.h"
@@ -32,6 +33,9 @@ class PatchResponse {
   PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING;
   /// respond() at this s. Real-time: yes.
   [[nodiscard]] ResponseStatus at(const Vec3& d, Response& out) const noexcept PALPATE_NONBLOCKING;
+  /// The same in a tick: spends what it costs. A search that the budget cuts short answers what came nearest, kClamped.
+  [[nodiscard]] ResponseStatus at(const Vec3& d, Budget& budget,
+                                  Response& out) const noexcept PALPATE_NONBLOCKING;
   /// dW/dlambda at fixed d, lambda the barycentric weights of s, J: what pushes the anchor, beside the force, where the
   /// organ is not equally stiff everywhere. Zero of a load-driven model, whose energy is not at hand. Real-time: yes.
   [[nodiscard]] Vec3 energySlope(const Vec3& d) const noexcept PALPATE_NONBLOCKING;

@@ -29,12 +29,14 @@ struct StepInput {
   /// of the loop: how long a force holds until the next one, ns; 0 or less: 1 ms; at most 0.1 s
   std::int64_t period_ns{1'000'000};
   std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
-  /// not 0: blend to `live` within LiveBlend::kSeconds. 0: the parameters stay as they are (at first StepConfig's)
-  std::uint32_t has_live{0};
+  /// not 0: blend to `settings` within LiveBlend::kSeconds; a tip radius changes when its tool touches nothing. 0: they stay as
+  /// they are (at first StepConfig's)
+  std::uint32_t has_settings{0};
   /// not 0: skip the surface in this tick; Workspace::displacement() stays the last one evaluated. Forces, anchors and
-  /// proxies are the same, with one exception: for ramp_time after a jump, proxies blend from the last surface evaluated
+  /// proxies are the same, with one exception: for ramp_time after a jump, proxies blend from the last surface evaluated, if
+  /// that is not older than ramp_time
   std::uint32_t skip_surface{0};
-  LiveParameters live;  ///< checked by the caller: firstComplaint() finds nothing
+  AllToolSettings settings{};  ///< checked by the caller: firstComplaint() finds nothing
 };
 
 /// What one tool gets. Plain: it crosses threads.
@@ -68,12 +70,13 @@ enum class StepStatus { kOk, kFlagged };
 [[nodiscard]] StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                               StepResult& result) noexcept PALPATE_NONBLOCKING;
 
-/// A tick without the surface, so that forces do not wait for the picture. Cost O(C n + tools^2 (C + K_m)). Real-time: yes.
+/// A tick without the surface, so that forces do not wait for the picture. Cost O(C n + tools^2 (C + K_m)), whatever the
+/// number of nodes. Real-time: yes.
 [[nodiscard]] StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& input,
                                     StepResult& result) noexcept PALPATE_NONBLOCKING;
 
 /// The surface under what the last stepForces() found, into Workspace::displacement(). At most once after each of them.
-/// Cost O(n Ns), nothing when nothing moved. Real-time: yes.
-void stepSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING;
+/// @return false when nothing moved: it is the surface of before. Cost O(n Ns), nothing when nothing moved. Real-time: yes.
+bool stepSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

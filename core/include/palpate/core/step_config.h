@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <limits>
+#include <optional>
 
 #include "palpate/core/live_parameters.h"
 
@@ -12,6 +14,15 @@ inline constexpr int kMaxTools = 4;
 /// Largest coupling_damping / coupling_stiffness, s: the damper answers a change of the force of one tick, noise of the
 /// pose included, with this over 3 ms times the spring's own answer. Longer is a buzzer.
 inline constexpr double kLongestCouplingTime = 0.005;
+
+/// What may differ from tool to tool, and change while the loop runs; ranges as in StepConfig. Plain: it crosses threads.
+struct ToolSettings {
+  double tip_radius{0.005};  ///< R, m
+  LiveParameters live{};     ///< youngs_modulus is the organ's: the same for all tools
+
+  [[nodiscard]] bool operator==(const ToolSettings&) const = default;
+};
+using AllToolSettings = std::array<ToolSettings, kMaxTools>;  ///< by tool
 
 /// Parameters of the tick. Checked once, before the loop. Infinity switches off what it bounds.
 struct StepConfig {
@@ -34,16 +45,24 @@ struct StepConfig {
   double youngs_modulus{
       0.0};      ///< E, Pa, in [100, 1e9]; 0: the model's own. Forces scale with it (docs/design.md, Series)
   int tools{4};  ///< tools that are answered, in [1, kMaxTools]
+  /// Settings of the tools that differ from those above; their youngs_modulus is not looked at
+  std::array<std::optional<ToolSettings>, kMaxTools> own{};
 };
 
 /// @return the first field out of its range, with its value and the range; a damping that is too much for the coupling
 /// with both numbers
 [[nodiscard]] std::optional<FieldComplaint> firstComplaint(const StepConfig& config);
 
+/// @return the first field out of its range
+[[nodiscard]] std::optional<FieldComplaint> firstComplaint(const ToolSettings& settings);
+
 /// @throw std::invalid_argument saying what firstComplaint() found
 void check(const StepConfig& config);
 
-/// What of it may change while the loop runs.
+/// What of it may change while the loop runs, of tools without settings of their own.
 [[nodiscard]] LiveParameters liveParameters(const StepConfig& config) noexcept;
+
+/// What each tool starts with.
+[[nodiscard]] AllToolSettings toolSettings(const StepConfig& config) noexcept;
 
 }  // namespace palpate

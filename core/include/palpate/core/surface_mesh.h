@@ -87,6 +87,10 @@ class SurfaceMesh {
   /// edge or deep inside. Real-time: yes.
   [[nodiscard]] bool project(const Vec3& c, ContactPoint& s, double& h) const noexcept PALPATE_NONBLOCKING;
 
+  /// Goes from s over the surface to where c is nearest, downhill all the way, so that s stays on its side of a thin part.
+  /// @param farthest  of the way, m. At most 8 steps. Real-time: yes.
+  void descend(const Vec3& c, double farthest, ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
+
   /// Row k: the gradient of a triangle's barycentric weight k in its plane, 1/m. Real-time: yes.
   [[nodiscard]] Mat3 slopes(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// Rest positions of a triangle's nodes, m. Real-time: yes.
@@ -101,20 +105,20 @@ class SurfaceMesh {
   [[nodiscard]] Vec3 nodePosition(std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] Vec3 mixedNormal(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   static constexpr double kLeastNormal = 1e-6;  // below, on a blade's edge, the nodes' normals cancel
+  [[nodiscard]] double stepNearer(const Vec3& c, Vec3 v, ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   void crossEdge(ContactPoint& s, std::size_t edge, std::int32_t to,
                  Vec3& w) const noexcept PALPATE_NONBLOCKING;
   void buildFaceNormals();
   void buildNodeNormals();
   void findReachable();
-  void buildEdgeNormals();
+  void findNeighbours();
 
   std::span<const double> positions_;
   std::span<const std::int32_t> triangles_;
   std::span<const std::int32_t> position_of_node_;
   std::span<const std::uint8_t> position_accessible_;
   std::vector<Vec3> face_normals_;                       ///< [T] unit
-  std::vector<std::array<Vec3, 3>> edge_normals_;        ///< [T][3] edge k lies opposite to node k
-  std::vector<std::array<std::int32_t, 3>> neighbours_;  ///< [T][3] across the same edges
+  std::vector<std::array<std::int32_t, 3>> neighbours_;  ///< [T][3] across the edge opposite to node k
   std::vector<Vec3> node_normals_;                       ///< [Ns] unit, angle-weighted
   std::vector<std::uint8_t> reachable_;                  ///< [T]
   std::vector<std::int32_t> triangle_at_node_;           ///< [Ns] any triangle that has the node

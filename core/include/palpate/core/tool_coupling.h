@@ -20,6 +20,13 @@ namespace palpate {
                                      const ContactPoint& at,
                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
 
+/// How the sum of patchDisplacement() changes as the patch moves over the rest surface: de/dX, 3 x 3, zero along its normal.
+/// A difference over the patch's own width, so that it has no steps where the sum, mixed linearly, has kinks.
+/// Cost of 4 patchDisplacement() for each source. Real-time: yes. Threads: one per scratch.
+[[nodiscard]] Mat3 patchDisplacementSlope(const MetaModel& model, std::span<const FieldSource> sources,
+                                          const ContactPoint& at,
+                                          FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
+
 /// What a tool that imposes d by itself adds to the field: of evaluateField() and patchDisplacement(). Beyond the
 /// domain its gain is |d| over the |d| that the model answers, so that the field goes on in proportion (not of a
 /// model driven by level, which ends where its load does). @param d  m, finite. Cost respond(). Real-time: yes.

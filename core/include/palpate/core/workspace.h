@@ -61,15 +61,16 @@ class Workspace {
   /// Displacement of the surface nodes after the last step, [Ns][3], m.
   [[nodiscard]] std::span<const float> displacement() const noexcept { return displacement_; }
   [[nodiscard]] const StepConfig& config() const noexcept { return config_; }
-  /// The live parameters in force after the last step.
-  [[nodiscard]] const LiveParameters& live() const noexcept { return live_.now(); }
+  /// A tool's live parameters in force after the last step.
+  [[nodiscard]] const LiveParameters& live(std::size_t tool = 0) const noexcept { return live_[tool].now(); }
 
  private:
   friend class Stepper;  // step()'s own
 
   StepConfig config_;
-  LiveBlend live_;
-  ContactSolver solver_;
+  std::array<LiveBlend, kMaxTools> live_;        // by tool, like
+  std::array<ContactSolver, kMaxTools> solver_;  // for the tips in force
+  std::array<double, kMaxTools> tip_radius_;     // m, to be in force once the tool touches nothing
   ForceLimiter limiter_;
   std::array<ToolMemory, kMaxTools> tools_{};
   FieldScratch scratch_;
@@ -78,8 +79,10 @@ class Workspace {
   bool shown_known_{false};  // if that is the field of just these
   bool overflowed_{false};   // the last field evaluated was not finite everywhere
   std::vector<float> displacement_;
-  std::vector<float> displacement_from_;  // the field at the last jump,
+  std::vector<float> displacement_from_;  // the field shown at the last jump,
+  bool blends_from_shown_{false};         // which is still displacement_ itself until the next one is shown,
   double displacement_blend_{0.0};        // and its weight, 1 at the jump, then falling to 0
+  double shown_age_{0.0};                 // s since displacement_ was shown last
   bool shaken_{false};  // a contact came or went at once: the others feel it in the next tick
 };
 

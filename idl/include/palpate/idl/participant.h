@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "palpate/idl/entity.h"
 
@@ -21,6 +22,8 @@ class Participant {
 
   [[nodiscard]] dds_entity_t handle() const noexcept { return entity_.handle(); }
   [[nodiscard]] std::uint32_t domain() const noexcept { return domain_; }
+  /// Its name on the wire, 32 hexadecimal digits. Real-time: no.
+  [[nodiscard]] std::string guid() const;
 
  private:
   std::uint32_t domain_;

@@ -7,9 +7,10 @@
 
 namespace palpate::dds {
 
-/// The three rows of the QoS table in docs/design.md, Wire, and a pair for questions.
+/// The rows of the QoS table in docs/design.md, Wire. What is not named has DDS's default, so that endpoints of others
+/// match: no deadline, no liveliness.
 enum class QosProfile {
-  kServo,    ///< 1 kHz: best effort, keep last 1, deadline 5 ms, liveliness automatic 50 ms
+  kServo,    ///< 1 kHz, keep last 1: writers offer reliable, readers ask for best effort
   kField,    ///< best effort, keep last 1
   kLatched,  ///< reliable, transient local, keep last 1: late readers get the newest
   kRequest,  ///< reliable, keep last 16
@@ -19,8 +20,9 @@ enum class QosProfile {
 /// Requests and answers of one server that are kept until they are taken.
 inline constexpr int kQueuedRequests = 16;
 
-/// The most instances (tool, organ or server ids) that one reader keeps: a client that invents ids cannot
-/// fill the server's memory.
+/// The most instances (tool or organ ids) that one best-effort reader keeps: a client that invents ids cannot fill the
+/// server's memory. Reliable readers have no such limit, since Cyclone's receive thread would wait for them: what they
+/// read has no key, or a filter bounds the keys (docs/decisions/wire_limits.md).
 inline constexpr int kMaxInstances = 1024;
 
 struct QosDeleter {
@@ -28,8 +30,12 @@ struct QosDeleter {
 };
 using QosPtr = std::unique_ptr<dds_qos_t, QosDeleter>;
 
-/// Which end of a topic a QoS is for: readers also get bounded storage.
-enum class Endpoint { kWriter, kReader };
+/// Which end of a topic a QoS is for. Best-effort readers also get bounded storage.
+enum class Endpoint {
+  kWriter,
+  kReader,
+  kTap  ///< a reader that keeps nothing: best effort and volatile whatever the row says, so every writer matches
+};
 
 /// A new QoS object.
 /// Real-time: no.

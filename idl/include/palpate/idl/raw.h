@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 #include "palpate/idl/qos.h"
@@ -15,18 +16,28 @@ namespace palpate::dds::raw {
                                        const char* name);
 [[nodiscard]] dds_entity_t createWriter(dds_entity_t participant, dds_entity_t topic, const char* name,
                                         QosProfile profile);
+/// @param[in] endpoint     kReader or kTap
+/// @param[in] ignores_own  leave out samples of the same participant
 [[nodiscard]] dds_entity_t createReader(dds_entity_t participant, dds_entity_t topic, const char* name,
-                                        QosProfile profile, const dds_listener_t* listener);
+                                        QosProfile profile, const dds_listener_t* listener,
+                                        Endpoint endpoint = Endpoint::kReader, bool ignores_own = false);
 
 /// Number of matched counterparts of a writer or reader, 0 on error.
 /// Real-time: no, it locks.
 [[nodiscard]] unsigned matchedReaders(dds_entity_t writer) noexcept;
 [[nodiscard]] unsigned matchedWriters(dds_entity_t reader) noexcept;
+/// 0 where no reader is matched, else how many ever were: another number with each that comes. Real-time: no, it locks.
+[[nodiscard]] std::uint32_t readersOf(dds_entity_t writer) noexcept;
 
-/// One line when a counterpart was found that cannot match, e.g. because its @final type is another version;
-/// empty when none was.
-[[nodiscard]] std::string mismatchOfWriter(dds_entity_t writer, const char* name);
-[[nodiscard]] std::string mismatchOfReader(dds_entity_t reader, const char* name);
+/// 32 hexadecimal digits.
+[[nodiscard]] std::string textOf(const dds_guid_t& guid);
+
+/// GUID of the participant of a matched writer, 32 hexadecimal digits; empty when there is no such writer.
+[[nodiscard]] std::string participantGuid(dds_entity_t reader, dds_instance_handle_t writer);
+
+/// One line when a counterpart is there that does not match: by which policies, and whose it is; empty when none is.
+/// Looks at all that DDS discovered, so not for a loop: EndpointWatch is.
+[[nodiscard]] std::string mismatchOf(dds_entity_t endpoint, bool writes);
 
 /// Looks every few milliseconds until `matched(entity)` reaches `count`. @return whether it did within
 /// `timeout`

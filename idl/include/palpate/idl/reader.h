@@ -62,7 +62,8 @@ class ReaderView {
 template <class T>
 using DataCallback = void (*)(ReaderView<T> reader, void* context) noexcept;
 
-/// Asked before a sample is kept: false and Cyclone forgets it, its instance too. One call at a time, on the receive
+/// Asked before a sample is kept: false and Cyclone forgets it, its instance too. Not asked when a writer disposes of an
+/// instance. One call at a time, on the receive
 /// thread, possibly while the data callback runs on another; must not block, throw, or use the reader.
 template <class T>
 using SampleFilter = bool (*)(const T& sample, void* context) noexcept;
@@ -107,9 +108,7 @@ class Reader {
     return raw::waitUntilMatched(&raw::matchedWriters, entity_.handle(), count, timeout);
   }
   /// One line when a writer was found whose type or QoS does not fit; else empty.
-  [[nodiscard]] std::string mismatch() const {
-    return raw::mismatchOfReader(entity_.handle(), Traits::kName);
-  }
+  [[nodiscard]] std::string mismatch() const { return raw::mismatchOf(entity_.handle(), false); }
   [[nodiscard]] dds_entity_t handle() const noexcept { return entity_.handle(); }
 
  private:

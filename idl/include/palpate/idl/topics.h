@@ -64,6 +64,14 @@ struct TopicTraits<ParameterRequest> {
 };
 
 template <>
+struct TopicTraits<ToolAnnouncement> {
+  static constexpr const char* kName = "palpate/tool/announcement";
+  static constexpr QosProfile kProfile = QosProfile::kRequest;
+  static constexpr bool kFlat = true;
+  static const dds_topic_descriptor_t& descriptor() noexcept { return palpate_ToolAnnouncement_desc; }
+};
+
+template <>
 struct TopicTraits<ServerParameters> {
   static constexpr const char* kName = "palpate/server/parameters";
   static constexpr QosProfile kProfile = QosProfile::kAnswer;

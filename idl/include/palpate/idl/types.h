@@ -20,9 +20,19 @@ using ToolForce = palpate_ToolForce;
 using SurfaceDisplacement = palpate_SurfaceDisplacement;
 using SurfaceMesh = palpate_SurfaceMesh;
 using Percentiles = palpate_Percentiles;
+using LiveValues = palpate_LiveValues;
+using ToolParameters = palpate_ToolParameters;
+using ToolAnnouncement = palpate_ToolAnnouncement;
+
+/// ParameterRequest::tool_id: every tool.
+inline constexpr std::uint32_t kAllTools = palpate_TOOL_ALL;
+
 using ServerStatus = palpate_ServerStatus;
 using ParameterRequest = palpate_ParameterRequest;
 using ServerParameters = palpate_ServerParameters;
+
+/// ToolPose::server_id: whichever server serves the domain.
+inline constexpr std::uint32_t kServerAny = palpate_SERVER_ANY;
 
 /// Values of ToolForce::state.
 namespace tool_state {
@@ -54,6 +64,16 @@ void assignText(char (&field)[N], std::string_view text) noexcept {
   const std::size_t length = std::min(text.size(), N - 1);
   std::memcpy(field, text.data(), length);
   field[length] = '\0';
+}
+
+/// Lets an IDL sequence borrow the caller's memory for a write, which only reads.
+/// Real-time: yes.
+template <class Sequence, class T>
+void lend(Sequence& sequence, const T* data, std::size_t size) noexcept {
+  sequence._maximum = static_cast<std::uint32_t>(size);
+  sequence._length = static_cast<std::uint32_t>(size);
+  sequence._buffer = const_cast<T*>(data);
+  sequence._release = false;
 }
 
 }  // namespace palpate::dds

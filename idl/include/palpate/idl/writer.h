@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 #include "palpate/idl/topic.h"
@@ -29,14 +30,14 @@ class Writer {
   }
 
   [[nodiscard]] unsigned matched() const noexcept { return raw::matchedReaders(entity_.handle()); }
+  /// 0 where nobody reads, else another number with each reader that comes. Real-time: no, it locks.
+  [[nodiscard]] std::uint32_t readers() const noexcept { return raw::readersOf(entity_.handle()); }
   /// @return whether at least `count` readers matched within `timeout`
   [[nodiscard]] bool waitForReaders(unsigned count, std::chrono::milliseconds timeout) const noexcept {
     return raw::waitUntilMatched(&raw::matchedReaders, entity_.handle(), count, timeout);
   }
   /// One line when a reader was found whose type or QoS does not fit; else empty.
-  [[nodiscard]] std::string mismatch() const {
-    return raw::mismatchOfWriter(entity_.handle(), Traits::kName);
-  }
+  [[nodiscard]] std::string mismatch() const { return raw::mismatchOf(entity_.handle(), true); }
   [[nodiscard]] dds_entity_t handle() const noexcept { return entity_.handle(); }
 
  private:

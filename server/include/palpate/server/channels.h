@@ -16,11 +16,15 @@
 namespace palpate::server {
 
 /// Everything that two threads of the server share, and nothing is shared but this. Each line names its one
-/// writer and one reader. Two more things never change while threads run: the model and the configuration.
+/// writer and one reader. Two more things never change while threads run: the model and the configuration. Outside of the
+/// tick, RivalBook has a lock of its own.
 struct Channels {
   /// Allocates; before the loop.
   explicit Channels(std::size_t surface_floats)
       : surface(SurfaceSample{0, 0, std::vector<float>(surface_floats, 0.0F)}) {}
+
+  // Subscriber -> events: the writer of each tool's poses; 0: none yet. Relaxed, it orders nothing.
+  std::array<std::atomic<std::uint64_t>, kMaxTools> owners{};
 
   // Subscriber -> tick. Cyclone runs one callback of a reader at a time, so "the subscriber" is one writer
   // even when poses come in on several receive threads.
@@ -28,11 +32,15 @@ struct Channels {
   rt::TripleBuffer<Strangers> strangers;
 
   // Events -> tick: latest wins. What is in it was checked.
-  rt::TripleBuffer<LiveParameters> parameters;
+  rt::TripleBuffer<AllToolSettings> parameters;
 
   // Tick -> force-out: a ring, because every tick is answered. 512 records are 128 ms of four tools.
   rt::SpscQueue<ForceRecord, 512> forces;
   rt::Semaphore force_ready;
+
+  // Surface-out -> tick: 0 where nobody reads fields, and the tick evaluates none; else another number with each reader that
+  // comes (dds::Writer::readers()). Relaxed: it orders nothing.
+  std::atomic<std::uint32_t> field_readers{0};
 
   // Tick -> surface-out: latest wins.
   rt::TripleBuffer<SurfaceSample> surface;
@@ -46,6 +54,18 @@ struct Channels {
   std::atomic<std::uint64_t> unknown_poses{0};
   std::atomic<std::uint32_t> unknown_id{0};
 
+  // Subscriber -> events: poses for another server, and the newest such server_id. Counters; relaxed, they order nothing.
+  std::atomic<std::uint64_t> misaddressed_poses{0};
+  std::atomic<std::uint32_t> misaddressed_id{0};
+
+  // Parameter service's filter, on DDS's receive thread -> events: requests that were not looked at, because they were for
+  // other servers or too many. Counters; relaxed, they order nothing.
+  std::atomic<std::uint64_t> foreign_requests{0};
+  std::atomic<std::uint64_t> surplus_requests{0};
+
+  // Announcements' tap, on DDS's receive thread -> events: words of drivers for which there was no place. A counter; relaxed.
+  std::atomic<std::uint64_t> surplus_announcements{0};
+
   // Tick -> recorder, only with --record: 4096 ticks are 4 s at 1 kHz, longer than a disk stalls. On the heap, made before
   // the loop. Polled. A full ring loses the newest tick, which the counter says; relaxed, it orders nothing.
   std::unique_ptr<rt::SpscQueue<record::RecordedTick, 4096>> recording;
@@ -53,6 +73,9 @@ struct Channels {
 
   // Recorder -> events: the file cannot be written any more. A flag, relaxed.
   std::atomic<bool> recording_failed{false};
+
+  // Events -> tick: another server answers the same poses. A flag, relaxed: it orders nothing.
+  std::atomic<bool> rival{false};
 
   // Force-out and surface-out -> events. Counters; relaxed, they order nothing.
   std::atomic<std::uint64_t> failed_writes{0};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -23,6 +25,21 @@ inline constexpr std::string_view kCustomDevice = "custom";
 /// Live parameters that the file or the command line named. They win over the device preset, in any order.
 using LiveOverrides = LiveFields<std::optional<double>>;
 
+/// What one tool has of its own, as the file and the command line named it.
+struct OwnOptions {
+  std::optional<std::string> device;
+  std::optional<double> tip_radius;  ///< m
+  LiveOverrides said;                ///< E is not looked at: it is the organ's
+};
+
+/// Lowest and highest value that a request may set while the server runs.
+struct Bounds {
+  double low;
+  double high;
+};
+/// Those that the file or the command line named.
+using LiveBounds = LiveFields<std::optional<Bounds>>;
+
 /// `step` with the force limit and the coupling of a device, and what was named over both.
 /// "custom" (or an unknown device) leaves StepConfig's own defaults under what was named. A device's damping is cut to
 /// what a softer coupling that was named allows (kLongestCouplingTime).
@@ -40,18 +57,30 @@ struct ServerConfig {
   std::int64_t domain{0};                                    ///< DDS domain, in [0, 230]
   double rate{1000.0};                                       ///< ticks per second, Hz, in [10, 10000]
   rt::RealtimePolicy realtime{rt::RealtimePolicy::kPrefer};  ///< require, prefer or off
-  std::int64_t server_id{0};                                 ///< key of ServerStatus, in [0, 2^32 - 1]
-  std::int64_t organ_id{0};                                  ///< key of the surface topics, in [0, 2^32 - 1]
-  double surface_rate{kEveryTick};     ///< surface fields per second, Hz, in [0.1, kEveryTick]
+  std::int64_t server_id{0};           ///< names it in poses and answers, in [0, 2^32 - 2]
+  bool addressed_only{false};          ///< poses for any server are left to others
+  double listen_first{0.5};            ///< for other servers before the first force, s, in [0, 10]
+  std::int64_t organ_id{0};            ///< key of the surface topics, in [0, 2^32 - 1]
+  double surface_rate{kEveryTick};     ///< surface fields per second at most, Hz, in [0.1, kEveryTick]
   bool phase_lock{false};              ///< ticks follow the poses' arrival
   std::int64_t tick_cpu{kAnyCpu};      ///< CPU of the tick, one that this process may use
   bool tick_cpu_alone{false};          ///< nothing else of this process runs there
   std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
   std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
   LiveOverrides said;                  ///< of the file and the command line
+  bool parameters{true};               ///< requests may change live parameters
+  LiveBounds limits;                   ///< within these; what is not named: liveLimits()
   /// parameters of the engine, the device's included: withDevice() was applied. [tool] and [organ] in the file
   StepConfig step{withDevice({}, std::string(kDefaultDevice), {})};
+  std::array<OwnOptions, kMaxTools> own;  ///< by tool; what is named there wins over the above. [tool.N]
 };
+
+/// The device of a tool.
+[[nodiscard]] const std::string& deviceOf(const ServerConfig& config, std::size_t tool);
+
+/// Sets the step's settings from the device and what was named: for all tools, then for those that have something of their
+/// own. What was named for all tools wins over a tool's own device.
+void settleTools(ServerConfig& config);
 
 /// An unusable option. what() is one line: the place, the value found, what was expected.
 class ConfigError : public std::runtime_error {
@@ -77,6 +106,9 @@ void checkDevice(const std::string& word);
 
 /// The largest coupling stiffness that a device allows, N/m; infinity for "custom".
 [[nodiscard]] double stiffnessLimit(const std::string& device);
+
+/// @throw ConfigError naming the words that are known: on, off
+[[nodiscard]] bool parseSwitch(const std::string& word);
 
 /// @throw ConfigError naming the words that are known
 [[nodiscard]] rt::RealtimePolicy parsePolicy(const std::string& word);

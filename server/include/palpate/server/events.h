@@ -6,10 +6,13 @@
 #include <map>
 #include <string>
 
+#include "palpate/idl/endpoint_watch.h"
 #include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"
 #include "palpate/server/health.h"
 #include "palpate/server/parameter_service.h"
+#include "palpate/server/rest_surface.h"
+#include "palpate/server/rival_watch.h"
 #include "palpate/server/status_publisher.h"
 
 namespace palpate::server {
@@ -19,13 +22,20 @@ namespace palpate::server {
 /// so that no client can fill a disk.
 class Events {
  public:
-  Events(Channels& channels, StatusPublisher& status, ParameterService& parameters)
-      : channels_(channels), status_(status), parameters_(parameters) {
+  Events(Channels& channels, StatusPublisher& status, ParameterService& parameters, RivalWatch& rivals)
+      : channels_(channels), status_(status), parameters_(parameters), rivals_(rivals) {
     noteParameters();
   }
 
   /// Also raise receive threads that DDS makes later. Before run().
   void raiseReceiveThreads() noexcept { raise_receive_threads_ = true; }
+
+  /// Also log others' endpoints that do not match ours, and repeat the rest surface for readers without history. Before
+  /// run(); both must outlive the thread.
+  void serveStrangers(dds::EndpointWatch& endpoints, RestSurface& surface) noexcept {
+    endpoints_ = &endpoints;
+    rest_surface_ = &surface;
+  }
 
   /// Body of the events thread. Returns when the server stops, after it has published that.
   void run() noexcept;
@@ -37,7 +47,11 @@ class Events {
 
  private:
   void noteParameters();
+  void noteMisfits(std::int64_t now_ns);
   void noteUnknownTools(std::int64_t now_ns);
+  void noteRivals(std::int64_t now_ns);
+  void noteMisaddressed(std::int64_t now_ns);
+  void noteRequestFloods(std::int64_t now_ns);
   void noteRecording(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
   void raiseLateThreads(std::int64_t now_ns);
@@ -52,6 +66,10 @@ class Events {
   Channels& channels_;
   StatusPublisher& status_;
   ParameterService& parameters_;
+  RivalWatch& rivals_;
+  dds::EndpointWatch* endpoints_{nullptr};
+  RestSurface* rest_surface_{nullptr};
+  std::uint64_t untold_misfits_{0};
   Health health_;
   std::array<std::uint32_t, kMaxTools> last_flags_{};
   std::map<std::uint64_t, std::int64_t> last_told_ns_;  // by kind of event; a fixed, small set
@@ -60,6 +78,10 @@ class Events {
   std::uint32_t told_phase_{static_cast<std::uint32_t>(rt::PhaseState::kFree)};
   bool raise_receive_threads_{false};
   std::int64_t raised_ns_{0};
+  std::int64_t requests_counted_ns_{0};
+  std::uint64_t foreign_requests_{0};
+  std::uint64_t surplus_announcements_{0};
+  std::int64_t rival_told_ns_{0};
   bool recording_failed_{false};
   std::uint64_t unrecorded_{0};
 };

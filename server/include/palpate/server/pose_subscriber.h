@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "palpate/core/step_config.h"
+#include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/reader.h"
 #include "palpate/server/channels.h"
 
@@ -23,6 +24,12 @@ class UnknownIds {
   std::size_t count_{0};
 };
 
+/// Which poses are meant for this server.
+struct Address {
+  std::uint32_t server_id{0};
+  bool answers_any{true};  ///< also those for dds::kServerAny
+};
+
 /// Books poses as they arrive: who sends a tool's poses, whether they come in order, which tools get no force; and
 /// hands each tool's newest pose to the tick. The engine judges the pose itself.
 /// A tool belongs to the publisher of its first pose for as long as its poses come, that is until none came for
@@ -31,8 +38,9 @@ class UnknownIds {
 class PoseIntake {
  public:
   /// @param[in] config  tools and zero_after are used
-  PoseIntake(Channels& channels, const StepConfig& config)
+  PoseIntake(Channels& channels, const StepConfig& config, const Address& address = {})
       : channels_(channels),
+        address_(address),
         tools_(static_cast<std::uint32_t>(config.tools)),
         silence_ns_(static_cast<std::int64_t>(1e9 * config.zero_after)) {}
 
@@ -41,7 +49,7 @@ class PoseIntake {
   void accept(const dds::ToolPose& pose, dds::WriterId writer,
               std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
 
-  /// Whether DDS shall keep a pose for us. One call at a time, but possibly during an accept().
+  /// Whether DDS shall keep a pose for us: it is for this server, and its tool is known or there is room to answer it. One call at a time, but possibly during an accept().
   [[nodiscard]] bool admits(const dds::ToolPose& pose) noexcept PALPATE_NONBLOCKING;
 
  private:
@@ -49,8 +57,10 @@ class PoseIntake {
                     std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
   void acceptStranger(const dds::ToolPose& pose, std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
   void noteUnknown(std::uint32_t tool_id) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool isForUs(const dds::ToolPose& pose) const noexcept PALPATE_NONBLOCKING;
 
   Channels& channels_;
+  Address address_;
   std::uint32_t tools_;
   std::int64_t silence_ns_;
   std::array<PoseSample, kMaxTools> newest_{};
@@ -64,9 +74,15 @@ class PoseIntake {
 class PoseSubscriber {
  public:
   /// @throw dds::DdsError
-  PoseSubscriber(const dds::Participant& participant, Channels& channels, const StepConfig& config)
-      : intake_(channels, config),
+  PoseSubscriber(const dds::Participant& participant, Channels& channels, const StepConfig& config,
+                 const Address& address)
+      : intake_(channels, config, address),
         reader_(participant, &PoseSubscriber::onPoses, &intake_, &PoseSubscriber::admits) {}
+
+  /// Lets the watch compare others' endpoints with ours.
+  void show(dds::EndpointWatch& watch) const { watch.add(reader_); }
+  /// The reader, which knows the poses' writers.
+  [[nodiscard]] dds_entity_t handle() const noexcept { return reader_.handle(); }
 
  private:
   static void onPoses(dds::ReaderView<dds::ToolPose> reader, void* context) noexcept;

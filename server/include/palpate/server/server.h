@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "palpate/core/step.h"
+#include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/participant.h"
 #include "palpate/rt/periodic_thread.h"
 #include "palpate/rt/scheduling.h"
@@ -17,6 +18,8 @@
 #include "palpate/server/parameter_service.h"
 #include "palpate/server/pose_subscriber.h"
 #include "palpate/server/recorder.h"
+#include "palpate/server/rest_surface.h"
+#include "palpate/server/rival_watch.h"
 #include "palpate/server/surface_publisher.h"
 #include "palpate/server/tick.h"
 
@@ -26,7 +29,7 @@ namespace palpate::server {
 class Server {
  public:
   /// Starts everything. `model` must outlive the server.
-  /// @throw record::RecordError, dds::DdsError, rt::RealtimeError (policy require), std::invalid_argument (parameters of the
+  /// @throw RivalError (another server answers the same poses), record::RecordError, dds::DdsError, rt::RealtimeError (policy require), std::invalid_argument (parameters of the
   /// engine)
   Server(const MetaModel& model, const ServerConfig& config);
   ~Server() { stop(); }
@@ -39,6 +42,7 @@ class Server {
   [[nodiscard]] const Facts& facts() const noexcept { return facts_; }
 
  private:
+  void watchEndpoints();
   void settleRealtime(rt::RealtimePolicy policy);
   void startThreads(const ServerConfig& config);
   void sendZeroForce();
@@ -49,15 +53,20 @@ class Server {
   std::optional<Recorder> recorder_;
   std::optional<rt::CpuLatencyHold> awake_;
 
-  // In the order of a pose's way: subscriber, tick, publishers.
+  // The place of this server on its domain, before anything else is sent.
   dds::Participant participant_;
-  ForcePublisher force_out_;
-  SurfacePublisher surface_out_;
   StatusPublisher status_out_;
+  RivalWatch rivals_;
+
+  // In the order of a pose's way: subscriber, tick, publishers.
+  ForcePublisher force_out_;
+  RestSurface rest_surface_;
+  SurfacePublisher surface_out_;
   ParameterService parameters_;
   Events events_;
   Tick tick_;
   PoseSubscriber poses_in_;
+  dds::EndpointWatch endpoints_;
 
   double ramp_time_;
   std::unique_ptr<rt::Thread> force_thread_;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/writer.h"
 #include "palpate/server/facts.h"
 #include "palpate/server/health.h"
@@ -22,6 +23,10 @@ class StatusPublisher {
   void publish(const Health& health, std::uint32_t state) {
     (void)writer_.write(toWire(facts_, health, state));
   }
+  [[nodiscard]] const Facts& facts() const noexcept { return facts_; }
+
+  /// Lets the watch compare others' endpoints with ours.
+  void show(dds::EndpointWatch& watch) const { watch.add(writer_); }
 
  private:
   const Facts& facts_;

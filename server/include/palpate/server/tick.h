@@ -9,6 +9,7 @@
 #include "palpate/rt/periodic_thread.h"
 #include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"
+#include "palpate/server/field_pace.h"
 
 namespace palpate::server {
 
@@ -88,6 +89,8 @@ class Tick {
   std::int64_t shift_ns_{0};
   std::uint64_t surface_seq_{0};
   std::int64_t next_surface_ns_{0};
+  std::uint32_t field_readers_{0};
+  FieldPace field_pace_;
   std::uint64_t rejected_{0};
   std::uint64_t dropped_{0};
   int zero_ticks_{0};  // in a row, while shutting down

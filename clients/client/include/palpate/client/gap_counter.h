@@ -5,13 +5,15 @@
 
 namespace palpate::client {
 
-/// Counts samples lost on the way, from a counter that rises by one with each. A counter that falls back means
-/// that the sender was restarted. Threads: one. Real-time: yes.
+/// Counts samples lost on the way, from a counter that rises by one with each. Another session, or a counter that falls back,
+/// means that the sender was restarted. Threads: one. Real-time: yes.
 class GapCounter {
  public:
-  void add(std::uint64_t seq) noexcept {
-    if (received_ > 0 && seq <= last_) ++restarts_;
-    if (received_ > 0 && seq > last_) lost_ += seq - last_ - 1;
+  void add(std::uint64_t session, std::uint64_t seq) noexcept {
+    const bool same = session == session_ && seq > last_;
+    if (received_ > 0 && !same) ++restarts_;
+    if (received_ > 0 && same) lost_ += seq - last_ - 1;
+    session_ = session;
     last_ = seq;
     ++received_;
   }
@@ -20,6 +22,7 @@ class GapCounter {
   [[nodiscard]] std::uint64_t restarts() const noexcept { return restarts_; }
 
  private:
+  std::uint64_t session_{0};
   std::uint64_t last_{0};
   std::uint64_t received_{0};
   std::uint64_t lost_{0};

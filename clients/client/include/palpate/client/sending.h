@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
+#include "palpate/client/status_board.h"
 #include "palpate/client/tool_client.h"
 
 namespace palpate::client {
@@ -15,5 +18,8 @@ inline constexpr const char* kNotRealtime =
 /// @throw ClientError  no server within 5 s
 /// Real-time: no.
 [[nodiscard]] bool prepareToSend(const ToolClient& tool);
+
+/// "12 forces of another server were left out: server 3, ...\n"; empty: none were. Real-time: no.
+[[nodiscard]] std::string leftOutText(const LeftOut& left_out, const StatusBoard& statuses);
 
 }  // namespace palpate::client

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
+#include <string>
+#include <vector>
 
+#include "palpate/client/status_board.h"
 #include "palpate/client/surface.h"
 #include "palpate/idl/reader.h"
 
@@ -14,30 +18,47 @@ struct ServerInfo {
   Surface surface;
 };
 
+[[nodiscard]] inline ServerRun runOf(const ServerInfo& server) noexcept {
+  return runOf(server.status);
+}
+
 /// Finds a running server and its organ's surface on a domain.
 class ServerFinder {
  public:
+  /// @param[in] server_id  the server; kServerAny: the first that is complete
   /// @throw dds::DdsError
-  explicit ServerFinder(const dds::Participant& participant);
+  explicit ServerFinder(const dds::Participant& participant, std::uint32_t server_id = dds::kServerAny);
 
-  /// Waits for a running server's status and for the surface that fits it (organ id and model id).
+  /// Waits for a running server's status and for the surface of the same run that fits it (organ id and model id).
   /// @throw ClientError  what is missing (a status, a surface, the right model, the right version of the types),
   ///        or that the user interrupted
   /// Real-time: no.
   [[nodiscard]] ServerInfo wait(std::chrono::milliseconds timeout);
 
+  /// The other servers that run, each in one line.
+  [[nodiscard]] std::vector<std::string> others(const ServerInfo& found) const;
+
  private:
   [[nodiscard]] bool look(ServerInfo& info);
+  static bool onSurface(const dds::SurfaceMesh& message, void* context) noexcept;
+  void takeSurfaces();
   [[nodiscard]] std::string missing(std::chrono::milliseconds waited) const;
 
   std::uint32_t domain_;
-  dds::Reader<dds::ServerStatus> statuses_;
-  dds::Reader<dds::SurfaceMesh> surfaces_;
+  std::uint32_t server_id_;
+  StatusBoard statuses_;
+  std::vector<Surface> kept_;
+  std::string refusal_;  // of the newest surface that was malformed
   bool has_status_{false};
-  bool has_surface_{false};
+  std::mutex mutex_;              // the next two
+  std::vector<Surface> arrived_;  // DDS's thread adds
+  std::string arrived_refusal_;
+  dds::Reader<dds::SurfaceMesh> surfaces_;  // last: its filter uses the rest
 };
 
-/// ServerFinder::wait() for a program: first says on standard error that it waits.
-[[nodiscard]] ServerInfo findServer(const dds::Participant& participant, double seconds);
+/// ServerFinder::wait() for a program: first says on standard error that it waits, and afterwards which server was chosen if
+/// there are several.
+[[nodiscard]] ServerInfo findServer(const dds::Participant& participant, double seconds,
+                                    std::uint32_t server_id = dds::kServerAny);
 
 }  // namespace palpate::client

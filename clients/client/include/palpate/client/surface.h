@@ -15,6 +15,7 @@ namespace palpate::client {
 /// The organ's rest surface as a client keeps it.
 struct Surface {
   std::uint32_t organ_id{0};
+  std::uint64_t session{0};  ///< of its server
   std::string model_id;
   std::uint32_t topology_revision{0};
   std::vector<Point> positions;                         ///< Ns rest positions X, m

@@ -4,15 +4,19 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 #include "palpate/client/path.h"
-#include "palpate/idl/reader.h"
+#include "palpate/client/server_hold.h"
+#include "palpate/idl/tap.h"
 #include "palpate/idl/writer.h"
 #include "palpate/rt/triple_buffer.h"
 
 namespace palpate::client {
 
-/// One haptic tool as the server sees it: sends its poses, receives the forces on it. Device drivers build on it.
+/// One haptic tool as the server sees it: sends its poses, receives the forces on it. Device drivers build on it. It holds on to
+/// one server (ServerHold): the one that is named, or else the first that answers. Its poses name that server, and forces of
+/// others are left out.
 class ToolClient {
  public:
   /// Called for every answer to this tool, on Cyclone's receive thread: must not block or throw.
@@ -21,10 +25,11 @@ class ToolClient {
                                  void* context) noexcept;
 
   /// @param[in] tool_id  0 to 3, one client for each
+  /// @param[in] wanted   the server; by default the first that answers
   /// @throw ClientError for another id, dds::DdsError
   /// Real-time: no. The participant, and what `context` points to, must outlive it.
   ToolClient(const dds::Participant& participant, std::uint32_t tool_id, ForceCallback callback = nullptr,
-             void* context = nullptr);
+             void* context = nullptr, const ServerRun& wanted = {});
   ToolClient(const ToolClient&) = delete;
   ToolClient& operator=(const ToolClient&) = delete;
 
@@ -44,11 +49,17 @@ class ToolClient {
     return true;
   }
 
+  /// The server that is held on to, and what others sent. Threads: any.
+  [[nodiscard]] const ServerHold& hold() const noexcept { return hold_; }
+
   /// @return whether, within `timeout`, a server listens to the poses and a server sends forces
   [[nodiscard]] bool waitForServer(std::chrono::milliseconds timeout) const noexcept;
+  /// One line when a server is there whose endpoints do not match: by which policies, and whose they are; else empty.
+  /// Real-time: no.
+  [[nodiscard]] std::string mismatch() const;
 
  private:
-  static void onData(dds::ReaderView<dds::ToolForce> reader, void* context) noexcept;
+  static void onForce(const dds::ToolForce& force, dds::WriterId writer, void* context) noexcept;
   [[nodiscard]] bool answersUs(const dds::ToolForce& force) const noexcept;
 
   std::uint32_t tool_id_;
@@ -58,8 +69,9 @@ class ToolClient {
   ForceCallback callback_;
   void* context_;
   rt::TripleBuffer<dds::ToolForce> latest_;  // written by the receive thread, read by latest()'s caller
+  ServerHold hold_;
   dds::Writer<dds::ToolPose> poses_;
-  dds::Reader<dds::ToolForce> forces_;  // last: no callback comes after it is destroyed
+  dds::Tap<dds::ToolForce> forces_;  // last: no callback comes after it is destroyed
 };
 
 }  // namespace palpate::client

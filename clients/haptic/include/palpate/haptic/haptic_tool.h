@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #if defined(__GNUC__)
 #define PALPATE_HAPTIC_API __attribute__((visibility("default")))
@@ -26,30 +27,41 @@ class PALPATE_HAPTIC_API HapticError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+inline constexpr std::uint32_t kAnyServer = 0xFFFFFFFF;
+
 struct Options {
-  std::uint32_t domain{0};   ///< DDS domain, 0 to 230, the server's
-  std::uint32_t tool_id{0};  ///< 0 to 3; each driver needs its own
-  /// The device's own force limit, N, in [0.01, 50]. The server's limit applies too, once its status has come.
-  double force_limit{50.0};
+  std::uint32_t domain{0};              ///< DDS domain, 0 to 230, the server's
+  std::uint32_t server_id{kAnyServer};  ///< the server; kAnyServer: the first that answers
+  std::uint32_t tool_id{0};             ///< 0 to 3; each driver needs its own
+  /// Largest force that the device renders, N, in [0.01, 50]. It has no default: only the driver knows its device. The server's
+  /// limit applies too, once its status has come.
+  double force_limit{0.0};
   /// Distance from the answered pose up to which a force is extrapolated, m, in [0, 0.05]; beyond it the force stays
   /// constant. 0: never. 2 mm are 2 ms at 1 m/s.
   double max_extrapolation{0.002};
   int receive_priority{0};  ///< SCHED_FIFO priority of the receiving threads, 1 to 99; 0: unchanged
+  /// As in palpate-server --device: its limits hold for this tool where they are lower. Empty: none said
+  std::string device{};
 };
 
 /// The force on the tool at one moment, and its context.
 struct Force {
-  Vec3 force{};               ///< on the tool in W, N: what the device renders. Never larger than the limits
-  Vec3 anchor{};              ///< X(s): rest position of the touched material point, m
-  Vec3 proxy{};               ///< current position of that point, m: draw the tool resting here
-  double age_s{0.0};          ///< time since the newest answer, s; infinity before the first one
-  double gain{0.0};           ///< the watchdog's gain, 0 to 1, already in `force`
-  std::uint64_t pose_seq{0};  ///< the answered pose, as send() returned it; 0 before the first answer
-  std::uint32_t flags{0};     ///< FLAG_* of palpate.idl, PALPATE_HAPTIC_FLAG_* of palpate_haptic.h
-  std::uint32_t state{0};     ///< 0 free, 1 stick, 2 slide
+  Vec3 force{};                ///< on the tool in W, N: what the device renders. Never larger than the limits
+  Vec3 anchor{};               ///< X(s): rest position of the touched material point, m
+  Vec3 proxy{};                ///< current position of that point, m: draw the tool resting here
+  double age_s{0.0};           ///< time since the newest answer, s; infinity before the first one
+  double gain{0.0};            ///< the watchdog's gain, 0 to 1, already in `force`
+  std::uint64_t pose_seq{0};   ///< the answered pose, as send() returned it; 0 before the first answer
+  std::uint32_t flags{0};      ///< FLAG_* of palpate.idl, PALPATE_HAPTIC_FLAG_* of palpate_haptic.h
+  std::uint32_t state{0};      ///< 0 free, 1 stick, 2 slide
+  std::uint32_t server_id{0};  ///< of the server whose force it is
+  std::uint64_t session{
+      0};  ///< of the run of that server, random; another one: another server has taken over. 0 before the first answer
 };
 
-/// One tool of one server.
+/// One tool of one server. It holds on to one run of one server: the first that answers, or that of `server_id`. Forces of other
+/// servers never reach the device. When the held server was silent for a second, or 100 ms after it said that it stops, the next
+/// may be held on to; the force is zero by then and rises from there. Force::session tells.
 ///
 /// Watchdog, by this machine's clock: 20 ms after the newest answer the force begins to fall; 30 ms later it is zero. When
 /// answers come or come back, the force rises within 30 ms. The watchdog acts when the caller reads: a driver that stops
@@ -94,6 +106,9 @@ class PALPATE_HAPTIC_API HapticTool {
   /// result is force().
   /// @param[in] position  current p_WT, m
   [[nodiscard]] Force forceAt(const Vec3& position) noexcept;
+
+  /// Forces of other servers for this tool that were left out so far. Not 0: stop one of the servers.
+  [[nodiscard]] std::uint64_t leftOut() const noexcept;
 
   /// The tip radius that the server assumes, m, and its force limit, N; 0 until its status has come.
   [[nodiscard]] double tipRadius() const noexcept;

@@ -8,8 +8,8 @@
 namespace palpate::record {
 
 // A new field changes a size: add it to its list, and raise the version (kVersion).
-static_assert(sizeof(LiveParameters) == 48 && sizeof(StepConfig) == 104 && sizeof(ToolInput) == 80 &&
-                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 80,
+static_assert(sizeof(ToolSettings) == 56 && sizeof(StepConfig) == 104 + 4 * 64 && sizeof(ToolInput) == 80 &&
+                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 32 + 4 * 56,
               "core has other fields than the recording");
 
 template <class Config, class Visit>
@@ -29,10 +29,13 @@ void forEachConfigField(Config& config, Visit&& visit) {
   visit("tools", config.tools);
 }
 
-template <class Live, class Visit>
-void forEachLiveField(Live& live, Visit&& visit) {
-  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
-    visit(kLiveParameters[i].name, live.*kLiveFields<LiveParameters>[i]);
+template <class Settings, class Visit>
+void forEachSetting(Settings& all, Visit&& visit) {
+  for (auto& tool : all) {
+    visit("tip_radius", tool.tip_radius);
+    for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+      visit(kLiveParameters[i].name, tool.live.*kLiveFields<LiveParameters>[i]);
+  }
 }
 
 template <class Result, class Visit>

@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 
+#include "palpate/core/sha256.h"
 #include "palpate/core/step.h"
 
 namespace palpate::record {
@@ -33,7 +34,7 @@ static_assert(std::is_trivially_copyable_v<RecordedTick>);
 
 /// What a session ran on. The state before tick 0 is that of a new Workspace.
 struct SessionFacts {
-  std::string model_id;        ///< at most 63 characters
+  Digest model;                ///< of the content that the session ran on
   std::int64_t started_ns{0};  ///< wall clock, since 1970, ns; for people only
   StepConfig config;
 };

@@ -10,9 +10,9 @@ namespace palpate::feel {
 
 struct SlideOptions {
   int paths{100};
-  double speed{0.05};   ///< m/s, of the point of the surface under the tip
-  double depth{0.002};  ///< of the tip below the rest surface, along the interpolated normal, m
-  double length{0.05};  ///< m
+  double speed{0.05};   ///< of the tip's centre, m/s
+  double depth{0.002};  ///< of the tip below the contact surface, along the interpolated normal, m
+  double length{0.05};  ///< of the tip's way, m
   double friction{0.0};
   double coupling_stiffness{0.0};  ///< N/m; 0: none
   unsigned seed{1};

@@ -66,6 +66,9 @@ struct ModelData {
   std::vector<std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
 };
 
+/// The same, as core reads it. Borrowed: valid as long as the data are not changed.
+[[nodiscard]] ModelView viewOf(const ModelData& data);
+
 /// n, the number of modes; 0 without a surface.
 [[nodiscard]] inline std::size_t modeCount(const ModelData& d) {
   return d.surface_mesh_tag.empty() ? 0 : d.modes_X.size() / (3 * d.surface_mesh_tag.size());

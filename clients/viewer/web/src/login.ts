@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element, setText } from './page';
+
+const CODE = '#code=';
+const SECRET = /^[\w-]+$/;
+
+/** The code in an address that palpate-viewer printed. Browsers send no fragment to anyone. */
+export function codeIn(fragment: string): string {
+  return fragment.startsWith(CODE) ? fragment.slice(CODE.length) : '';
+}
+
+/** Whether the viewer wants its token first. A viewer that does not answer wants nothing yet. */
+export async function loginNeeded(): Promise<boolean> {
+  try {
+    const answer = await fetch('./login', { cache: 'no-store' });
+    return answer.ok && ((await answer.json()) as { needed?: unknown }).needed === true;
+  } catch {
+    return false;
+  }
+}
+
+/** Gives token or code for a cookie, which scripts cannot read. @return why not, for people; empty when it let us in */
+export async function bring(secret: string): Promise<string> {
+  if (!SECRET.test(secret)) return 'a token has letters, digits, - and _';
+  try {
+    const headers = { Authorization: `Bearer ${secret}` };
+    const answer = await fetch('./login', { method: 'POST', headers, cache: 'no-store' });
+    return answer.ok ? '' : await answer.text();
+  } catch {
+    return 'no word from palpate-viewer';
+  }
+}
+
+/** Resolves once the viewer lets this page in: by its cookie, the code of its address, or the token that people give. */
+export async function admit(): Promise<void> {
+  const code = codeIn(location.hash);
+  if (code) history.replaceState(null, '', location.pathname + location.search);
+  addEventListener('hashchange', () => codeIn(location.hash) && location.reload());
+  if (!(await loginNeeded())) return;
+  const refused = code && (await bring(code));
+  if (!code || refused) await ask(refused);
+}
+
+/** Shows the form until a token fits. */
+function ask(text: string): Promise<void> {
+  const dialog = element('login', HTMLDialogElement);
+  const token = element('token', HTMLInputElement);
+  const message = element('login-message', HTMLParagraphElement);
+  setText(message, text);
+  dialog.addEventListener('cancel', (event) => event.preventDefault());
+  dialog.showModal();
+  return new Promise((resolve) => {
+    element('login-form', HTMLFormElement).addEventListener('submit', (event) => {
+      event.preventDefault();
+      void bring(token.value.trim()).then((refused) => {
+        setText(message, refused);
+        token.value = '';
+        if (refused) return token.focus();
+        dialog.close();
+        resolve();
+      });
+    });
+  });
+}

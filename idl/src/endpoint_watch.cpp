@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/idl/endpoint_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "palpate/idl/endpoint_fit.h"
+#include "palpate/idl/printable.h"
+
+namespace palpate::dds {
+namespace {
+
+using Other = dds_builtintopic_endpoint_t;
+
+Entity builtinReader(dds_entity_t participant, dds_entity_t topic) {
+  return Entity(
+      checked(dds_create_reader(participant, topic, nullptr, nullptr), "cannot read what DDS discovered"));
+}
+
+QosPtr qosOf(dds_entity_t entity) {
+  QosPtr qos(dds_create_qos());
+  (void)dds_get_qos(entity, qos.get());
+  return qos;
+}
+
+std::string reason(dds_entity_t ours, bool ours_writes, const std::string& our_type, const Other& other) {
+  if (our_type != other.type_name)
+    return "type (" + printable(other.type_name) + " instead of " + our_type + ")";
+  const QosPtr qos = qosOf(ours);
+  const std::string policies =
+      ours_writes ? policiesInTheWay(qos.get(), other.qos) : policiesInTheWay(other.qos, qos.get());
+  return policies.empty() ? "type (another version of palpate.idl?)" : policies;
+}
+
+// Samples of a builtin topic, borrowed.
+struct Found {
+  Found(dds_entity_t builtin, std::size_t most) : reader(builtin) {
+    count = dds_take(reader, samples.data(), infos.data(), most, static_cast<std::uint32_t>(most));
+  }
+  Found(const Found&) = delete;
+  Found& operator=(const Found&) = delete;
+  ~Found() {
+    if (count > 0) dds_return_loan(reader, samples.data(), count);
+  }
+  dds_entity_t reader;
+  std::array<void*, EndpointWatch::kMostAtOnce> samples{};
+  std::array<dds_sample_info_t, EndpointWatch::kMostAtOnce> infos;
+  dds_return_t count;
+};
+
+}  // namespace
+
+EndpointWatch::EndpointWatch(dds_entity_t participant, std::chrono::milliseconds patience)
+    : patience_(patience),
+      writers_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION)),
+      readers_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION)),
+      participants_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT)) {}
+
+void EndpointWatch::add(dds_entity_t endpoint, bool writes) {
+  const dds_entity_t topic = dds_get_topic(endpoint);
+  std::array<char, 256> name{}, type{};
+  (void)dds_get_name(topic, name.data(), name.size());
+  (void)dds_get_type_name(topic, type.data(), type.size());
+  ours_.push_back({endpoint, writes, name.data(), type.data()});
+}
+
+std::vector<std::string> EndpointWatch::poll(Clock::time_point now) {
+  look(writers_.handle(), true, now);
+  look(readers_.handle(), false, now);
+  std::vector<std::string> lines;
+  const auto judged = std::stable_partition(suspects_.begin(), suspects_.end(),
+                                            [&](const Suspect& s) { return now - s.found < patience_; });
+  for (auto suspect = judged; suspect != suspects_.end(); ++suspect)
+    if (!fitsOneOfOurs(suspect->endpoint, suspect->writes)) lines.push_back(suspect->text);
+  suspects_.erase(judged, suspects_.end());
+  return lines;
+}
+
+void EndpointWatch::look(dds_entity_t builtin, bool writes, Clock::time_point now) {
+  const std::size_t room = kMostAtOnce - suspects_.size();
+  if (room == 0) return;
+  const Found found(builtin, room);
+  for (std::size_t i = 0; found.count > 0 && i < static_cast<std::size_t>(found.count); ++i) {
+    const dds_sample_info_t& info = found.infos[i];
+    if (info.valid_data && info.instance_state == DDS_IST_ALIVE) {
+      note(*static_cast<const Other*>(found.samples[i]), info.instance_handle, writes, now);
+    } else {  // it left
+      std::erase_if(suspects_, [&](const Suspect& s) { return s.endpoint == info.instance_handle; });
+    }
+  }
+}
+
+void EndpointWatch::note(const Other& other, dds_instance_handle_t endpoint, bool writes,
+                         Clock::time_point now) {
+  const auto ours = std::find_if(ours_.begin(), ours_.end(), [&](const Ours& one) {
+    return one.writes != writes && one.topic == other.topic_name;
+  });
+  if (ours == ours_.end() || fitsOneOfOurs(endpoint, writes)) return;
+  suspects_.push_back({endpoint, writes,
+                       std::string("found a ") + (writes ? "writer" : "reader") + " of " + ours->topic +
+                           " that does not fit: " + reason(ours->handle, ours->writes, ours->type, other) +
+                           "; it is " + raw::textOf(other.key) + owner(other.participant_instance_handle),
+                       now});
+}
+
+bool EndpointWatch::fitsOneOfOurs(dds_instance_handle_t endpoint, bool writes) const {
+  return std::any_of(ours_.begin(), ours_.end(), [&](const Ours& one) {
+    if (one.writes == writes) return false;
+    Other* match = writes ? dds_get_matched_publication_data(one.handle, endpoint)
+                          : dds_get_matched_subscription_data(one.handle, endpoint);
+    if (match != nullptr) dds_builtintopic_free_endpoint(match);
+    return match != nullptr;
+  });
+}
+
+// Cyclone says it of its participants; of others there is no more than the endpoint's GUID.
+std::string EndpointWatch::owner(dds_instance_handle_t participant) const {
+  void* sample = nullptr;
+  dds_sample_info_t info;
+  if (dds_read_instance(participants_.handle(), &sample, &info, 1, 1, participant) != 1) return {};
+  const dds_qos_t* qos = static_cast<const dds_builtintopic_participant_t*>(sample)->qos;
+  const auto property = [qos](const char* name) {
+    char* value = nullptr;
+    if (qos == nullptr || !dds_qget_prop(qos, name, &value)) return std::string();
+    const std::string text = printable(value);
+    dds_free(value);
+    return text;
+  };
+  const std::string process = property("__ProcessName"), pid = property("__Pid"),
+                    host = property("__Hostname");
+  dds_return_loan(participants_.handle(), &sample, 1);
+  if (process.empty() && host.empty()) return {};
+  return ", process " + process + " (" + pid + ") on " + host;
+}
+
+}  // namespace palpate::dds

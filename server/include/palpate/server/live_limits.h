@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "palpate/server/config.h"
+
+namespace palpate::server {
+
+/// What a request may set: each parameter from lowest to highest.
+struct LiveLimits {
+  LiveParameters lowest;
+  LiveParameters highest;
+};
+
+/// The bounds that were named. Otherwise a parameter may be lowered within its range and raised back to the start's value,
+/// which the operator chose for the device: less E, friction, coupling, damping or force is never less safe.
+/// @param start  the values of the start; E is a number, never 0
+[[nodiscard]] LiveLimits liveLimits(const LiveParameters& start, const LiveBounds& named);
+
+/// @return the first bounds named that are out of the parameter's range, above what the device renders stably, or without
+/// the start's value. E is judged only where the start names it.
+[[nodiscard]] std::optional<Complaint> limitsComplaint(const ServerConfig& config);
+
+}  // namespace palpate::server

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// A server among programs that do everything wrong, and a tool that behaves all the while. All of them but the server are made
+// from palpate.idl alone, with DDS's default QoS.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "palpate/testing/child_process.h"
+#include "palpate/testing/run_program.h"
+#include "palpate/testing/server_process.h"
+#include "palpate/testing/synthetic_model.h"
+#include "palpate/testing/test_domain.h"
+
+namespace palpate::testing {
+namespace {
+
+constexpr const char* kForceLimit = "3.3";
+// Where a tip of 5 mm touches the synthetic organ's top.
+const std::vector<std::string> kTouch{"0", "0", "0.055"};
+
+std::string program(const char* name) {
+  return std::string(PALPATE_TEST_PROGRAMS "/") + name;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+class Hostility : public ::testing::Test {
+ protected:
+  Hostility() {
+    writeSyntheticModel(model_.path());
+    server_ = std::make_unique<ServerProcess>(std::vector<std::string>{
+        "--model", model_.path().string(), "--domain", domain_, "--device", "touch", "--tools", "2"});
+  }
+
+  [[nodiscard]] std::vector<std::string> arguments(std::vector<std::string> before) const {
+    before.insert(before.begin(), domain_);
+    before.insert(before.end(), kTouch.begin(), kTouch.end());
+    return before;
+  }
+
+  // Each kind of wrong in turn, while the tool that behaves plays for `seconds`.
+  void play(double each, int seconds) {
+    const CaughtOutput report;
+    auto good = arguments({std::to_string(seconds)});
+    good.push_back(kForceLimit);
+    ChildProcess tool(program("well_behaved_peer"), good, {.out = report.descriptor()});
+    const auto hostile = runProgram(program("hostile_peer"), arguments({"all", std::to_string(each)}));
+    EXPECT_EQ(hostile.exit_code, 0);
+    EXPECT_EQ(linesOf(hostile.out).size(), 34U) << hostile.out;
+    EXPECT_TRUE(tool.running()) << "it was to behave longer than the others did not";
+    EXPECT_EQ(tool.waitForExit(std::chrono::seconds(seconds)), 0) << report.text();
+    judge(report.text());
+    EXPECT_TRUE(server_->running()) << server_->log();
+    server_->signal(SIGTERM);
+    EXPECT_EQ(server_->waitForExit(), 0) << server_->log();
+  }
+
+  void judge(const std::string& report) const {
+    for (const std::string& line : linesOf(report)) {
+      int second = 0, answers = 0, in_contact = 0;
+      if (std::sscanf(line.c_str(), "%d answers %d", &second, &answers) == 2) {
+        EXPECT_GE(answers, 900) << report << server_->log();
+      } else if (std::sscanf(line.c_str(), "largest %*f N, in contact %d", &in_contact) == 1) {
+        EXPECT_GT(in_contact, 1000) << report;
+      }
+    }
+  }
+
+  std::string domain_ = std::to_string(exclusiveDomain());
+  TemporaryFile model_{"hostile.h5"};
+  std::unique_ptr<ServerProcess> server_;
+};
+
+TEST_F(Hostility, TouchesNoToolThatBehaves) {
+  play(0.3, 14);
+}
+
+class LongHostility : public Hostility {};
+
+TEST_F(LongHostility, TouchesNoToolThatBehaves) {
+  play(2.5, 97);
+}
+
+}  // namespace
+}  // namespace palpate::testing

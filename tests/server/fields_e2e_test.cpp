@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many surface fields cross the wire: by who reads them, and by what moves.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <vector>
+
+#include "server_fixture.h"
+
+namespace palpate::server::testing {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Reads fields and nothing else.
+struct Viewer {
+  explicit Viewer(std::uint32_t domain) : participant(domain), fields(participant) {}
+
+  // Counters of the fields that come in so many milliseconds.
+  std::vector<std::uint64_t> seqsFor(int milliseconds) {
+    std::vector<std::uint64_t> seqs;
+    const auto end = Clock::now() + std::chrono::milliseconds(milliseconds);
+    while (Clock::now() < end) {
+      const auto samples = fields.takeLoaned();
+      for (std::size_t i = 0; i < samples.size(); ++i) seqs.push_back(samples[i].seq);
+      pause(1);
+    }
+    return seqs;
+  }
+
+  dds::Participant participant;
+  dds::Reader<dds::SurfaceDisplacement> fields;
+};
+
+class FieldsEndToEnd : public ServerEndToEnd {
+ protected:
+  void serve() {
+    server_ = std::make_unique<ServerProcess>(std::vector<std::string>{
+        "--model", model_.string(), "--domain", std::to_string(domain_), "--device", "custom"});
+    ASSERT_TRUE(status_.waitForWriters(1, std::chrono::seconds(20))) << server_->log();
+    pause(500);
+  }
+
+ private:
+  dds::Participant participant_{domain_};
+  dds::Reader<dds::ServerStatus> status_{participant_};
+};
+
+TEST_F(FieldsEndToEnd, NobodyReadsSoNoneIsSentAndALateReaderGetsOneAtOnce) {
+  ASSERT_NO_FATAL_FAILURE(serve());
+  Viewer viewer(domain_);
+  const auto seqs = viewer.seqsFor(2600);  // one at once, one more, one or two by the second
+  ASSERT_FALSE(seqs.empty()) << server_->log();
+  EXPECT_LE(seqs.front(), 2U) << "fields were made before anybody read them";
+  EXPECT_GE(seqs.size(), 2U);
+  EXPECT_LE(seqs.size(), 6U) << "no tool was ever seen";
+}
+
+TEST_F(FieldsEndToEnd, APressedOrganSendsOneWithEachTick) {
+  ASSERT_NO_FATAL_FAILURE(start());  // its client reads fields
+  client_->startSending(atDepth(-0.002));
+  pause(20);
+  Viewer viewer(domain_);
+  (void)viewer.seqsFor(300);
+  std::thread hand([&] { client_->moveTo(atDepth(0.003), 400); });
+  const auto seqs = viewer.seqsFor(400);
+  hand.join();
+  ASSERT_FALSE(seqs.empty());
+  EXPECT_GT(seqs.back() - seqs.front(), 100U) << "fields made while the tool went down for 240 ms";
+}
+
+}  // namespace
+}  // namespace palpate::server::testing

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which fields a tick makes and hands over. The test keeps the time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tick_fixture.h"
+
+namespace palpate::server::testing {
+namespace {
+
+class TickFieldTest : public TickTest {
+ protected:
+  // Fields handed over in so many ticks, the tool at a depth in the first and so much deeper with each.
+  int fieldsIn(int ticks, double depth, double deeper = 0.0) {
+    int fields = 0;
+    for (int i = 0; i < ticks; ++i) {
+      send(poseAtDepth(0, depth + deeper * i));
+      runOneTick();
+      fields += channels_->surface.update() ? 1 : 0;
+    }
+    return fields;
+  }
+  static constexpr double kAbove = -0.01;
+};
+
+TEST_F(TickFieldTest, NobodyReadsSoNoneIsEvaluated) {
+  channels_->field_readers = 0;
+  EXPECT_EQ(fieldsIn(200, 0.0, 1e-5), 0);
+  EXPECT_TRUE(std::ranges::all_of(work_.displacement(), [](float u) { return u == 0.0F; }));
+  EXPECT_NE(takeFlags() & kInContact, 0U);
+}
+
+TEST_F(TickFieldTest, OfAnIdleToolOneASecondGoesOut) {
+  (void)fieldsIn(200, kAbove);
+  EXPECT_EQ(fieldsIn(10'000, kAbove), 10);
+}
+
+TEST_F(TickFieldTest, WhatChangesGoesOutWithEachTick) {
+  EXPECT_EQ(fieldsIn(200, 0.0001, 1e-5), 200);
+}
+
+TEST_F(TickFieldTest, AfterTheLastChangeItGoesOutOnceMoreWithinATenthOfASecond) {
+  (void)fieldsIn(200, 0.0001, 1e-5);
+  (void)fieldsIn(1, 0.002);
+  EXPECT_EQ(fieldsIn(100, 0.002), 1);
+  EXPECT_EQ(fieldsIn(999, 0.002), 0);
+  EXPECT_EQ(fieldsIn(1, 0.002), 1);
+}
+
+TEST_F(TickFieldTest, AReaderThatComesGetsAWholeFieldInTheNextTick) {
+  (void)fieldsIn(500, kAbove);
+  channels_->field_readers = 2;
+  EXPECT_EQ(fieldsIn(1, kAbove), 1);
+  EXPECT_EQ(fieldsIn(50, kAbove), 0);
+}
+
+TEST_F(TickFieldTest, ForcesAreTheSameWhoeverReads) {
+  Workspace unseen(model_, StepConfig{});
+  Channels nobody(3 * model_.view().surfaceNodes());
+  PoseIntake intake(nobody, StepConfig{});
+  Tick tick(model_, unseen, nobody, {kPeriod});
+  for (int i = 0; i < 300; ++i) {
+    const dds::ToolPose pose = poseAtDepth(0, 0.003 * std::sin(0.03 * i));
+    send(pose);
+    intake.accept(pose, kSender, now_ns_);
+    runOneTick();
+    (void)tick.run(cycle_);
+    ForceRecord seen, other;
+    ASSERT_TRUE(channels_->forces.pop(seen) && nobody.forces.pop(other));
+    ASSERT_EQ(seen.result.force, other.result.force) << i;
+    ASSERT_EQ(seen.result.flags, other.result.flags) << i;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::server::testing
