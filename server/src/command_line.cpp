@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "palpate/program/command_line.h"
 #include "palpate/server/config_file.h"
 #include "palpate/server/live_limits.h"
+#include "tools/program/command_line.h"
 
 namespace palpate::server {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "palpate/core/status_flags.h"
+#include "core/base/status_flags.h"
 #include "palpate/rt/clock.h"
 #include "palpate/rt/phase_lock.h"
 #include "palpate/rt/scheduling.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-#include "palpate/core/meta_model.h"
+#include "core/model/meta_model.h"
 #include "palpate/server/config.h"
 
 namespace palpate::server {

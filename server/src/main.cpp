@@ -6,10 +6,10 @@
 
 #include "command_line.h"
 #include "log_sink.h"
-#include "palpate/program/run.h"
 #include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
+#include "tools/program/run.h"
 
 namespace palpate::server {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/device/closed_loop.h"
+#include "core/devices/sim/closed_loop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/device/held_device.h"
+#include "core/devices/sim/held_device.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/client/path.h"
+#include "core/devices/path/path.h"
 
 #include <gtest/gtest.h>
 

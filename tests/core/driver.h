@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "palpate/core/step.h"
+#include "core/tick/step.h"
 #include "palpate/testing/synthetic_model.h"
 
 namespace palpate::testing {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/synthetic_model.h"
 #include "spoiled_file.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "driver.h"
-#include "palpate/modelfile/write_model.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <string>
 
-#include "palpate/core/hdf5_handle.h"
-#include "palpate/core/meta_model.h"
+#include "core/data/hdf5_handle.h"
+#include "core/model/meta_model.h"
 
 namespace palpate::testing {
 

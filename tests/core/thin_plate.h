@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "palpate/core/multi_index.h"
-#include "palpate/modelfile/write_model.h"
+#include "core/base/multi_index.h"
 #include "round_organ.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
 

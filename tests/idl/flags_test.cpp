@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "palpate/core/status_flags.h"
+#include "core/base/status_flags.h"
 #include "palpate/idl/types.h"
 
 namespace palpate::dds {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "palpate/core/meta_model.h"
+#include "core/model/meta_model.h"
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
 

@@ -10,9 +10,9 @@
 #include <random>
 #include <vector>
 
-#include "palpate/record/fields.h"
-#include "palpate/record/record_reader.h"
-#include "palpate/record/record_writer.h"
+#include "core/record/fields.h"
+#include "core/record/record_reader.h"
+#include "core/record/record_writer.h"
 #include "palpate/testing/files.h"
 
 namespace palpate::record {

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <memory>
 
-#include "palpate/record/record_reader.h"
+#include "core/record/record_reader.h"
 #include "palpate/testing/files.h"
 
 namespace palpate::server {

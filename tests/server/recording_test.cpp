@@ -6,9 +6,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/run_program.h"
 #include "server_fixture.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::server::testing {
 namespace {

@@ -11,8 +11,9 @@
 #include <memory>
 #include <string>
 
-#include "palpate/core/meta_model.h"
-#include "palpate/core/response.h"
+#include "core/model/meta_model.h"
+#include "core/response/patch_response.h"
+#include "core/response/response.h"
 #include "server_fixture.h"
 
 namespace palpate::server::testing {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "core/devices/path/in_range.h"
 #include "palpate/client/error.h"
-#include "palpate/client/in_range.h"
 #include "palpate/rt/clock.h"
 
 namespace palpate::client {

@@ -3,11 +3,11 @@
 
 #include <string>
 
+#include "core/devices/sim/mechanics.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/surface.h"
-#include "palpate/device/mechanics.h"
-#include "palpate/program/json.h"
 #include "run.h"
+#include "tools/program/json.h"
 
 namespace palpate::device {
 

@@ -4,15 +4,15 @@
 #include <iostream>
 #include <optional>
 
+#include "core/devices/sim/closed_loop.h"
 #include "device_report.h"
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/device/closed_loop.h"
-#include "palpate/program/command_line.h"
-#include "palpate/program/json.h"
-#include "palpate/program/numbers.h"
-#include "palpate/program/run.h"
-#include "palpate/program/write_file.h"
+#include "tools/program/command_line.h"
+#include "tools/program/json.h"
+#include "tools/program/numbers.h"
+#include "tools/program/run.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::device {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/devices/sim/held_device.h"
+#include "core/devices/sim/verdict.h"
 #include "palpate/client/tool_client.h"
-#include "palpate/device/held_device.h"
-#include "palpate/device/verdict.h"
 
 namespace palpate::device {
 

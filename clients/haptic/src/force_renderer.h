@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "palpate/client/path.h"
+#include "core/devices/path/path.h"
 #include "palpate/haptic/haptic_tool.h"
 
 namespace palpate::haptic {

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/devices/path/in_range.h"
 #include "force_renderer.h"
-#include "palpate/client/in_range.h"
 #include "palpate/client/status_board.h"
 #include "palpate/client/tool_client.h"
 #include "palpate/idl/receive_threads.h"

@@ -2,10 +2,10 @@
 #include "latency_report.h"
 
 #include "palpate/client/time_summary.h"
-#include "palpate/program/printed.h"
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
 #include "palpate/report/text_chart.h"
+#include "tools/program/printed.h"
 
 namespace palpate::latency {
 namespace {

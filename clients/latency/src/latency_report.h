@@ -6,7 +6,7 @@
 #include "latency_log.h"
 #include "measure.h"
 #include "palpate/idl/types.h"
-#include "palpate/program/json.h"
+#include "tools/program/json.h"
 
 namespace palpate::latency {
 

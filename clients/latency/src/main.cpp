@@ -9,11 +9,11 @@
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/reader.h"
-#include "palpate/program/command_line.h"
-#include "palpate/program/json.h"
-#include "palpate/program/numbers.h"
-#include "palpate/program/run.h"
-#include "palpate/program/write_file.h"
+#include "tools/program/command_line.h"
+#include "tools/program/json.h"
+#include "tools/program/numbers.h"
+#include "tools/program/run.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::latency {
 namespace {

@@ -10,9 +10,9 @@
 #include "exchange.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/printable.h"
-#include "palpate/program/command_line.h"
-#include "palpate/program/json.h"
-#include "palpate/program/run.h"
+#include "tools/program/command_line.h"
+#include "tools/program/json.h"
+#include "tools/program/run.h"
 
 namespace palpate::parameters {
 namespace {

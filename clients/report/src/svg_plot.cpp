@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "palpate/program/printed.h"
-#include "palpate/program/xml.h"
+#include "tools/program/printed.h"
+#include "tools/program/xml.h"
 
 namespace palpate::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "palpate/client/time_summary.h"
-#include "palpate/program/printed.h"
+#include "tools/program/printed.h"
 
 namespace palpate::report {
 namespace {

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "palpate/client/error.h"
-#include "palpate/program/vtu.h"
-#include "palpate/program/write_file.h"
+#include "tools/program/vtu.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::report {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/devices/path/path.h"
 #include "palpate/client/gap_counter.h"
-#include "palpate/client/path.h"
 #include "palpate/client/server_hold.h"
 #include "palpate/idl/participant.h"
 #include "palpate/idl/types.h"

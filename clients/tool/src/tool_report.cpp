@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include "palpate/program/printed.h"
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
 #include "palpate/report/text_chart.h"
+#include "tools/program/printed.h"
 
 namespace palpate::tool {
 namespace {

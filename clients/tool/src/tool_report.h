@@ -5,8 +5,8 @@
 
 #include "palpate/client/scripts.h"
 #include "palpate/client/server_finder.h"
-#include "palpate/program/json.h"
 #include "play.h"
+#include "tools/program/json.h"
 
 namespace palpate::tool {
 

@@ -10,10 +10,10 @@
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/receive_threads.h"
-#include "palpate/program/command_line.h"
-#include "palpate/program/json.h"
-#include "palpate/program/run.h"
 #include "palpate/rt/scheduling.h"
+#include "tools/program/command_line.h"
+#include "tools/program/json.h"
+#include "tools/program/run.h"
 #include "web_server.h"
 
 namespace palpate::viewer {

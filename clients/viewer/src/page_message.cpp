@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "palpate/program/json.h"
+#include "tools/program/json.h"
 
 namespace palpate::viewer {
 namespace {

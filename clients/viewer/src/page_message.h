@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "palpate/client/path.h"
+#include "core/devices/path/path.h"
 #include "palpate/live_parameter_list.h"
 
 namespace palpate::viewer {

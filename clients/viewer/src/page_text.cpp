@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "page_message.h"
-#include "palpate/program/json.h"
 #include "palpate/report/program.h"
+#include "tools/program/json.h"
 
 namespace palpate::viewer {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "palpate/client/path.h"
+#include "core/devices/path/path.h"
 
 namespace palpate::viewer {
 

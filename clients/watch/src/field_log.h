@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/devices/path/path.h"
 #include "palpate/client/gap_counter.h"
-#include "palpate/client/path.h"
 #include "palpate/client/server_hold.h"
 #include "palpate/client/surface.h"
 #include "palpate/idl/reader.h"

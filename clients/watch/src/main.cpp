@@ -9,13 +9,13 @@
 #include "palpate/client/frame_pace.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
-#include "palpate/program/command_line.h"
-#include "palpate/program/json.h"
-#include "palpate/program/printed.h"
-#include "palpate/program/run.h"
 #include "palpate/report/vtk_surface.h"
 #include "palpate/rt/clock.h"
 #include "palpate/rt/pacer.h"
+#include "tools/program/command_line.h"
+#include "tools/program/json.h"
+#include "tools/program/printed.h"
+#include "tools/program/run.h"
 
 namespace palpate::watch {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "palpate/core/types.h"
+#include "core/base/types.h"
 
 namespace palpate::testing {
 

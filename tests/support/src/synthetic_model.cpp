@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "core/base/multi_index.h"
 #include "icosphere.h"
-#include "palpate/core/multi_index.h"
-#include "palpate/modelfile/mixed_precision.h"
-#include "palpate/modelfile/write_model.h"
+#include "tools/modelfile/mixed_precision.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
 

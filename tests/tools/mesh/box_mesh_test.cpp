@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/mesh/box_mesh.h"
+#include "tools/mesh/box_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "helpers.h"
-#include "palpate/mesh/checks.h"
-#include "palpate/mesh/topology.h"
+#include "tools/mesh/checks.h"
+#include "tools/mesh/topology.h"
 
 namespace palpate::mesh::test {
 namespace {

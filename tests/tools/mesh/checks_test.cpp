@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/mesh/checks.h"
+#include "tools/mesh/checks.h"
 
 #include <limits>
 
 #include "helpers.h"
-#include "palpate/mesh/box_mesh.h"
-#include "palpate/mesh/topology.h"
+#include "tools/mesh/box_mesh.h"
+#include "tools/mesh/topology.h"
 
 namespace palpate::mesh::test {
 namespace {

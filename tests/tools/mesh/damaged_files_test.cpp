@@ -3,10 +3,10 @@
 #include <random>
 
 #include "helpers.h"
-#include "palpate/mesh/read_mesh.h"
-#include "palpate/mesh/topology.h"
-#include "palpate/mesh/write_msh.h"
 #include "samples.h"
+#include "tools/mesh/read_mesh.h"
+#include "tools/mesh/topology.h"
+#include "tools/mesh/write_msh.h"
 
 namespace palpate::mesh::test {
 namespace {

@@ -6,12 +6,12 @@
 #include <set>
 
 #include "helpers.h"
-#include "palpate/mesh/box_mesh.h"
-#include "palpate/mesh/checks.h"
-#include "palpate/mesh/gmsh_session.h"
-#include "palpate/mesh/read_mesh.h"
-#include "palpate/mesh/topology.h"
-#include "palpate/mesh/write_msh.h"
+#include "tools/mesh/box_mesh.h"
+#include "tools/mesh/checks.h"
+#include "tools/mesh/gmsh_session.h"
+#include "tools/mesh/read_mesh.h"
+#include "tools/mesh/topology.h"
+#include "tools/mesh/write_msh.h"
 
 namespace palpate::mesh::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <functional>
 #include <string>
 
-#include "palpate/mesh/mesh_error.h"
-#include "palpate/mesh/tet_mesh.h"
-#include "palpate/mesh/triangle_surface.h"
 #include "palpate/testing/files.h"
+#include "tools/mesh/mesh_error.h"
+#include "tools/mesh/tet_mesh.h"
+#include "tools/mesh/triangle_surface.h"
 
 namespace palpate::mesh::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/mesh/read_surface.h"
+#include "tools/mesh/read_surface.h"
 
 #include <sstream>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers.h"
-#include "palpate/mesh/checks.h"
-#include "palpate/mesh/read_mesh.h"
 #include "palpate/testing/paths.h"
 #include "samples.h"
+#include "tools/mesh/checks.h"
+#include "tools/mesh/read_mesh.h"
 
 namespace palpate::mesh::test {
 namespace {

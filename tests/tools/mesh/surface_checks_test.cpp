@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "helpers.h"
-#include "palpate/mesh/triangle_crossing.h"
-#include "palpate/mesh/triangle_surface.h"
+#include "tools/mesh/triangle_crossing.h"
+#include "tools/mesh/triangle_surface.h"
 
 namespace palpate::mesh::test {
 namespace {

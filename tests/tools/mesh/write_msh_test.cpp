@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/mesh/write_msh.h"
+#include "tools/mesh/write_msh.h"
 
 #include <iterator>
 
 #include "helpers.h"
-#include "palpate/mesh/box_mesh.h"
-#include "palpate/mesh/read_mesh.h"
-#include "palpate/mesh/topology.h"
+#include "tools/mesh/box_mesh.h"
+#include "tools/mesh/read_mesh.h"
+#include "tools/mesh/topology.h"
 
 namespace palpate::mesh::test {
 namespace {

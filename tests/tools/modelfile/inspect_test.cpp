@@ -7,9 +7,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "palpate/modelfile/write_model.h"
 #include "palpate/testing/run_program.h"
 #include "palpate/testing/synthetic_model.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
 

@@ -8,15 +8,16 @@
 #include <cmath>
 #include <functional>
 
-#include "palpate/core/hdf5_handle.h"
-#include "palpate/core/load_error.h"
-#include "palpate/core/meta_model.h"
-#include "palpate/core/mode_selection.h"
-#include "palpate/core/response.h"
-#include "palpate/modelfile/mixed_precision.h"
-#include "palpate/modelfile/pack_modes.h"
-#include "palpate/modelfile/write_model.h"
+#include "core/data/hdf5_handle.h"
+#include "core/data/load_error.h"
+#include "core/model/field_evaluation.h"
+#include "core/model/meta_model.h"
+#include "core/model/mode_selection.h"
+#include "core/response/patch_response.h"
 #include "palpate/testing/synthetic_model.h"
+#include "tools/modelfile/mixed_precision.h"
+#include "tools/modelfile/pack_modes.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
 
@@ -115,7 +116,7 @@ TEST(StoreMixed, AModeThatMovesNothingHasNoScaleToSpeakOf) {
 }
 
 TEST(StoreMixed, MoreModesThanWeightsAllowAreRefused) {
-  const std::size_t modes = ModeSelection::kMostModes + 1;
+  const std::size_t modes = kMostPackedModes + 1;
   ModelData data = syntheticModel({.subdivisions = 0, .modes = static_cast<int>(modes)});
   data.modes_packed = modelfile::packModes(data.modes_X, data.modes_X.size() / modes, {0, 0, 0, modes});
   EXPECT_THAT(complaint(data),

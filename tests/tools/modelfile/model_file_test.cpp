@@ -6,11 +6,11 @@
 #include <fstream>
 #include <functional>
 
-#include "palpate/core/meta_model.h"
-#include "palpate/modelfile/read_volume_mesh.h"
-#include "palpate/modelfile/write_model.h"
-#include "palpate/modelfile/write_xdmf.h"
+#include "core/model/meta_model.h"
 #include "palpate/testing/synthetic_model.h"
+#include "tools/modelfile/read_volume_mesh.h"
+#include "tools/modelfile/write_model.h"
+#include "tools/modelfile/write_xdmf.h"
 
 namespace palpate::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/program/command_line.h"
+#include "tools/program/command_line.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "palpate/program/run.h"
+#include "tools/program/run.h"
 
 namespace palpate::program {
 namespace {

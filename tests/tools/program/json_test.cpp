@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/program/json.h"
+#include "tools/program/json.h"
 
 #include <gtest/gtest.h>
 

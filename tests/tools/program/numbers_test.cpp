@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/program/numbers.h"
+#include "tools/program/numbers.h"
 
 #include <gtest/gtest.h>
 

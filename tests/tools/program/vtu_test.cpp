@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/program/vtu.h"
+#include "tools/program/vtu.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "palpate/program/xml.h"
 #include "palpate/testing/xml_fault.h"
+#include "tools/program/xml.h"
 
 namespace palpate::program {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "palpate/program/write_file.h"
+#include "tools/program/write_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

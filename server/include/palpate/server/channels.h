@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "palpate/record/recording.h"
+#include "core/record/recording.h"
 #include "palpate/rt/semaphore.h"
 #include "palpate/rt/spsc_queue.h"
 #include "palpate/rt/triple_buffer.h"

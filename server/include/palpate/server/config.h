@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-#include "palpate/core/device_preset.h"
-#include "palpate/core/step_config.h"
+#include "core/tick/device_preset.h"
+#include "core/tick/step_config.h"
 #include "palpate/rt/scheduling.h"
 
 namespace palpate::server {

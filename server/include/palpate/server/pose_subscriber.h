@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "palpate/core/step_config.h"
+#include "core/tick/step_config.h"
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/reader.h"
 #include "palpate/server/channels.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "palpate/record/record_writer.h"
+#include "core/record/record_writer.h"
 #include "palpate/server/channels.h"
 
 namespace palpate::server {

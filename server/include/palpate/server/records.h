@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "palpate/core/step.h"
+#include "core/tick/step.h"
 
 namespace palpate::server {
 

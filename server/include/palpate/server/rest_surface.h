@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "palpate/core/meta_model.h"
+#include "core/model/meta_model.h"
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/writer.h"
 #include "palpate/server/facts.h"

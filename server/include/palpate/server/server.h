@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "palpate/core/step.h"
+#include "core/tick/step.h"
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/participant.h"
 #include "palpate/rt/periodic_thread.h"

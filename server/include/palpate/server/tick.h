@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <tuple>
 
-#include "palpate/core/step.h"
+#include "core/tick/step.h"
 #include "palpate/rt/periodic_thread.h"
 #include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "palpate/client/path.h"
+#include "core/devices/path/path.h"
 #include "palpate/idl/types.h"
 
 namespace palpate::client {

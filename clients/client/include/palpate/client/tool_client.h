@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "palpate/client/path.h"
+#include "core/devices/path/path.h"
 #include "palpate/client/server_hold.h"
 #include "palpate/idl/tap.h"
 #include "palpate/idl/writer.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "palpate/client/time_summary.h"
-#include "palpate/program/json.h"
+#include "tools/program/json.h"
 
 namespace palpate::report {
 

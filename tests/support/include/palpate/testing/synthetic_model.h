@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "palpate/core/types.h"
-#include "palpate/modelfile/model_data.h"
+#include "core/base/types.h"
 #include "palpate/testing/files.h"
+#include "tools/modelfile/model_data.h"
 
 namespace palpate::testing {
 

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/kernels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+// Compiled once for each instruction set; the first call finds the best that the processor has.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/base/kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway asks.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace palpate {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// y = base + sum over four rows of weight * row; base is y or zero.
+template <bool kOntoY, typename T>
+HWY_INLINE void mixFour(const T* const (&a)[4], const T (&w)[4], std::size_t length, T* y) {
+  const hn::ScalableTag<T> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto w0 = hn::Set(d, w[0]), w1 = hn::Set(d, w[1]), w2 = hn::Set(d, w[2]), w3 = hn::Set(d, w[3]);
+  std::size_t i = 0;
+  for (; i + lanes <= length; i += lanes) {
+    const auto base = kOntoY ? hn::LoadU(d, y + i) : hn::Zero(d);
+    const auto even = hn::MulAdd(w0, hn::LoadU(d, a[0] + i), hn::Mul(w2, hn::LoadU(d, a[2] + i)));
+    const auto odd = hn::MulAdd(w1, hn::LoadU(d, a[1] + i), hn::MulAdd(w3, hn::LoadU(d, a[3] + i), base));
+    hn::StoreU(hn::Add(even, odd), d, y + i);
+  }
+  for (; i < length; ++i)
+    y[i] = (kOntoY ? y[i] : T{0}) + ((w[0] * a[0][i] + w[2] * a[2][i]) + (w[1] * a[1][i] + w[3] * a[3][i]));
+}
+
+/// Four rows at a time: one pass over y for four over the rows. What is missing of the last four has weight 0.
+template <bool kOntoY, typename T, typename RowAt>
+HWY_INLINE void mixAll(RowAt rowAt, const T* weight, std::size_t rows, std::size_t length, T* y) {
+  for (std::size_t r = 0; r < rows; r += 4) {
+    const T* a[4];
+    T w[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      a[k] = rowAt(std::min(r + k, rows - 1));
+      w[k] = r + k < rows ? weight[r + k] : T{0};
+    }
+    if (kOntoY || r > 0)
+      mixFour<true>(a, w, length, y);
+    else
+      mixFour<false>(a, w, length, y);
+  }
+}
+
+/// Four dot products at a time, each in two partial sums, so that the additions need not wait for each other.
+template <typename T>
+HWY_INLINE void dotFour(const T* const (&a)[4], const T* y, std::size_t length, T (&out)[4]) {
+  const hn::ScalableTag<T> d;
+  const std::size_t lanes = hn::Lanes(d);
+  auto s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
+  auto t0 = hn::Zero(d), t1 = hn::Zero(d), t2 = hn::Zero(d), t3 = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= length; i += 2 * lanes) {
+    const auto near = hn::LoadU(d, y + i), far = hn::LoadU(d, y + i + lanes);
+    s0 = hn::MulAdd(hn::LoadU(d, a[0] + i), near, s0);
+    s1 = hn::MulAdd(hn::LoadU(d, a[1] + i), near, s1);
+    s2 = hn::MulAdd(hn::LoadU(d, a[2] + i), near, s2);
+    s3 = hn::MulAdd(hn::LoadU(d, a[3] + i), near, s3);
+    t0 = hn::MulAdd(hn::LoadU(d, a[0] + i + lanes), far, t0);
+    t1 = hn::MulAdd(hn::LoadU(d, a[1] + i + lanes), far, t1);
+    t2 = hn::MulAdd(hn::LoadU(d, a[2] + i + lanes), far, t2);
+    t3 = hn::MulAdd(hn::LoadU(d, a[3] + i + lanes), far, t3);
+  }
+  out[0] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s0, t0)));
+  out[1] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s1, t1)));
+  out[2] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s2, t2)));
+  out[3] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s3, t3)));
+  for (; i < length; ++i)
+    for (std::size_t k = 0; k < 4; ++k) out[k] += a[k][i] * y[i];
+}
+
+template <typename T, typename RowAt>
+HWY_INLINE void dotAll(RowAt rowAt, const T* y, std::size_t rows, std::size_t length, T* out) {
+  for (std::size_t r = 0; r < rows; r += 4) {
+    const T* a[4];
+    T four[4];
+    for (std::size_t k = 0; k < 4; ++k) a[k] = rowAt(std::min(r + k, rows - 1));
+    dotFour(a, y, length, four);
+    for (std::size_t k = 0; k < 4 && r + k < rows; ++k) out[r + k] = four[k];
+  }
+}
+
+void AddWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
+                     std::size_t length, float* y) {
+  mixAll<true>([=](std::size_t r) { return A + r * stride; }, weight, rows, length, y);
+}
+
+bool AllFinite(const float* x, std::size_t length) {
+  const hn::ScalableTag<float> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const std::size_t lanes = hn::Lanes(d);
+  // Of the bits without sign: a number has an exponent below the last.
+  auto most = hn::Zero(du), others = hn::Zero(du);
+  const auto amount = hn::Set(du, 0x7FFFFFFFU);
+  const auto bitsAt = [&](std::size_t i) { return hn::And(hn::BitCast(du, hn::LoadU(d, x + i)), amount); };
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= length; i += 2 * lanes) {
+    most = hn::Max(most, bitsAt(i));
+    others = hn::Max(others, bitsAt(i + lanes));
+  }
+  std::uint32_t largest = hn::GetLane(hn::MaxOfLanes(du, hn::Max(most, others)));
+  for (; i < length; ++i) largest = std::max(largest, std::bit_cast<std::uint32_t>(x[i]) & 0x7FFFFFFFU);
+  return largest < 0x7F800000U;
+}
+
+void MixInto(const float* from, float share, std::size_t length, float* y) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto old = hn::Set(d, share), now = hn::Set(d, 1.0F - share);
+  std::size_t i = 0;
+  for (; i + lanes <= length; i += lanes)
+    hn::StoreU(hn::MulAdd(now, hn::LoadU(d, y + i), hn::Mul(old, hn::LoadU(d, from + i))), d, y + i);
+  for (; i < length; ++i) y[i] = (1.0F - share) * y[i] + share * from[i];
+}
+
+void DotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
+             float* out) {
+  dotAll([=](std::size_t r) { return A + r * stride; }, y, rows, length, out);
+}
+
+void MixPlacedRows(const Rows& rows, const double* weight, std::size_t length, double* y) {
+  if (rows.count == 0) std::fill_n(y, length, 0.0);
+  const auto rowAt = [&](std::size_t r) {
+    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
+  };
+  mixAll<false>(rowAt, weight, rows.count, length, y);
+}
+
+void DotPlacedRows(const Rows& rows, const double* y, std::size_t length, double* out) {
+  const auto rowAt = [&](std::size_t r) {
+    return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
+  };
+  dotAll(rowAt, y, rows.count, length, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace palpate
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace palpate {
+
+PALPATE_TRUSTED_BEGIN  // the table of instruction sets begins with a function that asks the processor, before the loop
+
+    HWY_EXPORT(AddWeightedRows);
+HWY_EXPORT(DotRows);
+HWY_EXPORT(AllFinite);
+HWY_EXPORT(MixInto);
+HWY_EXPORT(MixPlacedRows);
+HWY_EXPORT(DotPlacedRows);
+
+void chooseKernels() noexcept {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
+                     std::size_t length, float* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddWeightedRows)(A, stride, weight, rows, length, y);
+}
+
+void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,
+             float* out) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(DotRows)(A, stride, y, rows, length, out);
+}
+
+bool allFinite(std::span<const float> x) noexcept PALPATE_NONBLOCKING {
+  return HWY_DYNAMIC_DISPATCH(AllFinite)(x.data(), x.size());
+}
+
+void mixInto(std::span<const float> from, float share, std::span<float> y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(MixInto)(from.data(), share, y.size(), y.data());
+}
+
+void mixRows(const Rows& rows, const double* weight, std::size_t length,
+             double* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(MixPlacedRows)(rows, weight, length, y);
+}
+
+void dotRows(const Rows& rows, const double* y, std::size_t length,
+             double* out) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(DotPlacedRows)(rows, y, length, out);
+}
+
+PALPATE_TRUSTED_END
+
+}  // namespace palpate
+#endif

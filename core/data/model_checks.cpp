@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/data/model_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/multi_index.h"
+#include "core/base/types.h"
+#include "core/data/checker.h"
+#include "core/data/datasets.h"
+#include "core/data/load_driven_checks.h"
+#include "core/data/packed_modes.h"
+
+namespace palpate {
+
+namespace {
+
+void checkOrders(const ModelAttributes& a, const Checker& check) {
+  const int highest = a.parameters == Parameters::kForce ? a.order : MonomialBasis::kMaxOrder;
+  check.require(a.order >= 1 && a.order <= MonomialBasis::kMaxOrder,
+                "attribute order is " + std::to_string(a.order),
+                "1 to " + std::to_string(MonomialBasis::kMaxOrder));
+  check.require(a.force_order >= a.order && a.force_order <= highest,
+                "attribute force_order is " + std::to_string(a.force_order),
+                a.order == highest ? std::to_string(highest)
+                                   : std::to_string(a.order) + " to " + std::to_string(highest));
+}
+
+/// The largest |d|, |f| or t that is trusted.
+void checkDomain(Parameters parameters, std::span<const double> radius, const Checker& check) {
+  for (std::size_t m = 0; m < radius.size(); ++m) {
+    const std::string found = "is " + digitsOf(radius[m]);
+    if (parameters == Parameters::kDisplacement && radius[m] < 0.0)
+      check.failAt(dataset::kContactDomainRadius.name(), m, found, "at least 0");
+    if (parameters == Parameters::kForce && !(radius[m] > 0.0))
+      check.failAt(dataset::kContactDomainRadius.name(), m, found, "more than 0 N");
+    if (parameters == Parameters::kLevel && !(radius[m] > 0.0 && radius[m] <= 1.0))
+      check.failAt(dataset::kContactDomainRadius.name(), m, found, "more than 0, at most 1");
+  }
+}
+
+/// Patches and mixtures look at all triangles round a node, for each of its neighbours.
+void checkTrianglesAtNodes(const ModelView& v, const Checker& check) {
+  constexpr int kMost = 1024;
+  std::vector<int> count(v.surfaceNodes());
+  for (const std::int32_t node : v.surface_triangles) ++count[static_cast<std::size_t>(node)];
+  const auto most = std::max_element(count.begin(), count.end());
+  check.require(*most <= kMost,
+                dataset::kSurfaceTriangles.name() + " has " + std::to_string(*most) + " triangles at node " +
+                    std::to_string(most - count.begin()),
+                "at most " + std::to_string(kMost));
+}
+
+void checkPositions(const ModelView& v, const Checker& check) {
+  check.require(v.positions() > 0, dataset::kContactNode.name() + " is empty", "contact positions");
+  check.indices(dataset::kContactNode.name(), v.contact_node, v.surfaceNodes());
+  check.indices(dataset::kPositionOfNode.name(), v.position_of_node, v.positions(), -1);
+  for (std::size_t m = 0; m < v.positions(); ++m) {
+    const std::int32_t back = v.position_of_node[static_cast<std::size_t>(v.contact_node[m])];
+    if (back != static_cast<std::int32_t>(m))
+      check.failAt(dataset::kContactNode.name(), m, "leads back to position " + std::to_string(back),
+                   std::to_string(m));
+    if (v.contact_accessible[m] > 1)
+      check.failAt(dataset::kContactAccessible.name(), m, "is " + std::to_string(v.contact_accessible[m]),
+                   "0 or 1");
+  }
+  std::size_t used = 0;
+  for (const std::int32_t position : v.position_of_node) used += position >= 0 ? 1 : 0;
+  check.require(
+      used == v.positions(),
+      dataset::kPositionOfNode.name() + " names " + std::to_string(used) + " positions",
+      "the " + std::to_string(v.positions()) + " of " + dataset::kContactNode.name() + ", each once");
+}
+
+void checkNear(const ModelView& v, const Checker& check) {
+  const auto end = static_cast<std::int64_t>(v.near_node.size());
+  const auto Ns = static_cast<std::int64_t>(v.surfaceNodes());
+  check.require(v.near_offset.front() == 0,
+                dataset::kNearOffset.name() + " begins with " + std::to_string(v.near_offset.front()), "0");
+  for (std::size_t m = 0; m + 1 < v.near_offset.size(); ++m) {
+    const std::int64_t first = v.near_offset[m], last = v.near_offset[m + 1];
+    if (last < first || last > end || last - first > Ns)
+      check.failAt(dataset::kNearOffset.name(), m + 1, "is " + std::to_string(last),
+                   "at least " + std::to_string(first) + ", at most " + std::to_string(end) +
+                       " and no more than one entry for each surface node");
+  }
+  check.require(v.near_offset.back() == end,
+                dataset::kNearOffset.name() + " ends with " + std::to_string(v.near_offset.back()),
+                "the length of " + dataset::kNearNode.name() + ", " + std::to_string(end));
+  check.indices(dataset::kNearNode.name(), v.near_node, v.surfaceNodes());
+}
+
+/// A block that lists a node twice would move it twice in the field and once in a query of that node.
+void checkNearOnce(const ModelView& v, const Checker& check) {
+  std::vector<std::size_t> last(v.surfaceNodes(),
+                                v.positions());  // position that had the node last; none yet
+  for (std::size_t m = 0; m < v.positions(); ++m) {
+    const auto first = static_cast<std::size_t>(v.near_offset[m]);
+    const auto end = static_cast<std::size_t>(v.near_offset[m + 1]);
+    for (std::size_t i = first; i < end; ++i) {
+      const auto node = static_cast<std::size_t>(v.near_node[i]);
+      if (std::exchange(last[node], m) == m)
+        check.failAt(dataset::kNearNode.name(), i, "is " + std::to_string(node) + " again",
+                     "each node once at position " + std::to_string(m));
+    }
+  }
+}
+
+/// A larger scale would round a mode to nothing, or its weight would leave no range to the others.
+void checkScales(const ModelView& v, const ModeCounts& counts, const Checker& check) {
+  const std::size_t numbers = 3 * v.surfaceNodes();
+  for (std::size_t k = 0; k < v.modes_packed.scale.size(); ++k) {
+    const float scale = v.modes_packed.scale[k];
+    if (!(std::isfinite(scale) && scale > 0.0F))
+      check.failAt(dataset::kModesScale.name(), k, "is " + digitsOf(scale), "more than 0");
+    float most = 0.0F;
+    for (const float x : v.modes_X.subspan((counts.f32 + k) * numbers, numbers))
+      most = std::max(most, std::abs(x));
+    const float top = k < counts.i16 ? 32767.0F : 94.0F;  // a shared byte takes 33 of 127
+    const float largest = 1.1F * std::max(most / top, kLeastScale);
+    if (scale > largest)
+      check.failAt(dataset::kModesScale.name(), k, "is " + digitsOf(scale),
+                   "at most " + digitsOf(largest) + ", as " + dataset::kModesX.name() + " is");
+  }
+}
+
+/// The packed modes are those of X, rounded.
+void checkPacked(const ModelView& v, const Checker& check) {
+  const PackedModes& packed = v.modes_packed;
+  const std::size_t numbers = 3 * v.surfaceNodes();
+  const ModeCounts counts = countModes(packed, v.modes());
+  const std::size_t most = std::max(counts.i16, counts.inBytes());
+  check.require(most <= kMostPackedModes,
+                dataset::kModesKinds.name() + " has " + std::to_string(most) + " modes in int16 or in bytes",
+                "at most " + std::to_string(kMostPackedModes));
+  checkScales(v, counts, check);
+  for (std::size_t mode = counts.f32; mode < v.modes(); ++mode) {
+    const float bound = 1.02F * roundingOf(packed, counts, mode);
+    for (std::size_t i = 0; i < numbers; ++i) {
+      const float x = v.modes_X[mode * numbers + i], found = unpack(packed, counts, mode, i);
+      if (!(std::abs(found - x) <= bound))
+        check.failAt(mode < counts.f32 + counts.i16
+                         ? dataset::kModesInt16.name() + ", of " + dataset::kModesX.name()
+                         : dataset::kModesBytes.name() + ", of " + dataset::kModesX.name(),
+                     mode * numbers + i, "is " + digitsOf(found), digitsOf(x) + " within " + digitsOf(bound));
+    }
+  }
+}
+
+void checkFinite(const ModelView& v, const Checker& check) {
+  check.finite(dataset::kSurfacePositions.name(), v.surface_positions);
+  check.finite(dataset::kContactForce.name(), v.contact_force);
+  check.finite(dataset::kContactDisplacement.name(), v.contact_displacement);
+  check.finite(dataset::kContactDomainRadius.name(), v.contact_domain_radius);
+  check.finite(dataset::kModesX.name(), v.modes_X);
+  check.finite(dataset::kModesY.name(), v.modes_Y);
+  check.finite(dataset::kNearField.name(), v.near_field);
+  check.finite(dataset::kMeshNodes.name(), v.mesh_nodes);
+}
+
+}  // namespace
+
+void checkAttributes(const ModelAttributes& a, const std::string& name) {
+  const Checker check(name);
+  const auto range = [&](const char* attribute, double value, bool good, const char* expected) {
+    check.require(std::isfinite(value) && good,
+                  std::string("attribute ") + attribute + " is " + digitsOf(value), expected);
+  };
+  check.require(a.law == "stvk", "attribute law is \"" + a.law.substr(0, 40) + "\"", "\"stvk\"");
+  if (a.parameters != Parameters::kLevel) checkOrders(a, check);
+  range("E", a.E, a.E > 0.0, "more than 0 Pa");
+  range("nu", a.nu, a.nu > -1.0 && a.nu < 0.5, "more than -1 and less than 0.5");
+  range("patch_radius", a.patch_radius, a.patch_radius > 0.0, "more than 0 m");
+  range("near_radius", a.near_radius, a.near_radius >= 0.0, "at least 0 m");
+  range("reference_displacement", a.reference_displacement, a.reference_displacement > 0.0, "more than 0 m");
+  if (a.parameters == Parameters::kForce)
+    range("reference_force", a.reference_force, a.reference_force > 0.0, "more than 0 N");
+  if (a.parameters != Parameters::kLevel) return;
+  range("load", a.load, a.load > 0.0, "more than 0 N");
+  const double length = Eigen::Map<const Vec3>(a.load_direction.data()).stableNorm();
+  check.require(std::abs(length - 1.0) <= 1e-9, "attribute load_direction has length " + digitsOf(length),
+                "1");
+}
+
+void checkContents(const ModelAttributes& a, const ModelView& v, const std::string& name) {
+  const Checker check(name);
+  check.require(v.surfaceNodes() > 0 && v.triangles() > 0, "/surface is empty", "a closed surface");
+  checkFinite(v, check);
+  check.indices(dataset::kSurfaceTriangles.name(), v.surface_triangles, v.surfaceNodes());
+  checkTrianglesAtNodes(v, check);
+  checkPacked(v, check);
+  checkPositions(v, check);
+  checkDomain(a.parameters, v.contact_domain_radius, check);
+  checkNear(v, check);
+  checkNearOnce(v, check);
+  checkLoadDriven(a, v, check);
+  const std::size_t N = v.mesh_node_tag.size();
+  check.require(N > 0, dataset::kMeshNodes.name() + " is empty", "the volume mesh");
+  check.indices(dataset::kMeshTetrahedra.name(), v.mesh_tetrahedra, N);
+  check.indices(dataset::kMeshFixed.name(), v.mesh_fixed, N);
+  check.indices(dataset::kMeshSurfaceNode.name(), v.mesh_surface_node, N);
+}
+
+}  // namespace palpate

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/data/model_content.h"
+
+#include <bit>
+#include <charconv>
+#include <span>
+
+#include "core/base/multi_index.h"
+
+namespace palpate {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the digest is that of little-endian numbers");
+
+const char* typeName(double) {
+  return "f64";
+}
+const char* typeName(float) {
+  return "f32";
+}
+const char* typeName(std::int16_t) {
+  return "i16";
+}
+const char* typeName(std::int32_t) {
+  return "i32";
+}
+const char* typeName(std::int64_t) {
+  return "i64";
+}
+const char* typeName(std::uint8_t) {
+  return "u8";
+}
+
+/// Adds one part after the other: a line that says how many bytes follow, then these.
+class ContentHash {
+ public:
+  template <class T>
+  void add(std::string line, const char* type, const std::vector<std::uint64_t>& shape,
+           std::span<const T> values) {
+    (line += ' ') += type;
+    for (const std::uint64_t length : shape) line += ' ' + std::to_string(length);
+    line += '\n';
+    hash_.add(std::as_bytes(std::span<const char>(line)));
+    hash_.add(std::as_bytes(values));
+  }
+  void operator()(const char* name, const std::string& text) {
+    add(name, "text", {text.size()}, std::span<const char>(text));
+  }
+  void operator()(const char* name, const std::array<double, 3>& values) {
+    add(name, "f64", {values.size()}, std::span<const double>(values));
+  }
+  template <class T>
+  void operator()(const char* name, T value) {
+    add(name, typeName(value), {}, std::span<const T>(&value, 1));
+  }
+  [[nodiscard]] Digest finish() { return hash_.finish(); }
+
+ private:
+  Sha256 hash_;
+};
+
+std::uint64_t lengthOf(std::string_view symbol, const LengthTable& lengths) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(symbol.data(), symbol.data() + symbol.size(), number);
+  return error == std::errc() && end == symbol.data() + symbol.size() ? number : lengths.at(symbol);
+}
+
+void addPacked(const ModelView& v, LengthTable& size) {
+  if (v.modes_packed.empty()) return;
+  const ModeCounts counts = countModes(v.modes_packed, v.modes());
+  size["tiles"] = v.modes_packed.tiles;
+  size["pairs"] = counts.pairs();
+  size["quads"] = counts.quads();
+  size["packed"] = counts.packed();
+}
+
+}  // namespace
+
+LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
+  const auto sizeOf = [](int order) { return static_cast<std::uint64_t>(MonomialBasis::size(order)); };
+  const bool level = a.parameters == Parameters::kLevel;
+  const std::uint64_t Ns = v.surfaceNodes(), M = v.positions();
+  const std::uint64_t C = level ? v.level_functions : sizeOf(a.order);
+  LengthTable size{{"Ns", Ns},
+                   {"3 Ns", 3 * Ns},
+                   {"T", v.triangles()},
+                   {"M", M},
+                   {"M + 1", M + 1},
+                   {"C", C},
+                   {"n", v.modes()},
+                   {"kinds", kPackedKinds},
+                   {"tile", kTile},
+                   {"sum K", v.near_node.size()},
+                   {"3 C sum K", v.near_field.size()},
+                   {"N", v.mesh_node_tag.size()},
+                   {"V", v.mesh_tetrahedron_tag.size()},
+                   {"F", v.mesh_fixed.size()}};
+  if (level) size["L + 1"] = C == 0 ? 0 : v.levels_Z.size() / C;
+  if (a.parameters == Parameters::kDisplacement) size["Cf"] = sizeOf(a.force_order);
+  addPacked(v, size);
+  return size;
+}
+
+std::vector<std::uint64_t> shapeOf(const std::array<const char*, 4>& shape, const LengthTable& lengths) {
+  std::vector<std::uint64_t> numbers;
+  for (const char* symbol : shape)
+    if (symbol != nullptr) numbers.push_back(lengthOf(symbol, lengths));
+  return numbers;
+}
+
+Digest contentDigest(const ModelAttributes& a, const ModelView& v) {
+  const LengthTable lengths = lengthsOf(a, v);
+  ContentHash hash;
+  forEachAttribute(a, hash);
+  forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, std::span<const T> values) {
+    hash.add(what.name(), typeName(T{}), shapeOf(what.shape, lengths), values);
+  });
+  return hash.finish();
+}
+
+}  // namespace palpate

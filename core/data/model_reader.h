@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "core/data/model_view.h"
+#include "core/data/sealed_image.h"
+
+namespace palpate {
+
+/// The digests that the writer put into the file, as text.
+struct StoredDigests {
+  std::string content;
+  std::string provenance;
+};
+
+/// What HDF5 says about a model: its attributes, and where its arrays lie in the image.
+struct ModelContents {
+  ModelAttributes attributes;
+  StoredDigests stored;
+  ModelView view;
+};
+
+/// Asks HDF5 for format, attributes and each array's type, shape, layout and place, checks all of them, and
+/// closes HDF5 again. The numbers in the arrays are not looked at: see checkContents().
+/// @param name  how the file is called in messages
+/// @throw LoadError file, dataset, found, expected
+[[nodiscard]] ModelContents readModel(const SealedImage& image, const std::string& name);
+
+}  // namespace palpate

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/data/packed_modes.h"
+
+namespace palpate {
+
+/// What is prescribed at the contact: the parameter of a model beside s.   docs/design.md, Reproduction, Series
+enum class Parameters {
+  kDisplacement,  ///< the patch displacement d: u(X; s, d), f(s, d); file version 1
+  kForce,         ///< the tool's force f: u(X; s, f), d(s, f); file version 2
+  kLevel          ///< the level t of a load of fixed direction: u(X; s, t), d(s, t); file version 2
+};
+
+/// As the file names them: "displacement", "force", "level".
+[[nodiscard]] constexpr std::string_view toString(Parameters parameters) noexcept {
+  switch (parameters) {
+    case Parameters::kDisplacement:
+      return "displacement";
+    case Parameters::kForce:
+      return "force";
+    case Parameters::kLevel:
+      return "level";
+  }
+  return "unknown";
+}
+
+/// Root attributes of a model file.
+struct ModelAttributes {
+  std::string law;         ///< "stvk"
+  std::string provenance;  ///< text of a JSON object: who made it, from what, how well it fits
+  double E{0.0};           ///< Young's modulus, Pa, > 0
+  double nu{0.0};          ///< Poisson's ratio, in (-1, 0.5)
+  int order{0};  ///< p, highest degree of the fields, 1 to MonomialBasis::kMaxOrder; unused (0) for "level"
+  double patch_radius{0.0};  ///< a, m, > 0
+  double near_radius{0.0};   ///< rho, m, >= 0
+  /// d_ref, m, > 0: polynomials of "displacement" models are ones in d / d_ref; else the organ's scale only
+  double reference_displacement{0.0};
+  int force_order{0};  ///< highest degree of the contact's answer, p to kMaxOrder; writers take 0 for p
+  Parameters parameters{Parameters::kDisplacement};
+  double reference_force{0.0};             ///< f_ref, N, > 0 for "force": polynomials are ones in f / f_ref
+  std::array<double, 3> load_direction{};  ///< unit vector, for "level"
+  double load{0.0};                        ///< N, > 0 for "level": f = t load load_direction
+};
+
+/// The numbers of a model file where they lie in memory. Shapes are row-major; Ns surface nodes, T triangles,
+/// M contact positions, C coefficients of the fields (size(order), or the number of level functions), Cf =
+/// size(force_order), L steps of the level, n modes, N volume nodes, V tetrahedra. Borrowed: valid as long as
+/// the model.
+struct ModelView {
+  std::span<const double> surface_positions;        ///< [Ns][3] m
+  std::span<const std::int32_t> surface_triangles;  ///< [T][3] counter-clockwise from outside
+  std::span<const std::int64_t> surface_mesh_tag;   ///< [Ns] node number in the mesh file
+  std::span<const std::int32_t> position_of_node;   ///< [Ns] contact position of a surface node, or -1
+  std::span<const std::int32_t> contact_node;       ///< [M] surface node of a contact position
+  std::span<const std::uint8_t>
+      contact_accessible;                        ///< [M] 1: accessible; 0: helper for interpolation beside it
+  std::span<const double> contact_force;         ///< [M][Cf][3] f_alpha d_ref^|alpha|, N; "displacement" only
+  std::span<const double> contact_displacement;  ///< [M][C][3] d_alpha, m; "force" and "level" only
+  std::span<const double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
+  std::span<const double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
+  std::size_t level_functions{0};                      ///< C of a "level" model, else 0
+  std::span<const float> modes_X;                      ///< [n][Ns][3] dimensionless
+  PackedModes modes_packed;                            ///< the modes as the tick reads them, or empty
+  std::span<const float> modes_Y;                      ///< [M][C][n] scaled, m
+  std::span<const std::int64_t> near_offset;           ///< [M+1] prefix sums of the near nodes' counts
+  std::span<const std::int32_t> near_node;             ///< [sum K] surface nodes
+  std::span<const float> near_field;                   ///< per position [C][K_m][3], windowed, scaled, m
+  std::span<const double> mesh_nodes;                  ///< [N][3] m
+  std::span<const std::int32_t> mesh_tetrahedra;       ///< [V][4]
+  std::span<const std::int64_t> mesh_node_tag;         ///< [N]
+  std::span<const std::int64_t> mesh_tetrahedron_tag;  ///< [V]
+  std::span<const std::int32_t> mesh_fixed;            ///< volume nodes
+  std::span<const std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
+
+  [[nodiscard]] std::size_t surfaceNodes() const noexcept { return surface_mesh_tag.size(); }
+  [[nodiscard]] std::size_t triangles() const noexcept { return surface_triangles.size() / 3; }
+  [[nodiscard]] std::size_t positions() const noexcept { return contact_node.size(); }
+  [[nodiscard]] std::size_t modes() const noexcept {
+    return surface_mesh_tag.empty() ? 0 : modes_X.size() / (3 * surface_mesh_tag.size());
+  }
+};
+
+}  // namespace palpate

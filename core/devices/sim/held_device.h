@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/devices/path/path.h"
+#include "core/devices/sim/mechanics.h"
+
+namespace palpate::device {
+
+using client::Point;
+
+/// A haptic device in a hand that follows a path, pushed by the organ:
+///   (m + M) x'' = F - b x' - c x'/|x'| + B (y' - x') + K (y - x)
+/// x is the tip, y the path, F the organ's force on the tool, c the Coulomb friction. The integrator is the implicit
+/// midpoint rule in substeps of at most 50 us. In each substep the energy gains exactly what F and the hand's path put
+/// in, less what is dissipated. So an instability belongs to the loop, not to the integrator. The friction inclusion is
+/// solved exactly: where friction can hold the tip, the tip stands still.
+class HeldDevice {
+ public:
+  /// Starts at rest where the path starts.
+  /// @throw std::invalid_argument  a field of device or hand is out of range; it names the field
+  HeldDevice(const Mechanics& device, const Hand& hand, client::Path path);
+
+  /// Advances by dt. @param[in] force_on_tool  F, W, N, finite; held during dt. @param[in] dt  s, above 0
+  /// Cost: one evaluation of the path per 50 us, at least 10. Real-time: yes. Threads: one.
+  void step(const Point& force_on_tool, double dt) noexcept PALPATE_NONBLOCKING;
+
+  /// Moves the tip there. The path is unchanged.
+  void place(const Point& position, const Point& velocity) noexcept;
+
+  [[nodiscard]] double time() const noexcept { return time_; }         ///< s since the start
+  [[nodiscard]] const Point& position() const noexcept { return x_; }  ///< p_WT, m
+  [[nodiscard]] const Point& velocity() const noexcept { return v_; }  ///< m/s
+  [[nodiscard]] const client::Path& path() const noexcept { return path_; }
+  /// Work that the force has done on the tool so far: the integral of F . dx, J. Below 0: the organ took energy.
+  [[nodiscard]] double workOfForce() const noexcept { return work_of_force_; }
+  /// Kinetic energy plus the energy of the hand's spring, J.
+  [[nodiscard]] double energy() const noexcept;
+
+ private:
+  void substep(const Point& force_on_tool, double h) noexcept PALPATE_NONBLOCKING;
+
+  Mechanics device_;
+  Hand hand_;
+  client::Path path_;
+  Point x_;
+  Point v_{};
+  double time_{0.0};
+  double work_of_force_{0.0};
+};
+
+}  // namespace palpate::device

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/devices/sim/mechanics.h"
+
+#include <stdexcept>
+
+#include "core/devices/path/in_range.h"
+
+namespace palpate::device {
+namespace {
+
+constexpr auto& inRange = client::inRange<std::invalid_argument, double>;
+
+}  // namespace
+
+void check(const Mechanics& device) {
+  inRange("device mass (kg)", device.mass, 0.001, 10.0);
+  inRange("device damping (N s/m)", device.damping, 0.0, 100.0);
+  inRange("device friction (N)", device.friction, 0.0, 10.0);
+}
+
+void check(const Hand& hand) {
+  inRange("hand mass (kg)", hand.mass, 0.0, 10.0);
+  inRange("hand damping (N s/m)", hand.damping, 0.0, 1000.0);
+  inRange("hand stiffness (N/m)", hand.stiffness, 1.0, 1e5);
+}
+
+Mechanics mechanicsOf(const DevicePreset& preset) noexcept {
+  return {preset.mass, preset.viscous_damping, preset.friction};
+}
+
+}  // namespace palpate::device

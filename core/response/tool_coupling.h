@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/base/contact_point.h"
+#include "core/base/max_tools.h"
+#include "core/base/types.h"
+#include "core/model/field_evaluation.h"
+#include "core/model/meta_model.h"
+#include "core/response/patch_response.h"
+
+namespace palpate {
+
+/// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.   docs/design.md, Symbols, Parts
+/// @param source  the other tool's own part, clamped to the domain as in evaluateField()
+/// @return m, W; zero where the model has no answer at `at` or at source.s
+/// Cost O(C n); docs/decisions/several_tools.md. Real-time: yes. Threads: one per scratch.
+[[nodiscard]] Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source,
+                                     const ContactPoint& at,
+                                     FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
+
+/// How the sum of patchDisplacement() changes as the patch moves over the rest surface: de/dX, 3 x 3, zero along its normal.
+/// A difference over the patch's own width, so that it has no steps where the sum, mixed linearly, has kinks.
+/// Cost of 4 patchDisplacement() for each source. Real-time: yes. Threads: one per scratch.
+[[nodiscard]] Mat3 patchDisplacementSlope(const MetaModel& model, std::span<const FieldSource> sources,
+                                          const ContactPoint& at,
+                                          FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
+
+/// What a tool that imposes d by itself adds to the field: of evaluateField() and patchDisplacement(). Beyond the
+/// domain its gain is |d| over the |d| that the model answers, so that the field goes on in proportion (not of a
+/// model driven by level, which ends where its load does). @param d  m, finite. Cost respond(). Real-time: yes.
+[[nodiscard]] FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
+                                  const Vec3& d) noexcept PALPATE_NONBLOCKING;
+
+/// How the displacement of each patch that the others cause changes with what is prescribed: [A][B] de_A/dd_B, 1.
+using InfluenceTable = std::array<std::array<Mat3, kMaxTools>, kMaxTools>;
+
+/// Tools that press together: what each imposes by itself, so that all patches move as prescribed.  docs/design.md, Contact
+///   d_own,A + sum_{B != A} P_A [u(s_B, d_B) + u'(s_B, d_B) (d_own,B - d_B)] = d_A
+/// Linear in d_own: the tangent at what each patch really does, so that the tools' own parts, which may be several
+/// times d and cancel each other, need no nonlinear answer far from it. With y_A = d_own,A - d_A
+///   f_A = f(s_A, d_A) + df/dd(s_A, d_A) y_A,   u = sum_A ownField()
+/// Exact for a linear organ; the error of a nonlinear one is what palpate-query --tool2 measures. The least-squares
+/// answer at a small price for its length: tools at one place that ask for different d would need any force.
+/// @param s  contact points, at most kMaxTools, all in contact  @param d  prescribed, m, finite, one for each
+/// @param[out] own  d_own, m; d itself for one tool
+/// @param[out] influence  if given, of e_A = d_A - d_own,A, the tangents held fixed; zero for one tool
+/// Cost tools * (tools - 1) * 4 patchDisplacement(), no iteration: docs/decisions/several_tools.md. Real-time: yes.
+void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
+                      FieldScratch& scratch, std::span<Vec3> own,
+                      InfluenceTable* influence = nullptr) noexcept PALPATE_NONBLOCKING;
+
+/// One tool's part in the field of several, u(s, d) + u'(s, d) (own - d), as two sources of evaluateField() whose
+/// sum it is: a difference over a step much shorter than the domain. Real-time: yes.
+[[nodiscard]] std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s,
+                                                  const Vec3& d,
+                                                  const Vec3& own) noexcept PALPATE_NONBLOCKING;
+
+}  // namespace palpate

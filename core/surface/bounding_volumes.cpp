@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/surface/bounding_volumes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace palpate {
+
+namespace {
+
+/// Children hold a quarter of the triangles, rounded up: 2^31 triangles make 16 levels, three waiting on each.
+constexpr std::size_t kStack = 64;
+
+/// x as a float that lies a little further along `way`, 1 or -1.
+float rounded(double x, double way) noexcept PALPATE_NONBLOCKING {
+  using Float = std::numeric_limits<float>;
+  const double beyond = x + way * std::max(double(Float::epsilon()) * std::abs(x), double(Float::min()));
+  if (std::abs(beyond) <= double(Float::max())) return static_cast<float>(beyond);
+  return static_cast<float>(way) * (beyond * way > 0.0 ? Float::infinity() : -Float::max());
+}
+
+}  // namespace
+
+BoundingVolumes::BoundingVolumes(std::span<const double> positions, std::span<const std::int32_t> triangles)
+    : positions_(positions), triangles_(triangles) {
+  std::vector<std::int32_t> order(triangles.size() / 3);
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Vec3> centres(order.size());
+  for (std::size_t t = 0; t < centres.size(); ++t) {
+    const auto triangle = static_cast<std::int32_t>(t);
+    centres[t] = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
+  }
+  nodes_.reserve(order.size() / 2);
+  if (!order.empty()) (void)build(order, centres);
+}
+
+Vec3 BoundingVolumes::corner(std::int32_t triangle, int k) const noexcept PALPATE_NONBLOCKING {
+  const auto entry = 3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(k);
+  return Eigen::Map<const Vec3>(positions_.data() + 3 * static_cast<std::size_t>(triangles_[entry]));
+}
+
+/// Child k's box; that of no triangles is infinitely far from everywhere.
+void BoundingVolumes::setBox(Node& node, std::size_t k, std::span<const std::int32_t> triangles) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low = Vec3::Constant(kInfinity), high = -low;
+  for (const std::int32_t triangle : triangles)
+    for (int i = 0; i < 3; ++i) {
+      low = low.cwiseMin(corner(triangle, i));
+      high = high.cwiseMax(corner(triangle, i));
+    }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto of = static_cast<Eigen::Index>(axis);
+    node.low[axis][k] = triangles.empty() ? std::numeric_limits<float>::infinity() : rounded(low[of], -1.0);
+    node.high[axis][k] = triangles.empty() ? std::numeric_limits<float>::infinity() : rounded(high[of], 1.0);
+  }
+}
+
+/// Halved where the centres spread most, and each half again.
+std::array<std::span<std::int32_t>, BoundingVolumes::kChildren> BoundingVolumes::divided(
+    std::span<std::int32_t> triangles, std::span<const Vec3> centres) const {
+  const auto halved = [&](std::span<std::int32_t> part) {
+    const auto middle = static_cast<std::ptrdiff_t>(part.size() / 2);
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const std::int32_t t : part) {
+      low = low.cwiseMin(centres[static_cast<std::size_t>(t)]);
+      high = high.cwiseMax(centres[static_cast<std::size_t>(t)]);
+    }
+    Eigen::Index axis = 0;
+    (high - low).maxCoeff(&axis);
+    std::nth_element(part.begin(), part.begin() + middle, part.end(), [&](std::int32_t a, std::int32_t b) {
+      return centres[static_cast<std::size_t>(a)][axis] < centres[static_cast<std::size_t>(b)][axis];
+    });
+    const auto size = static_cast<std::size_t>(middle);
+    return std::array{part.first(size), part.subspan(size)};
+  };
+  const auto [left, right] = halved(triangles);
+  const auto [a, b] = halved(left);
+  const auto [c, d] = halved(right);
+  return {a, b, c, d};
+}
+
+std::int32_t BoundingVolumes::build(std::span<std::int32_t> triangles, std::span<const Vec3> centres) {
+  const auto self = static_cast<std::int32_t>(nodes_.size());
+  nodes_.emplace_back();
+  const auto parts = divided(triangles, centres);
+  for (std::size_t k = 0; k < kChildren; ++k) {
+    setBox(nodes_[static_cast<std::size_t>(self)], k, parts[k]);
+    const std::int32_t child = parts[k].empty()       ? ~triangles.front()
+                               : parts[k].size() == 1 ? ~parts[k].front()
+                                                      : build(parts[k], centres);
+    nodes_[static_cast<std::size_t>(self)].child[k] = child;
+  }
+  return self;
+}
+
+BoundingVolumes::Distances BoundingVolumes::squaredDistances(const Node& node,
+                                                             const Vec3& p) noexcept PALPATE_NONBLOCKING {
+  Distances sum{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = p[static_cast<Eigen::Index>(axis)];
+    for (std::size_t k = 0; k < kChildren; ++k) {
+      const double before = double(node.low[axis][k]) - x, behind = x - double(node.high[axis][k]);
+      const double farther = before > behind ? before : behind;
+      const double outside = farther > 0.0 ? farther : 0.0;
+      sum[k] += outside * outside;
+    }
+  }
+  return sum;
+}
+
+TriangleHit BoundingVolumes::hit(std::int32_t triangle, const Vec3& p) const noexcept PALPATE_NONBLOCKING {
+  return closestOnTriangle(p, corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
+}
+
+BoundingVolumes::Hit BoundingVolumes::closest(const Vec3& p) const noexcept PALPATE_NONBLOCKING {
+  struct Waiting {
+    std::int32_t child;
+    double squared_distance;
+  };
+  std::array<Waiting, kStack> stack;
+  std::size_t depth = 0;
+  Hit best;
+  if (nodes_.empty()) return best;
+  best.where.squared_distance = std::numeric_limits<double>::infinity();
+  stack[depth++] = {0, 0.0};
+  while (depth > 0) {
+    const Waiting next = stack[--depth];
+    if (next.squared_distance >= best.where.squared_distance) continue;
+    if (next.child < 0) {
+      const TriangleHit where = hit(~next.child, p);
+      if (where.squared_distance < best.where.squared_distance) best = {~next.child, where};
+      continue;
+    }
+    const Node& node = nodes_[static_cast<std::size_t>(next.child)];
+    const Distances distances = squaredDistances(node, p);
+    const std::size_t bottom = depth;
+    for (std::size_t k = 0; k < kChildren; ++k) {
+      if (!(distances[k] < best.where.squared_distance)) continue;
+      std::size_t at = depth++;  // the nearest on top: visited first, it often rules out the others
+      for (; at > bottom && stack[at - 1].squared_distance < distances[k]; --at) stack[at] = stack[at - 1];
+      stack[at] = {node.child[k], distances[k]};
+    }
+  }
+  return best.triangle < 0 ? Hit{0, hit(0, p)} : best;  // all squares overflow: any triangle will do
+}
+
+}  // namespace palpate

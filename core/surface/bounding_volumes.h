@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/types.h"
+#include "core/surface/triangle_hit.h"
+
+namespace palpate {
+
+/// A tree of boxes over triangles, four children to a node, in one flat array. Children hold a quarter of the
+/// triangles, so that the depth is at most 16 and the traversal's stack has a fixed size.
+class BoundingVolumes {
+ public:
+  BoundingVolumes() = default;
+  /// @param positions [Ns][3], @param triangles [T][3], indices checked by the caller; both borrowed.
+  BoundingVolumes(std::span<const double> positions, std::span<const std::int32_t> triangles);
+
+  struct Hit {
+    std::int32_t triangle{-1};
+    TriangleHit where;
+  };
+  /// Nearest triangle to a finite p; -1 when there is none at all. Allocates nothing. Real-time: yes.
+  [[nodiscard]] Hit closest(const Vec3& p) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  static constexpr std::size_t kChildren = 4;
+  /// The boxes of its children side by side, so that one comparison serves all four; floats, rounded outwards,
+  /// take half the memory.
+  struct Node {
+    std::array<std::array<float, kChildren>, 3> low;
+    std::array<std::array<float, kChildren>, 3> high;
+    std::array<std::int32_t, kChildren>
+        child;  ///< >= 0: a node; else ~triangle. An empty child has an infinitely far box
+  };
+  using Distances = std::array<double, kChildren>;
+
+  std::int32_t build(std::span<std::int32_t> triangles, std::span<const Vec3> centres);
+  [[nodiscard]] std::array<std::span<std::int32_t>, kChildren> divided(std::span<std::int32_t> triangles,
+                                                                       std::span<const Vec3> centres) const;
+  void setBox(Node& node, std::size_t k, std::span<const std::int32_t> triangles) const;
+  [[nodiscard]] static Distances squaredDistances(const Node& node,
+                                                  const Vec3& p) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] TriangleHit hit(std::int32_t triangle, const Vec3& p) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Vec3 corner(std::int32_t triangle, int k) const noexcept PALPATE_NONBLOCKING;
+
+  std::span<const double> positions_;
+  std::span<const std::int32_t> triangles_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/surface/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate {
+
+namespace {
+
+std::size_t at(std::int32_t i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+SurfaceGraph::Corner cornerOf(const Vec3& C, const Vec3& A, const Vec3& B) {
+  const double base = (B - A).norm();
+  const double x = (C - A).dot(B - A) / base;
+  return {(C - A).norm(), (C - B).norm(), base, x, std::sqrt(std::max(0.0, (C - A).squaredNorm() - x * x))};
+}
+
+/// Distance at C from a virtual source that lies at distances da, db from A, B in the plane of the triangle.
+double unfold(const SurfaceGraph::Corner& C, double da, double db) {
+  const double along_edges = std::min(da + C.to_a, db + C.to_b);
+  const double c = C.base;
+  const double sx = (da * da - db * db + c * c) / (2.0 * c);
+  const double height2 = da * da - sx * sx;
+  if (height2 < -1e-9 * c * c) return along_edges;  // no such source: the distances come round different ways
+  const double sy = std::sqrt(std::max(0.0, height2));  // below AB, C above it
+  const double crossing = C.height + sy > 0.0 ? sx + (C.x - sx) * sy / (C.height + sy) : C.x;
+  if (crossing < -1e-9 * c || crossing > c * (1.0 + 1e-9)) return along_edges;
+  return std::sqrt((C.x - sx) * (C.x - sx) + (C.height + sy) * (C.height + sy));
+}
+
+}  // namespace
+
+SurfaceGraph::SurfaceGraph(std::span<const double> positions, std::span<const std::int32_t> triangles)
+    : triangles_(triangles.begin(), triangles.end()), first_(positions.size() / 3 + 1) {
+  for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
+    positions_.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
+  for (const std::int32_t node : triangles_) ++first_[at(node) + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  around_.resize(triangles_.size());
+  for (std::int32_t t = 0; t < this->triangles(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::span<const std::int32_t> node = triangle(t);
+      corners_.push_back(
+          cornerOf(position(node[k]), position(node[(k + 1) % 3]), position(node[(k + 2) % 3])));
+    }
+  std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t corner = 0; corner < triangles_.size(); ++corner)
+    around_[at(next[at(triangles_[corner])]++)] = static_cast<std::int32_t>(corner / 3);
+}
+
+std::span<const std::int32_t> SurfaceGraph::trianglesOf(std::int32_t node) const noexcept {
+  const std::int32_t first = first_[at(node)];
+  return std::span(around_).subspan(at(first), at(first_[at(node) + 1] - first));
+}
+
+std::vector<double> SurfaceGraph::lumpedAreas() const {
+  std::vector<double> areas(positions_.size());
+  for (std::int32_t t = 0; t < triangles(); ++t) {
+    const std::span<const std::int32_t> node = triangle(t);
+    const Vec3& A = position(node[0]);
+    const double area = 0.5 * (position(node[1]) - A).cross(position(node[2]) - A).norm();
+    for (const std::int32_t corner : node) areas[at(corner)] += area / 3.0;
+  }
+  return areas;
+}
+
+SurfaceFront::SurfaceFront(const SurfaceGraph& graph)
+    : graph_(graph), distance_(at(graph.nodes())), state_(at(graph.nodes()), State::kUnseen) {}
+
+const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactPoint& s, double bound) {
+  forget();
+  bound_ = bound;
+  const std::span<const std::int32_t> corner = graph_.triangle(s.triangle);
+  Vec3 x = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * graph_.position(corner[k]);
+  for (const std::int32_t node : corner) offer(node, (graph_.position(node) - x).norm());
+  while (!queue_.empty()) {
+    const auto [distance, node] = queue_.top();
+    queue_.pop();
+    if (state_[at(node)] == State::kSettled) continue;
+    state_[at(node)] = State::kSettled;
+    settled_.emplace_back(node, distance);
+    for (const std::int32_t t : graph_.trianglesOf(node)) spread(t, node);
+  }
+  return settled_;
+}
+
+void SurfaceFront::offer(std::int32_t node, double distance) {
+  if (distance >= bound_) return;
+  State& state = state_[at(node)];
+  if (state == State::kOffered && distance_[at(node)] <= distance) return;
+  if (state == State::kUnseen) seen_.push_back(node);
+  state = State::kOffered;
+  distance_[at(node)] = distance;
+  queue_.emplace(distance, node);
+}
+
+void SurfaceFront::spread(std::int32_t triangle, std::int32_t node) {
+  const std::span<const std::int32_t> nodes = graph_.triangle(triangle);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (state_[at(nodes[k])] == State::kSettled) continue;
+    const std::int32_t a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
+    const SurfaceGraph::Corner& corner = graph_.corner(triangle, k);
+    const double da = distance_[at(a)], db = distance_[at(b)];
+    if (state_[at(a)] == State::kSettled && state_[at(b)] == State::kSettled)
+      offer(nodes[k], unfold(corner, da, db));
+    else
+      offer(nodes[k], node == a ? da + corner.to_a : db + corner.to_b);
+  }
+}
+
+void SurfaceFront::forget() {
+  for (const std::int32_t node : seen_) state_[at(node)] = State::kUnseen;
+  seen_.clear();
+  settled_.clear();
+}
+
+}  // namespace palpate

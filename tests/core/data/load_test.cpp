@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Model files that are right.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+#include "../load_case.h"
+#include "core/model/meta_model.h"
+
+namespace palpate::testing {
+
+using modelfile::ModelData;
+
+TEST(Load, GivesBackEveryBitThatWasWritten) {
+  const TemporaryFile file("round-trip.h5");
+  const ModelData& d = goodData();
+  modelfile::writeModel(file.path(), d);
+  const MetaModel model = MetaModel::load(file.path());
+  const ModelView& v = model.view();
+  EXPECT_TRUE(sameBits(d.surface_positions, v.surface_positions));
+  EXPECT_TRUE(sameBits(d.surface_triangles, v.surface_triangles));
+  EXPECT_TRUE(sameBits(d.surface_mesh_tag, v.surface_mesh_tag));
+  EXPECT_TRUE(sameBits(d.position_of_node, v.position_of_node));
+  EXPECT_TRUE(sameBits(d.contact_node, v.contact_node));
+  EXPECT_TRUE(sameBits(d.contact_accessible, v.contact_accessible));
+  EXPECT_TRUE(sameBits(d.contact_force, v.contact_force));
+  EXPECT_TRUE(sameBits(d.contact_domain_radius, v.contact_domain_radius));
+  EXPECT_TRUE(sameBits(d.modes_X, v.modes_X));
+  EXPECT_TRUE(sameBits(d.modes_Y, v.modes_Y));
+  EXPECT_TRUE(sameBits(d.near_offset, v.near_offset));
+  EXPECT_TRUE(sameBits(d.near_node, v.near_node));
+  EXPECT_TRUE(sameBits(d.near_field, v.near_field));
+  EXPECT_TRUE(sameBits(d.mesh_nodes, v.mesh_nodes));
+  EXPECT_TRUE(sameBits(d.mesh_tetrahedra, v.mesh_tetrahedra));
+  EXPECT_TRUE(sameBits(d.mesh_node_tag, v.mesh_node_tag));
+  EXPECT_TRUE(sameBits(d.mesh_tetrahedron_tag, v.mesh_tetrahedron_tag));
+  EXPECT_TRUE(sameBits(d.mesh_fixed, v.mesh_fixed));
+  EXPECT_TRUE(sameBits(d.mesh_surface_node, v.mesh_surface_node));
+  const ModelAttributes &a = d.attributes, &b = model.attributes();
+  EXPECT_EQ(std::tie(a.law, a.provenance, a.E, a.nu, a.order, a.patch_radius, a.near_radius,
+                     a.reference_displacement),
+            std::tie(b.law, b.provenance, b.E, b.nu, b.order, b.patch_radius, b.near_radius,
+                     b.reference_displacement));
+  EXPECT_EQ(model.bytes(), std::filesystem::file_size(file.path()));
+}
+
+TEST(Load, TakesAModelWithoutModesAndNearField) {
+  ModelData d = goodData();
+  d.modes_X.clear();
+  d.modes_Y.clear();
+  d.near_node.clear();
+  d.near_field.clear();
+  std::fill(d.near_offset.begin(), d.near_offset.end(), 0);
+  d.mesh_fixed.clear();
+  const TemporaryFile file("response-only.h5");
+  modelfile::writeModel(file.path(), d);
+  EXPECT_EQ(complaint(file.path()), "");
+  EXPECT_EQ(MetaModel::load(file.path()).view().modes(), 0U);
+}
+
+TEST(Load, LongProvenanceComesBack) {
+  ModelData d = goodData();
+  d.attributes.provenance = "{\"case\": \"" + std::string(300000, 'x') + "\"}";
+  const TemporaryFile file("long.h5");
+  modelfile::writeModel(file.path(), d);
+  EXPECT_EQ(MetaModel::load(file.path()).attributes().provenance, d.attributes.provenance);
+}
+
+TEST(Load, ModelOutlivesItsFile) {
+  const TemporaryFile file("gone.h5");
+  modelfile::writeModel(file.path(), goodData());
+  const MetaModel model = MetaModel::load(file.path());
+  std::filesystem::resize_file(file.path(), 0);
+  EXPECT_TRUE(sameBits(goodData().near_field, model.view().near_field));
+}
+
+TEST(Load, LeavesNoHandleBehind) {
+  const TemporaryFile good("handles.h5"), bad("handles-bad.h5");
+  modelfile::writeModel(good.path(), goodData());
+  ModelData d = goodData();
+  d.attributes.nu = 0.7;
+  modelfile::writeModel(bad.path(), d);
+  for (int i = 0; i < 3; ++i) complaint(good.path()), complaint(bad.path());
+  EXPECT_EQ(H5Fget_obj_count(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_ALL), 0);
+}
+
+TEST(Load, SealedCopyCannotBeWritten) {
+  const TemporaryFile file("sealed.h5");
+  modelfile::writeModel(file.path(), goodData());
+  const SealedImage image(file.path());
+  EXPECT_LT(::write(image.descriptor(), "x", 1), 0);
+  EXPECT_LT(::ftruncate(image.descriptor(), 0), 0);
+}
+
+}  // namespace palpate::testing

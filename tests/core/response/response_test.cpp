@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/response/response.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstddef>
+#include <random>
+
+#include "../driver.h"
+#include "core/model/field_evaluation.h"
+#include "core/response/patch_response.h"
+
+namespace palpate::testing {
+
+namespace {
+
+const SyntheticOptions& options() {
+  static const SyntheticOptions instance{.subdivisions = 2, .order = 3, .force_order = 5};
+  return instance;
+}
+
+const MetaModel& organ() {
+  static const MetaModel model = loadSynthetic(options());
+  return model;
+}
+
+class Random {
+ public:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+  Vec3 vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+  /// A point somewhere on the accessible surface.
+  ContactPoint contactPoint() {
+    for (;;) {
+      const auto triangle =
+          static_cast<int>(engine_() % static_cast<unsigned>(organ().surface().triangles()));
+      const double a = uniform(0.0, 1.0), b = uniform(0.0, 1.0 - a);
+      if (organ().surface().accessible(triangle)) return {triangle, {1.0 - a - b, a, b}};
+    }
+  }
+
+ private:
+  std::mt19937 engine_{11};
+};
+
+/// W mixed as the model mixes f.
+double mixedEnergy(const ContactPoint& s, const Vec3& d) {
+  const Stencil mix = organ().mixing().at(organ().surface(), s);
+  double energy = 0.0;
+  for (std::size_t b = 0; b < mix.count; ++b) {
+    const auto node =
+        static_cast<std::size_t>(organ().view().contact_node[static_cast<std::size_t>(mix.position[b])]);
+    const Vec3 X = Eigen::Map<const Vec3>(organ().view().surface_positions.data() + 3 * node);
+    energy += mix.weight[b] * syntheticEnergy(options(), X, d);
+  }
+  return energy;
+}
+
+std::vector<float> field(const ContactPoint& s, const Vec3& d) {
+  FieldScratch scratch(organ());
+  std::vector<float> u(organ().view().surface_positions.size());
+  evaluateField(organ(), s, d, scratch, u);
+  return u;
+}
+
+double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, double(std::abs(a[i] - b[i])));
+  return most;
+}
+
+/// The sum of the format's text, term by term, in double precision.
+std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
+  const ModelView& v = organ().view();
+  const std::size_t C = static_cast<std::size_t>(organ().functions().size()), n = v.modes();
+  std::vector<double> monomial(C), u(v.surface_positions.size());
+  MonomialBasis(options().order).evaluate(d / options().reference_displacement, monomial);
+  const PositionMix mix = organ().surface().mix(s);
+  for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b) {
+    const auto m = static_cast<std::size_t>(mix.position[b]);
+    const auto first = static_cast<std::size_t>(v.near_offset[m]);
+    const auto K = static_cast<std::size_t>(v.near_offset[m + 1]) - first;
+    for (std::size_t k = 0; k < C; ++k) {
+      const double w = mix.weight[b] * monomial[k];
+      for (std::size_t mode = 0; mode < n; ++mode)
+        for (std::size_t i = 0; i < u.size(); ++i)
+          u[i] += w * double(v.modes_Y[(m * C + k) * n + mode]) * double(v.modes_X[mode * u.size() + i]);
+      for (std::size_t i = 0; i < 3 * K; ++i)
+        u[3 * static_cast<std::size_t>(v.near_node[first + i / 3]) + i % 3] +=
+            w * double(v.near_field[3 * C * first + k * 3 * K + i]);
+    }
+  }
+  return u;
+}
+
+}  // namespace
+
+TEST(Response, StiffnessAtANodeIsTheSumOverDRefToTheLastBit) {
+  const ModelView& v = organ().view();
+  const MonomialBasis basis(options().force_order);
+  std::vector<Vec3> gradient(static_cast<std::size_t>(basis.size()));
+  for (std::size_t m = 0; m < v.positions(); m += 5) {
+    const Vec3 d(0.0011, -0.0023, -0.0037);
+    basis.gradient(d / options().reference_displacement, gradient);
+    Mat3 sum = Mat3::Zero();
+    for (std::size_t k = 0; k < gradient.size(); ++k)
+      sum += Eigen::Map<const Vec3>(v.contact_force.data() + 3 * (m * gradient.size() + k)) *
+             gradient[k].transpose();
+    Response out;
+    ASSERT_EQ(respond(organ(), organ().surface().atNode(v.contact_node[m]), d, out), ResponseStatus::kOk);
+    EXPECT_EQ(out.stiffness, Mat3(sum / options().reference_displacement));
+  }
+}
+
+TEST(Response, ForceIsGradientOfEnergy) {
+  Random random;
+  for (int trial = 0; trial < 50; ++trial) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 d = random.vector(0.004);
+    Response out;
+    ASSERT_EQ(respond(organ(), s, d, out), ResponseStatus::kOk);
+    const double h = 1e-6;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const double slope =
+          (mixedEnergy(s, d + h * Vec3::Unit(i)) - mixedEnergy(s, d - h * Vec3::Unit(i))) / (2.0 * h);
+      EXPECT_NEAR(out.force[i], slope, 1e-6);
+    }
+  }
+}
+
+TEST(Response, EnergySlopeIsTheDerivativeOfTheEnergyAsTheAnchorMoves) {
+  Random random;
+  for (int trial = 0; trial < 50; ++trial) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 d = random.vector(0.004);
+    if (!organ().surface().complete(s.triangle)) continue;  // mixed linearly, and no anchor goes there
+    const PatchResponse here(organ(), s);
+    const double h = 1e-6;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ContactPoint plus = s, minus = s;
+      for (const double way : {1.0, -1.0}) {
+        ContactPoint& there = way > 0.0 ? plus : minus;
+        there.barycentric[k] += way * h;
+        there.barycentric[(k + 1) % 3] -= way * h;
+      }
+      const double slope =
+          (PatchResponse(organ(), plus).energy(d) - PatchResponse(organ(), minus).energy(d)) / (2.0 * h);
+      const Vec3 found = here.energySlope(d);
+      EXPECT_NEAR(found[Eigen::Index(k)] - found[Eigen::Index((k + 1) % 3)], slope,
+                  1e-8 * here.energy(d) + 1e-12);
+    }
+  }
+}
+
+TEST(Response, StiffnessIsTheDerivativeOfForceInsideAndBeyondTheDomain) {
+  Random random;
+  for (const double size : {0.004, 0.02}) {
+    for (int trial = 0; trial < 50; ++trial) {
+      const ContactPoint s = random.contactPoint();
+      const Vec3 d = random.vector(size);
+      Response here, plus, minus;
+      const ResponseStatus status = respond(organ(), s, d, here);
+      if (std::abs(d.norm() - here.domain_radius) < 1e-6) continue;  // the kink
+      EXPECT_EQ(status, d.norm() > here.domain_radius ? ResponseStatus::kClamped : ResponseStatus::kOk);
+      const double h = 1e-7;
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        (void)respond(organ(), s, d + h * Vec3::Unit(j), plus);
+        (void)respond(organ(), s, d - h * Vec3::Unit(j), minus);
+        EXPECT_LT((here.stiffness.col(j) - (plus.force - minus.force) / (2.0 * h)).norm(), 1e-3);
+      }
+      if (status == ResponseStatus::kOk) {
+        EXPECT_LT((here.stiffness - here.stiffness.transpose()).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Response, BeyondTheDomainTheForceGoesOnAlongTheStiffnessThatPushesBack) {
+  Random random;
+  const ContactPoint s = random.contactPoint();
+  const Vec3 d(0.003, 0.02, -0.01);
+  const Vec3 on_edge = d.normalized() * options().domain_radius;
+  Response far, edge;
+  EXPECT_EQ(respond(organ(), s, d, far), ResponseStatus::kClamped);
+  (void)respond(organ(), s, on_edge * (1.0 - 1e-12), edge);
+  EXPECT_NEAR(far.displacement.norm(), options().domain_radius, 1e-15);
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(edge.stiffness);
+  const Mat3& V = eigen.eigenvectors();
+  const Mat3 positive = V * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * V.transpose();
+  EXPECT_LT((far.force - edge.force - positive * (d - on_edge)).norm(), 1e-8 * far.force.norm());
+  EXPECT_LT(largestDifference(field(s, d), field(s, far.displacement)), 1e-9);
+}
+
+TEST(Response, ForceHasNoCliffAtTheDomainAndItsStiffnessIsItsSlope) {
+  Random random;
+  for (int sample = 0; sample < 50; ++sample) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 direction = random.vector(1.0).normalized();
+    Response last, now;
+    (void)respond(organ(), s, Vec3::Zero(), last);
+    for (double size = 1e-5; size < 0.02; size += 1e-5) {
+      (void)respond(organ(), s, size * direction, now);
+      ASSERT_LT((now.force - last.force).norm(),
+                1e-5 * 2.0 * std::max(now.stiffness.norm(), last.stiffness.norm()));
+      last = now;
+    }
+    const double h = 1e-7;
+    for (int j = 0; j < 3; ++j) {
+      Response plus, minus;
+      (void)respond(organ(), s, 0.012 * direction + h * Vec3::Unit(j), plus);
+      (void)respond(organ(), s, 0.012 * direction - h * Vec3::Unit(j), minus);
+      Response here;
+      (void)respond(organ(), s, 0.012 * direction, here);
+      EXPECT_LT((here.stiffness.col(j) - (plus.force - minus.force) / (2.0 * h)).norm(),
+                1e-3 * here.stiffness.norm());
+    }
+  }
+}
+
+TEST(Response, AHugeDisplacementIsAnsweredWithANumber) {
+  Random random;
+  const ContactPoint s = random.contactPoint();
+  for (const double size : {1.0, 1e10, 1e200}) {
+    Response far;
+    EXPECT_EQ(respond(organ(), s, size * Vec3(1.0, 1.0, -1.0), far), ResponseStatus::kClamped);
+    EXPECT_TRUE(far.force.allFinite());
+    EXPECT_TRUE(far.stiffness.allFinite());
+    EXPECT_GT(far.force.dot(Vec3(1.0, 1.0, -1.0)), 0.0);
+  }
+}
+
+TEST(Response, HasNoAnswerOnTheFixedPart) {
+  const ContactPoint s = organ().surface().closestPoint(Vec3(0.0, 0.0, -1.0)).s;
+  Response out;
+  EXPECT_EQ(respond(organ(), s, Vec3(0.0, 0.0, 0.001), out), ResponseStatus::kNoAnswer);
+  EXPECT_EQ(out.force, Vec3::Zero());
+  EXPECT_EQ(respond(organ(), ContactPoint{}, Vec3::Zero(), out), ResponseStatus::kNoAnswer);
+  const auto still = field(s, Vec3(0.0, 0.0, 0.001));
+  ASSERT_FALSE(still.empty());
+  for (const float u : still) ASSERT_EQ(u, 0.0F);
+}
+
+TEST(Response, ZeroDisplacementGivesZeroForceAndFiniteStiffness) {
+  Random random;
+  Response out;
+  EXPECT_EQ(respond(organ(), random.contactPoint(), Vec3::Zero(), out), ResponseStatus::kOk);
+  EXPECT_EQ(out.force, Vec3::Zero());
+  EXPECT_GT(out.stiffness.trace(), 0.0);
+}
+
+TEST(Response, StatusHasAName) {
+  EXPECT_EQ(toString(ResponseStatus::kOk), "ok");
+  EXPECT_EQ(toString(ResponseStatus::kClamped), "clamped");
+  EXPECT_EQ(toString(ResponseStatus::kNoAnswer), "not_accessible");
+}
+
+TEST(Field, IsTheSumOfTheFormat) {
+  Random random;
+  for (int trial = 0; trial < 10; ++trial) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 d = random.vector(0.004);
+    const std::vector<float> fast = field(s, d);
+    const std::vector<double> plain = plainField(s, d);
+    for (std::size_t i = 0; i < fast.size(); ++i) ASSERT_NEAR(fast[i], plain[i], 1e-8);
+  }
+}
+
+TEST(Field, SourcesAddWithTheirGains) {
+  Random random;
+  const FieldSource a{random.contactPoint(), random.vector(0.003), 1.0};
+  const FieldSource b{random.contactPoint(), random.vector(0.003), 0.25};
+  FieldScratch scratch(organ());
+  std::vector<float> both(organ().view().surface_positions.size());
+  const std::array<FieldSource, 2> sources{a, b};
+  evaluateField(organ(), sources, scratch, both);
+  const std::vector<float> one = field(a.s, a.parameter), other = field(b.s, b.parameter);
+  for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(both[i], one[i] + 0.25F * other[i], 1e-8);
+}
+
+// The three parts follow an anchor over the surface without a step: halving the walk's stride halves the
+// largest change.
+TEST(Field, ForceAndFieldAreContinuousWhileTheAnchorCrossesEdgesAndNodes) {
+  const Vec3 d(0.001, 0.002, -0.003);
+  // A circle of latitude, and a meridian through the top node of the sphere.
+  const auto latitude = [](double t) { return Vec3(std::cos(t), std::sin(t), 0.3); };
+  const auto meridian = [](double t) { return Vec3(std::sin(t - 0.5), 0.0, std::cos(t - 0.5)); };
+  for (const std::function<Vec3(double)>& path :
+       {std::function<Vec3(double)>(latitude), std::function<Vec3(double)>(meridian)}) {
+    const auto largestStep = [&](int steps, double& force_step) {
+      std::vector<float> last;
+      Vec3 last_force = Vec3::Zero();
+      double field_step = 0.0;
+      int triangle = -1, crossings = 0;
+      force_step = 0.0;
+      for (int i = 0; i <= steps; ++i) {
+        const ContactPoint s = organ().surface().closestPoint(path(1.0 * i / steps)).s;
+        Response out;
+        EXPECT_NE(respond(organ(), s, d, out), ResponseStatus::kNoAnswer);
+        const std::vector<float> u = field(s, d);
+        if (i > 0) {
+          field_step = std::max(field_step, largestDifference(u, last));
+          force_step = std::max(force_step, (out.force - last_force).norm());
+          crossings += s.triangle != triangle ? 1 : 0;
+        }
+        triangle = s.triangle;
+        last = u;
+        last_force = out.force;
+      }
+      EXPECT_GT(crossings, 4);
+      return field_step;
+    };
+    double coarse_force = 0.0, fine_force = 0.0;
+    const double coarse = largestStep(400, coarse_force), fine = largestStep(3200, fine_force);
+    EXPECT_LT(fine, 0.2 * coarse);
+    EXPECT_LT(fine_force, 0.2 * coarse_force);
+  }
+}
+
+// A replay of a session finds d at another place in memory than the session did.
+TEST(Response, IsTheSameBitForBitWhereverItsDisplacementLies) {
+  Random random;
+  struct alignas(16) Places {
+    Vec3 aligned;
+    double gap[2];
+    Vec3 shifted;
+  };
+  static_assert(offsetof(Places, shifted) % 16 == 8);
+  Places d;
+  for (int i = 0; i < 2000; ++i) {
+    d.aligned = d.shifted = random.vector(0.03);  // mostly beyond the domain
+    const ContactPoint s = random.contactPoint();
+    Response here, there;
+    (void)respond(organ(), s, d.aligned, here);
+    (void)respond(organ(), s, d.shifted, there);
+    ASSERT_EQ(here.stiffness, there.stiffness) << i;
+    ASSERT_EQ(here.force, there.force) << i;
+  }
+}
+
+}  // namespace palpate::testing

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/response/tool_coupling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "../driver.h"
+#include "core/surface/surface_distance.h"
+#include "tools/modelfile/write_model.h"
+
+namespace palpate::testing {
+
+namespace {
+
+const SyntheticOptions kSmall{.subdivisions = 2};
+
+Vec3 nodePosition(const MetaModel& model, std::int32_t node) {
+  return Eigen::Map<const Vec3>(model.view().surface_positions.data() + 3 * node);
+}
+
+/// P_s u term by term from the whole field, in double precision.
+Vec3 plainAverage(const MetaModel& model, const ContactPoint& s, const std::vector<float>& u) {
+  const PositionMix mix = model.surface().mix(s);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t a = 0; a < static_cast<std::size_t>(mix.count); ++a) {
+    const auto nodes = model.patchAverage().nodes(mix.position[a]);
+    const auto weights = model.patchAverage().weights(mix.position[a]);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      sum += mix.weight[a] * double(weights[i]) *
+             Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * nodes[i]).cast<double>();
+  }
+  return sum;
+}
+
+std::vector<float> fieldOf(const MetaModel& model, const FieldSource& source) {
+  FieldScratch scratch(model);
+  std::vector<float> u(model.view().surface_positions.size());
+  evaluateField(model, std::span(&source, 1), scratch, u);
+  return u;
+}
+
+ContactPoint anyPoint(const MetaModel& model, std::mt19937& random) {
+  for (;;) {
+    const auto triangle = static_cast<int>(random() % static_cast<unsigned>(model.surface().triangles()));
+    const double a = 1e-3 * (random() % 500U), b = 1e-3 * (random() % 500U);
+    if (model.surface().accessible(triangle)) return {triangle, {1.0 - a - b, a, b}};
+  }
+}
+
+Vec3 anyVector(std::mt19937& random, double size) {
+  std::uniform_real_distribution<double> uniform(-size, size);
+  return {uniform(random), uniform(random), uniform(random)};
+}
+
+/// A point of the model above, one degree at a time from its pole, so that distances are known.
+ContactPoint fromPole(const MetaModel& model, double degrees) {
+  const double angle = degrees * M_PI / 180.0;
+  return model.surface().closestPoint(0.05 * Vec3(std::sin(angle), 0.0, std::cos(angle))).s;
+}
+
+}  // namespace
+
+TEST(SurfaceDistance, IsTheArcOnASphere) {
+  const MetaModel model = loadSynthetic();
+  const SurfaceGraph graph(model.view().surface_positions, model.view().surface_triangles);
+  SurfaceFront front(graph);
+  for (const int start : {0, 100, 300}) {
+    const Vec3 n = nodePosition(model, start).normalized();
+    const auto& found = front.from(model.surface().atNode(start), 0.06);
+    EXPECT_GT(found.size(), 150U);
+    for (const auto& [node, r] : found) {
+      const double arc = 0.05 * std::acos(std::min(1.0, n.dot(nodePosition(model, node).normalized())));
+      EXPECT_NEAR(r, arc, 0.03 * arc + 1e-8) << "from node " << start << " to " << node;
+    }
+  }
+}
+
+TEST(SurfaceDistance, AreasOfTheNodesAreThatOfTheSphere) {
+  const MetaModel model = loadSynthetic();
+  const SurfaceGraph graph(model.view().surface_positions, model.view().surface_triangles);
+  const std::vector<double> areas = graph.lumpedAreas();
+  EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 4.0 * M_PI * 0.05 * 0.05,
+              0.02 * 4.0 * M_PI * 0.0025);
+}
+
+TEST(PatchAverage, WeightsFallAsTheGaussianAndLeaveOutFixedNodes) {
+  const MetaModel model = loadSynthetic();
+  const double a = model.attributes().patch_radius;
+  const SurfaceGraph graph(model.view().surface_positions, model.view().surface_triangles);
+  const std::vector<double> area = graph.lumpedAreas();
+  bool cut = false;
+  for (std::int32_t m = 0; m < static_cast<std::int32_t>(model.view().positions()); ++m) {
+    const auto nodes = model.patchAverage().nodes(m);
+    const auto weights = model.patchAverage().weights(m);
+    const std::int32_t centre = model.view().contact_node[static_cast<std::size_t>(m)];
+    ASSERT_FALSE(nodes.empty());
+    ASSERT_EQ(nodes.front(), centre);
+    EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1.0, 1e-6);
+    const Vec3 n = nodePosition(model, centre).normalized();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vec3 other = nodePosition(model, nodes[i]).normalized();
+      ASSERT_GE(model.view().position_of_node[static_cast<std::size_t>(nodes[i])], 0) << "fixed";
+      const double r = 0.05 * std::acos(std::min(1.0, n.dot(other)));
+      const double expected = area[static_cast<std::size_t>(nodes[i])] /
+                              area[static_cast<std::size_t>(centre)] * std::exp(-0.5 * r * r / (a * a));
+      EXPECT_NEAR(weights[i] / weights[0], expected, 0.15 * expected + 1e-6);
+    }
+    cut = cut || n.z() < -0.6;
+  }
+  EXPECT_TRUE(cut) << "no patch met the fixed nodes";
+}
+
+TEST(PatchAverage, RefusesPatchesThatWouldFillTheMemory) {
+  modelfile::ModelData data = syntheticModel({.subdivisions = 4});
+  data.attributes.patch_radius = 1.0;
+  const TemporaryFile file("wide.h5");
+  modelfile::writeModel(file.path(), data);
+  try {
+    (void)MetaModel::load(file.path());
+    FAIL() << "accepted";
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("attribute patch_radius is 1.000000 m"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(PatchDisplacement, IsTheFieldAveragedOverThePatch) {
+  for (const Parameters parameters : {Parameters::kDisplacement, Parameters::kForce, Parameters::kLevel}) {
+    SyntheticOptions options = kSmall;
+    options.parameters = parameters;
+    const MetaModel model = loadSynthetic(options);
+    FieldScratch scratch(model);
+    std::mt19937 random(3);
+    double near = 0.0;
+    for (int trial = 0; trial < 200; ++trial) {
+      const Vec3 p =
+          parameters == Parameters::kDisplacement ? anyVector(random, 0.006) : anyVector(random, 0.8);
+      const FieldSource source{anyPoint(model, random), p, 0.001 * (random() % 1000U)};
+      const ContactPoint at = anyPoint(model, random);
+      const Vec3 expected = plainAverage(model, at, fieldOf(model, source));
+      const Vec3 found = patchDisplacement(model, source, at, scratch);
+      EXPECT_LT((found - expected).norm(), 2e-6 * expected.norm() + 1e-9) << found << "\n\n" << expected;
+      const double gap = (model.surface().position(at) - model.surface().position(source.s)).norm();
+      near = std::max(near, gap < 0.03 ? expected.norm() : 0.0);
+    }
+    EXPECT_GT(near, 1e-4) << "no pair was near";
+  }
+}
+
+TEST(PatchDisplacement, IsZeroWhereThereIsNoAnswer) {
+  const MetaModel model = loadSynthetic(kSmall);
+  FieldScratch scratch(model);
+  const ContactPoint top = fromPole(model, 0.0), bottom = fromPole(model, 180.0);
+  EXPECT_EQ(patchDisplacement(model, {top, Vec3(0.0, 0.0, -0.003), 1.0}, bottom, scratch),
+            Vec3(Vec3::Zero()));
+  EXPECT_EQ(patchDisplacement(model, {bottom, Vec3(0.0, 0.0, 0.003), 1.0}, top, scratch), Vec3(Vec3::Zero()));
+  EXPECT_GT(
+      patchDisplacement(model, {top, Vec3(0.0, 0.0, -0.003), 1.0}, fromPole(model, 30.0), scratch).norm(),
+      1e-5);
+}
+
+/// P_s of what all tools add, each as ownField() has it.
+Vec3 movedTogether(const MetaModel& model, const ContactPoint& at, std::span<const ContactPoint> s,
+                   std::span<const Vec3> d, std::span<const Vec3> own, std::size_t but) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t b = 0; b < s.size(); ++b)
+    if (b != but)
+      for (const FieldSource& part : ownField(model, s[b], d[b], own[b]))
+        sum += plainAverage(model, at, fieldOf(model, part));
+  return sum;
+}
+
+TEST(OwnDisplacements, MoveEveryPatchAsPrescribed) {
+  for (const Parameters parameters : {Parameters::kDisplacement, Parameters::kForce}) {
+    SyntheticOptions options = kSmall;
+    options.parameters = parameters;
+    const MetaModel model = loadSynthetic(options);
+    FieldScratch scratch(model);
+    const std::array<ContactPoint, 3> s{fromPole(model, 0.0), fromPole(model, 40.0), fromPole(model, -35.0)};
+    const std::array<Vec3, 3> d{Vec3(0.0, 0.0, -0.001), Vec3(-0.0005, 0.0, -0.001),
+                                Vec3(0.0, 0.0005, -0.001)};
+    std::array<Vec3, 3> own;
+    ownDisplacements(model, s, d, scratch, own);
+    for (std::size_t a = 0; a < 3; ++a) {
+      EXPECT_LT((own[a] + movedTogether(model, s[a], s, d, own, a) - d[a]).norm(), 1e-6) << "tool " << a;
+      EXPECT_GT((own[a] - d[a]).norm(), 1e-5) << "tool " << a << " felt nothing";
+    }
+  }
+}
+
+TEST(OwnDisplacements, OfSmallTouchesAreLinear) {
+  const MetaModel model = loadSynthetic(kSmall);
+  FieldScratch scratch(model);
+  const std::array<ContactPoint, 2> s{fromPole(model, 0.0), fromPole(model, 40.0)};
+  const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -1e-6), Vec3(-5e-7, 0.0, -1e-6)}, twice{2.0 * d[0], 2.0 * d[1]};
+  std::array<Vec3, 2> own, own_twice;
+  ownDisplacements(model, s, d, scratch, own);
+  ownDisplacements(model, s, twice, scratch, own_twice);
+  for (std::size_t a = 0; a < 2; ++a) EXPECT_LT((own_twice[a] - 2.0 * own[a]).norm(), 1e-3 * own[a].norm());
+}
+
+TEST(OwnDisplacements, StayBoundedForToolsAtOnePlace) {
+  const MetaModel model = loadSynthetic(kSmall);
+  FieldScratch scratch(model);
+  const std::array<ContactPoint, 2> s{fromPole(model, 10.0), fromPole(model, 10.0)};
+  const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3(0.0, 0.0, -0.0011)};
+  std::array<Vec3, 2> own;
+  ownDisplacements(model, s, d, scratch, own);
+  for (const Vec3& x : own) EXPECT_LT(x.norm(), 300.0 * d[1].norm()) << x;
+}
+
+TEST(OwnDisplacements, OfOneToolOrAtRestAreThoseGiven) {
+  const MetaModel model = loadSynthetic(kSmall);
+  FieldScratch scratch(model);
+  const std::array<ContactPoint, 2> s{fromPole(model, 0.0), fromPole(model, 40.0)};
+  const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3::Zero()}, rest{Vec3::Zero(), Vec3::Zero()};
+  std::array<Vec3, 2> own{Vec3::Ones(), Vec3::Ones()};
+  ownDisplacements(model, std::span(s).first(1), std::span(d).first(1), scratch, std::span(own).first(1));
+  EXPECT_EQ(own[0], d[0]);
+  ownDisplacements(model, s, rest, scratch, own);
+  EXPECT_EQ(own[1], rest[1]);
+  ownDisplacements(model, s, d, scratch, own);
+  EXPECT_GT(own[1].norm(), 1e-5) << "a tool that holds still takes no part";
+}
+
+TEST(OwnField, OfAToolAloneIsItsField) {
+  const MetaModel model = loadSynthetic(kSmall);
+  const ContactPoint s = fromPole(model, 20.0);
+  const Vec3 d(0.0, 0.001, -0.003);
+  const auto parts = ownField(model, s, d, d);
+  FieldScratch scratch(model);
+  std::vector<float> u(model.view().surface_positions.size());
+  evaluateField(model, parts, scratch, u);
+  const std::vector<float> expected = fieldOf(model, {s, d, 1.0});
+  for (std::size_t i = 0; i < u.size(); ++i) ASSERT_NEAR(u[i], expected[i], 1e-9F);
+}
+
+}  // namespace palpate::testing

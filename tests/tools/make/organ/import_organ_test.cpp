@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/make/organ/import_organ.h"
+
+#include "helpers.h"
+#include "samples.h"
+#include "tools/make/organ/liver.h"
+#include "tools/mesh/box_mesh.h"
+#include "tools/mesh/topology.h"
+#include "tools/mesh/write_msh.h"
+
+namespace palpate::organ::test {
+namespace {
+
+using mesh::test::TemporaryFolder;
+
+TEST(ImportOrgan, ScalesAndKeepsTheOrderOfTheNodes) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.scale = 0.1;
+  ImportedOrgan organ = importOrgan(folder.write("a.msh", mesh::test::kMsh1), options);
+  EXPECT_EQ(organ.mesh.nodes[4], Eigen::Vector3d(0.1, 0.1, 0.1));
+  EXPECT_EQ(organ.mesh.node_tags.front(), 10);
+  renumber(organ.mesh);
+  EXPECT_EQ(organ.mesh.node_tags, (std::vector<std::int64_t>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(organ.mesh.tetrahedron_tags, (std::vector<std::int64_t>{1, 2}));
+}
+
+TEST(ImportOrgan, TellsThatNothingIsFixed) {
+  const TemporaryFolder folder;
+  const ImportedOrgan organ = importOrgan(folder.write("a.msh", mesh::test::kMsh1), {});
+  ASSERT_EQ(organ.notes.size(), 2U);
+  EXPECT_NE(organ.notes[1].find("nothing is fixed"), std::string::npos);
+}
+
+TEST(ImportOrgan, NamesTheGroupsThatAreNotKept) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.msh", mesh::test::kMsh1);
+  EXPECT_EQ(importOrgan(file, {}).notes.front(), "groups of the file that are not kept: 5, 6, 7");
+  ImportOptions options;
+  options.fixed = parseFixedRule("group:6");
+  EXPECT_EQ(importOrgan(file, options).notes,
+            std::vector<std::string>{"groups of the file that are not kept: 5, 7"});
+}
+
+TEST(ImportOrgan, LiverComesBackWithItsGroups) {
+  const TemporaryFolder folder;
+  const mesh::TetMesh liver = makeLiver();
+  const auto boundary = mesh::boundaryOf(liver);
+  mesh::writeMsh(folder / "liver.msh", liver, boundary);
+  const ImportedOrgan back = importOrgan(folder / "liver.msh", {});
+  EXPECT_EQ(back.mesh.groups, liver.groups);
+  EXPECT_LT(back.mesh.groups.at("accessible").size() + back.mesh.groups.at("fixed").size(),
+            boundary.nodes.size());  // the rim is in neither
+  EXPECT_TRUE(back.notes.empty());
+}
+
+TEST(ImportOrgan, TurnsAnInvertedMeshOverAndSaysSo) {
+  const TemporaryFolder folder;
+  mesh::TetMesh box = mesh::makeBox({1, 1, 1}, {3, 3, 3});
+  const auto boundary = mesh::boundaryOf(box);
+  for (auto& t : box.tetrahedra) std::swap(t[0], t[1]);
+  mesh::writeMsh(folder / "a.msh", box, boundary);
+  ImportOptions options;
+  options.fixed = parseFixedRule("lowest-z:0.3");
+  const ImportedOrgan organ = importOrgan(folder / "a.msh", options);
+  ASSERT_EQ(organ.notes.size(), 1U);
+  EXPECT_NE(organ.notes[0].find("turned over"), std::string::npos);
+}
+
+TEST(ImportOrgan, RefusesOneInvertedTetrahedronByFileAndNumber) {
+  const TemporaryFolder folder;
+  std::string text = mesh::test::kMsh1;
+  text.replace(text.find("2 30 4 50"), 9, "30 2 4 50");
+  EXPECT_REFUSED(importOrgan(folder.write("a.msh", text), {}), "a.msh: tetrahedron 8 is inverted");
+}
+
+TEST(ImportOrgan, FillsASurface) {
+  const TemporaryFolder folder;
+  std::string text;
+  const mesh::TriangleSurface cube = mesh::test::cube();
+  for (const auto& x : cube.vertices) {
+    for (const double c : x) text += (text.empty() || text.back() == '\n' ? "v " : " ") + std::to_string(c);
+    text += '\n';
+  }
+  for (const auto& t : cube.triangles) {
+    text += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' +
+            std::to_string(t[2] + 1) + '\n';
+  }
+  ImportOptions options;
+  options.scale = 0.1;
+  options.element_size = 0.03;
+  options.fixed = parseFixedRule("box:-1,-1,-1,1,1,1e-9");
+  const ImportedOrgan organ = importOrgan(folder.write("a.obj", text), options);
+  EXPECT_GT(organ.mesh.groups.at("fixed").size(), 16U);
+  EXPECT_TRUE(organ.notes.empty());
+  for (const auto& x : organ.mesh.nodes) EXPECT_LE(x.maxCoeff(), 0.1 + 1e-12);
+}
+
+TEST(ImportOrgan, RefusesOptionsOutOfRange) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.msh", mesh::test::kMsh1);
+  for (const double wrong : {0.0, -1.0, 1.0 / 0.0}) {
+    ImportOptions options;
+    options.scale = wrong;
+    EXPECT_REFUSED(importOrgan(file, options), "--scale");
+  }
+  ImportOptions options;
+  options.element_size = 0.01;
+  EXPECT_REFUSED(importOrgan(file, options), "--element-size is for surfaces");
+  options.element_size = -1;
+  EXPECT_REFUSED(importOrgan(file, options), "--element-size must be");
+}
+
+}  // namespace
+}  // namespace palpate::organ::test

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-organ as its user sees it: exit code, standard output, standard error.
+#include <nlohmann/json.hpp>
+
+#include "helpers.h"
+#include "palpate/testing/paths.h"
+#include "palpate/testing/run_program.h"
+#include "samples.h"
+#include "tools/mesh/read_mesh.h"
+
+namespace palpate::organ::test {
+namespace {
+
+using mesh::test::TemporaryFolder;
+using palpate::testing::expectOneLineError;
+using palpate::testing::ProgramResult;
+
+ProgramResult run(const std::vector<std::string>& arguments) {
+  return palpate::testing::runProgram("palpate-organ", arguments);
+}
+
+TEST(Program, WritesTheBeamAndTellsInJson) {
+  const TemporaryFolder folder;
+  const auto file = folder / "beam.msh";
+  const ProgramResult result = run({"beam", "--json", "-o", file.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("nodes"), 1701);
+  EXPECT_EQ(json.at("tetrahedra"), 7680);
+  EXPECT_EQ(json.at("fixed_nodes"), 81);
+  EXPECT_EQ(json.at("accessible_nodes"), 689);
+  EXPECT_NEAR(json.at("volume"), 0.00064, 1e-15);
+  EXPECT_TRUE(json.at("warnings").empty());
+  EXPECT_EQ(mesh::readMesh(file).groups.at("fixed").size(), 81U);
+}
+
+TEST(Program, JsonIsUtf8WhateverTheNamesAre) {
+  const TemporaryFolder folder;
+  std::string text = mesh::test::kMsh2;
+  text.replace(text.find("lower face"), 5, "l\xff\xfew");
+  const auto file = folder.write("a.msh", text);
+  const ProgramResult result = run({"import", "--json", file.string(), "-o", (folder / "b.msh").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.out;
+}
+
+TEST(Program, WritesALiverWithoutNoise) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run({"liver", "--element-size", "0.015", "-o", (folder / "liver.msh").string()});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(result.err.empty()) << result.err;
+  EXPECT_EQ(result.out.find("Info"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("worst quality"), std::string::npos) << result.out;
+}
+
+TEST(Program, WarnsOfAnImplausibleSize) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.msh", mesh::test::kMsh1).string();
+  const auto complainsAt = [&](const std::string& scale) {
+    const ProgramResult result = run({"import", file, "--scale", scale, "-o", (folder / "b.msh").string()});
+    return result.out.find("implausible") != std::string::npos;
+  };
+  EXPECT_TRUE(complainsAt("3"));
+  EXPECT_TRUE(complainsAt("0.001"));
+  EXPECT_FALSE(complainsAt("0.1"));
+}
+
+TEST(Program, RefusesInOneLineAndLeavesNoFile) {
+  const TemporaryFolder folder;
+  const auto target = folder / "b.msh";
+  const auto import = [&](const std::string& file, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"import", file, "-o", target.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  expectOneLineError(import((folder / "none.msh").string()), "none.msh: no such file");
+  const std::string file = folder.write("a.msh", mesh::test::kMsh2).string();
+  expectOneLineError(import(file, {"--fixed", "group:no"}), "the file has curve:6, lower face");
+  expectOneLineError(import(file, {"--fixed", ""}), "expected group:NAME");
+  const auto cut = folder.write("cut.msh", mesh::test::kMsh2.substr(0, 200));
+  expectOneLineError(import(cut.string()), "cut.msh: line");
+  EXPECT_FALSE(std::filesystem::exists(target));
+  expectOneLineError(run({"beam", "-o", (folder / "none/beam.msh").string()}), "cannot be written");
+}
+
+TEST(Program, RefusesUnknownArgumentsInOneLineWithItsName) {
+  const std::vector<std::vector<std::string>> wrong{{},
+                                                    {"beam"},
+                                                    {"spleen", "-o", "a.msh"},
+                                                    {"beam", "-o", "a.msh", "--size", "3"},
+                                                    {"liver", "-o", "a.msh", "--element-size", "small"},
+                                                    {"import", "-o", "a.msh"}};
+  for (const auto& arguments : wrong) {
+    SCOPED_TRACE(arguments.empty() ? "none" : arguments.back());
+    expectOneLineError(run(arguments), "palpate-organ: ");
+  }
+  EXPECT_EQ(run({"--help"}).exit_code, 0);
+  EXPECT_EQ(run({"import", "--help"}).exit_code, 0);
+}
+
+TEST(Program, ImportsTheLiverOfTheSofaFramework) {
+  const TemporaryFolder folder;
+  const std::string data = palpate::testing::dataDir() + "/sofa-liver/";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is not there";
+  const std::string to = (folder / "x.msh").string();
+  const ProgramResult result = run(
+      {"import", data + "liver2.msh", "--scale", "0.0933", "--fixed", "lowest-z:0.08", "--json", "-o", to});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("nodes"), 507);
+  EXPECT_EQ(json.at("surface_nodes"), 432);
+  EXPECT_EQ(json.at("fixed_nodes"), 35);
+  const auto& box = json.at("bounding_box");
+  EXPECT_NEAR(box.at("max")[0].get<double>() - box.at("min")[0].get<double>(), 0.2, 1e-3);
+  expectOneLineError(run({"import", data + "liver_for_test_broken.vtk", "-o", to}), "POLYDATA");
+  expectOneLineError(run({"import", data + "liver-smooth.obj", "-o", to}), "intersect");
+}
+
+}  // namespace
+}  // namespace palpate::organ::test

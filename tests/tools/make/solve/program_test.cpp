@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-solve as its user sees it: exit code, standard output, standard error, files.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "palpate/testing/files.h"
+#include "palpate/testing/run_program.h"
+#include "tools/mesh/box_mesh.h"
+#include "tools/mesh/topology.h"
+#include "tools/mesh/write_msh.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ProgramResult;
+using testing::runProgram;
+
+/// A folder with a small block and a case, gone afterwards.
+class SolveProgram : public ::testing::Test {
+ protected:
+  SolveProgram() {
+    mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(block.nodes.size()); ++node) {
+      const bool held = block.nodes[static_cast<std::size_t>(node)].x() < 1e-9;
+      block.groups[held ? "fixed" : "accessible"].push_back(node);
+    }
+    writeBlock("block.msh", block);
+  }
+
+  void writeBlock(const std::string& name, mesh::TetMesh block) const {
+    const mesh::BoundarySurface boundary = mesh::boundaryOf(block);
+    for (auto& [group, nodes] : block.groups) {
+      std::vector<std::int32_t> kept;
+      std::set_intersection(nodes.begin(), nodes.end(), boundary.nodes.begin(), boundary.nodes.end(),
+                            std::back_inserter(kept));
+      nodes = kept;
+    }
+    mesh::writeMsh(folder_ / name, block, boundary);
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string writeCase(const std::string& rest) const {
+    std::ofstream(folder_ / "case.toml") << "mesh = \"block.msh\"\n" << rest;
+    return path("case.toml");
+  }
+  [[nodiscard]] ProgramResult solve(std::vector<std::string> arguments) const {
+    return runProgram("palpate-solve", std::move(arguments));
+  }
+
+  void expectRefusal(const ProgramResult& result, const std::string& part) const {
+    EXPECT_GT(result.exit_code, 0);
+    EXPECT_TRUE(result.out.empty()) << result.out;
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+    EXPECT_EQ(result.err.rfind("palpate-solve: ", 0), 0U) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out.h5"));
+    for (const auto& entry : fs::directory_iterator(folder_.path()))
+      EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry.path();
+  }
+
+  const testing::TemporaryFolder folder_;
+};
+
+TEST_F(SolveProgram, MakesAModelThatInspectReads) {
+  const ProgramResult result =
+      solve({writeCase("[model]\nmodes = 20\nnear_radius = 0.02\n"), "-o", path("out.h5"), "--json", "-q"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto summary = nlohmann::json::parse(result.out);
+  EXPECT_EQ(summary.at("nodes"), 80);
+  EXPECT_EQ(summary.at("modes"), 20);
+  EXPECT_GT(summary.at("peak_memory_MiB"), 1.0);
+  for (const char* key : {"factor", "series", "fit", "write", "total"})
+    EXPECT_GE(summary.at("seconds").at(key), 0.0);
+  EXPECT_TRUE(fs::exists(folder_ / "out.xdmf"));
+  const ProgramResult inspect = runProgram("palpate-inspect", {path("out.h5"), "--json"});
+  ASSERT_EQ(inspect.exit_code, 0) << inspect.err;
+  const auto model = nlohmann::json::parse(inspect.out);
+  EXPECT_EQ(model.at("order"), 3);
+  EXPECT_EQ(model.at("force_order"), 6);
+  EXPECT_EQ(model.at("domain_radius").at("p05"), summary.at("domain_radius").at("p05"));
+  EXPECT_NE(model.at("provenance").at("case").get<std::string>().find("modes = 20"), std::string::npos);
+}
+
+TEST_F(SolveProgram, SolvesABareMeshWithItsAccessibleGroup) {
+  const ProgramResult result = solve({path("block.msh"), "-o", path("out.h5"), "-q"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto model = nlohmann::json::parse(runProgram("palpate-inspect", {path("out.h5"), "--json"}).out);
+  EXPECT_EQ(model.at("provenance").at("accessible"), "accessible");
+  EXPECT_EQ(model.at("material").at("E"), 160e3);
+}
+
+TEST_F(SolveProgram, ComesOutTheSameEveryTime) {
+  for (const char* name : {"one.h5", "two.h5"})
+    ASSERT_EQ(solve({path("block.msh"), "-o", path(name), "-q", "--threads", "1"}).exit_code, 0);
+  const auto id = [&](const char* name) {
+    return nlohmann::json::parse(runProgram("palpate-inspect", {path(name), "--json"}).out).at("model_id");
+  };
+  EXPECT_EQ(id("one.h5"), id("two.h5"));
+}
+
+TEST_F(SolveProgram, RefusesAnUnknownKeyByLine) {
+  expectRefusal(solve({writeCase("[material]\nyoung = 1\n"), "-o", path("out.h5")}),
+                "case.toml:3: material.young");
+}
+TEST_F(SolveProgram, RefusesAMeshThatIsNotThere) {
+  expectRefusal(solve({path("none.msh"), "-o", path("out.h5")}), "none.msh");
+}
+TEST_F(SolveProgram, RefusesAnUnknownGroupAndListsThoseThereAre) {
+  const ProgramResult result = solve({writeCase("[boundary]\nfixed = \"rib\"\n"), "-o", path("out.h5")});
+  expectRefusal(result, "no group \"rib\"");
+  EXPECT_NE(result.err.find("accessible, fixed"), std::string::npos) << result.err;
+}
+TEST_F(SolveProgram, RefusesAClampThatDoesNotHold) {
+  mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
+  block.groups["fixed"] = {0, 1};
+  writeBlock("loose.msh", block);
+  expectRefusal(solve({path("loose.msh"), "-o", path("out.h5")}), "loose.msh");
+}
+TEST_F(SolveProgram, RefusesAFolderThatIsNotThereBeforeItSolves) {
+  expectRefusal(solve({path("block.msh"), "-o", path("nowhere/out.h5")}), "there is no folder");
+}
+TEST_F(SolveProgram, RefusesAnOutputThatItsOwnXdmfWouldReplace) {
+  expectRefusal(solve({path("block.msh"), "-o", path("out.xdmf")}), "--output");
+}
+TEST_F(SolveProgram, RefusesAPatchThatReachesNoNeighbour) {
+  expectRefusal(solve({writeCase("[model]\npatch_radius = 1e-6\n"), "-o", path("out.h5")}),
+                "model.patch_radius = 1e-06 m");
+}
+TEST_F(SolveProgram, RefusesAPatchAsWideAsTheOrgan) {
+  expectRefusal(solve({writeCase("[model]\npatch_radius = 0.5\n"), "-o", path("out.h5")}),
+                "model.patch_radius = 0.5 m");
+}
+TEST_F(SolveProgram, RefusesAnUnknownOption) {
+  expectRefusal(solve({path("block.msh"), "--bogus"}), "--bogus");
+}
+TEST_F(SolveProgram, TakesAPathThatIsNotUtf8) {
+  const std::string odd = path("caf\xe9.msh");
+  fs::copy(folder_ / "block.msh", odd);
+  const ProgramResult result = solve({odd, "-o", path("caf\xe9.h5"), "-q", "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+}  // namespace
+}  // namespace palpate

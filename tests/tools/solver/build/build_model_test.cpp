@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/build/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+#include "core/model/field_evaluation.h"
+#include "core/model/meta_model.h"
+#include "core/response/patch_response.h"
+#include "core/response/response.h"
+#include "palpate/testing/files.h"
+#include "tools/mesh/box_mesh.h"
+#include "tools/modelfile/write_model.h"
+#include "tools/solver/fem/newton.h"
+
+namespace palpate::solver {
+namespace {
+
+/// A block held at x = 0, solved once, loaded as the server loads it.
+class SolvedBlock : public ::testing::Test {
+ protected:
+  struct World {
+    World() : organ(mesh::makeBox(Vec3(0.06, 0.05, 0.04), {9, 8, 7})) {
+      c.mesh = "block";
+      c.patch_radius = 0.009;
+      c.modes = 120;
+      c.near_radius = 0.018;
+      for (std::int32_t node = 0; node < static_cast<std::int32_t>(organ.nodes.size()); ++node)
+        if (organ.nodes[static_cast<std::size_t>(node)].x() < 1e-9) organ.groups["fixed"].push_back(node);
+      BuildReport report;
+      modelfile::ModelData data =
+          buildModel(c, organ, {2, std::filesystem::temp_directory_path(), true}, report);
+      data.attributes.provenance = "{}";
+      modelfile::writeModel(file.path(), data);
+      fe = std::make_unique<FeModel>(organ.nodes, organ.tetrahedra, organ.groups.at("fixed"),
+                                     StVenantKirchhoff{c.E, c.nu});
+      surface = std::make_unique<PatchSurface>(SolverSetup(c, organ).surface);
+    }
+
+    mesh::TetMesh organ;
+    Case c;
+    palpate::testing::TemporaryFile file{"block.h5"};
+    std::unique_ptr<FeModel> fe;
+    std::unique_ptr<PatchSurface> surface;
+  };
+
+  static void SetUpTestSuite() { world_ = std::make_unique<World>(); }
+  static void TearDownTestSuite() { world_.reset(); }
+
+  struct Errors {
+    double force, field;
+  };
+
+  /// Model against Newton with the patch at s.
+  static Errors compare(const MetaModel& model, const ContactPoint& s, const Vec3& d) {
+    ContactPoint contact;
+    contact.triangle = s.triangle;
+    contact.barycentric = s.barycentric;
+    Response response;
+    EXPECT_EQ(respond(model, contact, d, response), ResponseStatus::kOk);
+    FieldScratch scratch(model);
+    std::vector<float> u(3 * world_->surface->nodes.size());
+    evaluateField(model, contact, d, scratch, u);
+    const Patch patch = makePatch(*world_->fe, *world_->surface, s, *world_->c.patch_radius);
+    const NewtonResult truth = NewtonSolver(*world_->fe).solvePatch(patch, d, {});
+    double largest = 0.0;
+    for (std::size_t i = 0; i < world_->surface->nodes.size(); ++i)
+      largest = std::max(largest, (Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * i).cast<double>() -
+                                   truth.u.segment<3>(3 * world_->surface->nodes[i]))
+                                      .norm());
+    return {(response.force - truth.force).norm() / truth.force.norm(), largest / d.norm()};
+  }
+
+  static std::unique_ptr<World> world_;
+};
+
+std::unique_ptr<SolvedBlock::World> SolvedBlock::world_;
+
+TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 8; ++i) {
+    int node = 0;
+    do node = static_cast<int>(random() % world_->surface->nodes.size());
+    while (world_->surface->positions[static_cast<std::size_t>(node)].x() < 0.02);
+    const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
+    const Errors errors = compare(model, world_->surface->atNode(node), d);
+    EXPECT_LT(errors.force, 2e-5);
+    EXPECT_LT(errors.field, 0.02);
+  }
+}
+
+// No point between the nodes was in the fit; there, three patches stand for one.
+TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 8; ++i) {
+    ContactPoint s{0, {0.3, 0.3, 0.4}};
+    do s.triangle = static_cast<int>(random() % world_->surface->triangles.size());
+    while (world_->surface->position(s).x() < 0.02);
+    const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
+    const Errors errors = compare(model, s, d);
+    EXPECT_LT(errors.force, 0.02);
+    EXPECT_LT(errors.field, 0.07);
+  }
+}
+
+// So that what is stored for the tick ends before the clamped nodes (PackedModes).
+TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  const ModelView& view = model.view();
+  bool clamped = false;
+  for (std::size_t i = 0; i < view.surfaceNodes(); ++i) {
+    const bool held = !world_->fe->isFree(view.mesh_surface_node[i]);
+    EXPECT_LE(clamped, held) << "node " << i << " is free behind clamped ones";
+    clamped = held;
+    for (std::size_t mode = 0; held && mode < view.modes(); ++mode)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        ASSERT_EQ(view.modes_X[3 * (mode * view.surfaceNodes() + i) + axis], 0.0F);
+  }
+  EXPECT_TRUE(clamped);
+}
+
+TEST_F(SolvedBlock, HelpersAreNotAccessible) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  int helpers = 0;
+  for (std::size_t p = 0; p < model.view().positions(); ++p) {
+    const auto node = static_cast<std::size_t>(model.view().contact_node[p]);
+    const bool held = world_->surface->positions[node].x() < 1e-9;
+    EXPECT_EQ(model.view().contact_accessible[p] == 0, held);
+    helpers += held ? 1 : 0;
+  }
+  EXPECT_GT(helpers, 0);
+}
+
+TEST_F(SolvedBlock, RefusesAGroupThatIsNotThereAndListsThoseThatAre) {
+  Case c = world_->c;
+  c.fixed = "ligament";
+  BuildReport report;
+  try {
+    (void)buildModel(c, world_->organ, {}, report);
+    FAIL() << "an unknown group was taken";
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"ligament\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("fixed"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace palpate::solver

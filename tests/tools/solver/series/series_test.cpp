@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/series/series.h"
+
+#include <gtest/gtest.h>
+
+#include "../boxes.h"
+#include "tools/solver/fem/newton.h"
+
+namespace palpate::solver {
+namespace {
+
+class BlockSeries : public ::testing::Test {
+ protected:
+  static constexpr int kOrder = 4;
+  const Box box_{6, 5, 4, Vec3(0.06, 0.05, 0.04)};
+
+  struct Case {
+    explicit Case(const Box& box, double E)
+        : model(box.clamped({E, 0.45})), surface(box.surface(model)), factor(model) {
+      factor.factorize(Eigen::VectorXd::Zero(3 * model.nodeCount()));
+      for (const int node : {box.node(4, 2, 4), box.node(6, 3, 2), box.node(3, 5, 2)}) {
+        const auto at = std::find(surface.nodes.begin(), surface.nodes.end(), node) - surface.nodes.begin();
+        patches.push_back(makePatch(model, surface, surface.atNode(static_cast<int>(at)), 0.012));
+      }
+    }
+    FeModel model;
+    PatchSurface surface;
+    Cholesky factor;
+    std::vector<Patch> patches;
+  };
+
+  static Eigen::VectorXd field(const SeriesSolver& series, int lane, const Vec3& d, const FeModel& model) {
+    std::vector<double> value(static_cast<std::size_t>(series.basis().size()));
+    series.basis().evaluate(d, value);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * model.nodeCount());
+    for (int node = 0; node < model.nodeCount(); ++node)
+      for (int k = 0; k < series.basis().size(); ++k)
+        u.segment<3>(3 * node) += value[static_cast<std::size_t>(k)] * series.displacement(lane, k, node);
+    return u;
+  }
+
+  static Vec3 force(const SeriesSolver& series, int lane, const Vec3& d) {
+    std::vector<double> value(static_cast<std::size_t>(series.answerBasis().size()));
+    series.answerBasis().evaluate(d, value);
+    Vec3 f = Vec3::Zero();
+    for (int k = 0; k < series.answerBasis().size(); ++k)
+      f += value[static_cast<std::size_t>(k)] * series.answer(lane, k);
+    return f;
+  }
+};
+
+TEST_F(BlockSeries, AgreesWithNewtonToItsOrder) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, kOrder);
+  series.solve(c.patches);
+  NewtonSolver newton(c.model);
+  const Vec3 direction = Vec3(0.3, -0.5, -0.8).normalized();
+  for (int lane = 0; lane < 3; ++lane) {
+    std::array<double, 2> force_error{}, field_error{};
+    for (std::size_t half = 0; half < 2; ++half) {
+      const Vec3 d = (half == 0 ? 4e-3 : 2e-3) * direction;
+      const NewtonResult truth = newton.solvePatch(c.patches[static_cast<std::size_t>(lane)], d, {});
+      force_error[half] = (force(series, lane, d) - truth.force).norm() / truth.force.norm();
+      field_error[half] = (field(series, lane, d, c.model) - truth.u).cwiseAbs().maxCoeff() / d.norm();
+    }
+    EXPECT_LT(field_error[0], 5e-3);
+    EXPECT_LT(force_error[0], 1e-3);
+    // The relative error of a series of degree p falls with d^p; halving d, by 2^4 for the field, 2^6 for the
+    // force.
+    EXPECT_LT(field_error[1], field_error[0] / 12.0);
+    EXPECT_LT(force_error[1], force_error[0] / 40.0);
+  }
+}
+
+TEST_F(BlockSeries, FieldsOfDegree3GiveTheForceToDegree6) {
+  Case c(box_, 160e3);
+  SeriesSolver low(c.model, c.factor, 3), high(c.model, c.factor, 6);
+  low.solve(c.patches);
+  high.solve(c.patches);
+  ASSERT_EQ(low.answerBasis().order(), 6);
+  ASSERT_EQ(high.answerBasis().order(), 6);
+  for (int lane = 0; lane < 3; ++lane)
+    for (int degree = 1; degree <= 6; ++degree) {
+      double scale = 0.0, worst = 0.0;
+      for (int k = low.answerBasis().begin(degree); k < low.answerBasis().begin(degree + 1); ++k) {
+        scale = std::max(scale, high.answer(lane, k).norm());
+        worst = std::max(worst, (low.answer(lane, k) - high.answer(lane, k)).norm());
+      }
+      EXPECT_LT(worst, 1e-9 * scale) << "degree " << degree;
+    }
+}
+
+TEST_F(BlockSeries, PatchMovesByExactlyD) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, kOrder);
+  series.solve(c.patches);
+  for (int k = 0; k < series.basis().size(); ++k) {
+    Eigen::VectorXd u(3 * c.model.nodeCount());
+    for (int node = 0; node < c.model.nodeCount(); ++node)
+      u.segment<3>(3 * node) = series.displacement(1, k, node);
+    const Vec3 expected = k < 3 ? Vec3(Vec3::Unit(k)) : Vec3(Vec3::Zero());
+    EXPECT_LT((c.patches[1].average(u) - expected).norm(), 1e-10 * std::max(1.0, u.cwiseAbs().maxCoeff()))
+        << k;
+  }
+}
+
+TEST_F(BlockSeries, ForceIsGradientOfEnergy) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, kOrder);
+  series.solve(c.patches);
+  const MonomialBasis& basis = series.answerBasis();
+  for (int lane = 0; lane < 3; ++lane)
+    for (int k = 0; k < basis.size(); ++k)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < i; ++j) {
+          // d f_i / d d_j = d f_j / d d_i, coefficient of d^gamma with gamma = alpha_k - e_i.
+          MultiIndex gamma = basis[k];
+          if (gamma[static_cast<std::size_t>(i)] == 0) continue;
+          --gamma[static_cast<std::size_t>(i)];
+          MultiIndex with_j = gamma;
+          ++with_j[static_cast<std::size_t>(j)];
+          const int l = basis.find(with_j);
+          const double left = (gamma[static_cast<std::size_t>(i)] + 1) * series.answer(lane, k)[j];
+          const double right = (gamma[static_cast<std::size_t>(j)] + 1) * series.answer(lane, l)[i];
+          double scale = 0.0;
+          for (int m = basis.begin(gamma[0] + gamma[1] + gamma[2] + 1);
+               m < basis.begin(gamma[0] + gamma[1] + gamma[2] + 2); ++m)
+            scale = std::max(scale, series.answer(lane, m).norm());
+          EXPECT_NEAR(left, right, 1e-9 * scale);
+        }
+}
+
+TEST_F(BlockSeries, DisplacementDoesNotDependOnYoungsModulusAndForceIsProportional) {
+  Case soft(box_, 2e3), stiff(box_, 160e3);
+  SeriesSolver a(soft.model, soft.factor, kOrder), b(stiff.model, stiff.factor, kOrder);
+  a.solve(soft.patches);
+  b.solve(stiff.patches);
+  for (int k = 0; k < a.basis().size(); ++k) {
+    EXPECT_LT((80.0 * a.answer(0, k) - b.answer(0, k)).norm(), 1e-9 * b.answer(0, k).norm());
+    const int node = box_.node(5, 3, 4);
+    EXPECT_LT((a.displacement(0, k, node) - b.displacement(0, k, node)).norm(),
+              1e-9 * (1.0 + b.displacement(0, k, node).norm()));
+  }
+}
+
+TEST_F(BlockSeries, ForceErrorInsideTheDomainIsSmall) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, 3);
+  series.solve(c.patches);
+  const std::vector<double> radii = series.domainRadii({});
+  ASSERT_EQ(radii.size(), 3U);
+  NewtonSolver newton(c.model);
+  for (int lane = 0; lane < 3; ++lane) {
+    const double radius = radii[static_cast<std::size_t>(lane)];
+    EXPECT_GT(radius, 1e-3);
+    EXPECT_LT(radius, 0.05);
+    const Vec3 d = radius * Vec3(-0.6, 0.0, -0.8);
+    const NewtonResult truth = newton.solvePatch(c.patches[static_cast<std::size_t>(lane)], d, {});
+    EXPECT_LT((force(series, lane, d) - truth.force).norm(), 0.01 * truth.force.norm());
+    EXPECT_GE(c.model.minDetF(truth.u), 0.25);
+  }
+}
+
+TEST_F(BlockSeries, DomainShrinksAsTheLimitOnDetFRises) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, 3);
+  series.solve(c.patches);
+  DomainCriteria loose;
+  loose.answer_error = 1e9;
+  DomainCriteria tight = loose;
+  tight.min_det_f = 0.9;
+  const double wide = series.domainRadii(loose)[0];
+  const double narrow = series.domainRadii(tight)[0];
+  EXPECT_LT(narrow, 0.7 * wide);
+  double worst = 1.0;
+  for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0)})
+    worst = std::min(worst, c.model.minDetF(field(series, 0, narrow * direction, c.model)));
+  EXPECT_GE(worst, 0.9 - 1e-6);
+}
+
+/// sum over k of value[k] c(k), c(k) in R^3.
+template <typename Coefficient>
+Vec3 sum(const MonomialBasis& basis, const Vec3& x, Coefficient c) {
+  std::vector<double> value(static_cast<std::size_t>(basis.size()));
+  basis.evaluate(x, value);
+  Vec3 total = Vec3::Zero();
+  for (int k = 0; k < basis.size(); ++k) total += value[static_cast<std::size_t>(k)] * c(k);
+  return total;
+}
+
+TEST_F(BlockSeries, DrivenByForceAgreesWithNewtonUnderDeadLoadToItsOrder) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, 3, SeriesKind::kForce);
+  series.solve(c.patches);
+  NewtonSolver newton(c.model);
+  for (int lane = 0; lane < 3; ++lane) {
+    std::array<double, 2> answer_error{}, field_error{};
+    for (std::size_t half = 0; half < 2; ++half) {
+      const double size = (half == 0 ? 4e-3 : 2e-3) / series.answer(lane, 2).norm();
+      const Vec3 f = size * Vec3(0.3, -0.5, -0.8).normalized();
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * c.model.nodeCount());
+      const Patch& patch = c.patches[static_cast<std::size_t>(lane)];
+      patch.addForce(f, load);
+      const NewtonResult truth = newton.solveLoad(load, {});
+      const Vec3 d = patch.average(truth.u);
+      field_error[half] =
+          (field(series, lane, f, c.model) - truth.u).cwiseAbs().maxCoeff() / truth.u.cwiseAbs().maxCoeff();
+      const Vec3 answer = sum(series.answerBasis(), f, [&](int k) { return series.answer(lane, k); });
+      answer_error[half] = (answer - d).norm() / d.norm();
+    }
+    EXPECT_LT(field_error[0], 2e-2);
+    // Relative errors fall with f^3 in the field, f^6 in the displacement of the patch.
+    EXPECT_LT(field_error[1], field_error[0] / 6.5);
+    EXPECT_GT(field_error[1], field_error[0] / 11.0);
+    EXPECT_LT(answer_error[1], answer_error[0] / 40.0);
+  }
+}
+
+TEST_F(BlockSeries, DisplacementsOfAForceSeriesArePatchAveragesAndFieldsOfDegree3GiveThemToDegree6) {
+  Case c(box_, 160e3);
+  SeriesSolver low(c.model, c.factor, 3, SeriesKind::kForce), high(c.model, c.factor, 6, SeriesKind::kForce);
+  low.solve(c.patches);
+  high.solve(c.patches);
+  for (int degree = 1; degree <= 6; ++degree) {
+    double scale = 0.0, worst = 0.0;
+    for (int k = low.answerBasis().begin(degree); k < low.answerBasis().begin(degree + 1); ++k) {
+      Eigen::VectorXd u(3 * c.model.nodeCount());
+      for (int node = 0; node < c.model.nodeCount(); ++node)
+        u.segment<3>(3 * node) = high.displacement(1, k, node);
+      const Vec3 average = c.patches[1].average(u);
+      scale = std::max(scale, average.norm());
+      worst = std::max({worst, (low.answer(1, k) - average).norm(), (high.answer(1, k) - average).norm()});
+    }
+    EXPECT_LT(worst, 1e-9 * scale) << "degree " << degree;
+  }
+}
+
+// f(d(t f)) = t f: as truncated power series in t, every coefficient beyond the first vanishes.
+TEST_F(BlockSeries, DrivenByForceAndByDisplacementAreInverseToEachOther) {
+  constexpr int kDegree = 6;
+  Case c(box_, 160e3);
+  SeriesSolver by_d(c.model, c.factor, 3), by_f(c.model, c.factor, 3, SeriesKind::kForce);
+  by_d.solve(c.patches);
+  by_f.solve(c.patches);
+  for (int lane = 0; lane < 3; ++lane)
+    for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0.6, 0.0, 0.8), Vec3(0.48, -0.6, 0.64)}) {
+      const double f_ref = 0.002 / by_f.answer(lane, 2).norm();
+      std::array<Vec3, kDegree + 1> d{}, f{};  // truncated power series in t, d(t) = d(t f_ref direction)
+      d.fill(Vec3::Zero());
+      for (int k = 0; k < by_f.answerBasis().size(); ++k) {
+        const MultiIndex& a = by_f.answerBasis()[k];
+        const Vec3 x = f_ref * direction;
+        d[static_cast<std::size_t>(a[0] + a[1] + a[2])] +=
+            std::pow(x[0], a[0]) * std::pow(x[1], a[1]) * std::pow(x[2], a[2]) * by_f.answer(lane, k);
+      }
+      f.fill(Vec3::Zero());
+      for (int k = 0; k < by_d.answerBasis().size(); ++k) {
+        std::array<double, kDegree + 1> monomial{1.0};  // d_x^a d_y^b d_z^c as a series in t
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          for (int power = 0; power < by_d.answerBasis()[k][axis]; ++power) {
+            std::array<double, kDegree + 1> product{};
+            for (std::size_t i = 0; i <= kDegree; ++i)
+              for (std::size_t j = 0; i + j <= kDegree; ++j)
+                product[i + j] += monomial[i] * d[j][static_cast<Eigen::Index>(axis)];
+            monomial = product;
+          }
+        for (std::size_t i = 0; i <= kDegree; ++i) f[i] += monomial[i] * by_d.answer(lane, k);
+      }
+      EXPECT_LT((f[1] - f_ref * direction).norm(), 1e-10 * f_ref);
+      for (std::size_t degree = 2; degree <= kDegree; ++degree)
+        EXPECT_LT(f[degree].norm(), 1e-9 * f_ref) << "degree " << degree;
+    }
+}
+
+TEST_F(BlockSeries, PatchGoesWhereTheForceSeriesSaysInsideItsDomain) {
+  Case c(box_, 160e3);
+  SeriesSolver series(c.model, c.factor, 3, SeriesKind::kForce);
+  series.solve(c.patches);
+  const std::vector<double> radii = series.domainRadii({});
+  for (int lane = 0; lane < 3; ++lane) {
+    const Patch& patch = c.patches[static_cast<std::size_t>(lane)];
+    EXPECT_GT(radii[static_cast<std::size_t>(lane)], 0.01);
+    const Vec3 f = radii[static_cast<std::size_t>(lane)] * Vec3(-0.6, 0.0, -0.8);
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * c.model.nodeCount());
+    patch.addForce(f, load);
+    const NewtonResult truth = NewtonSolver(c.model).solveLoad(load, {});
+    const Vec3 d = patch.average(truth.u);
+    const Vec3 kept = sum(series.basis(), f, [&](int k) { return series.answer(lane, k); });
+    EXPECT_LT((kept - d).norm(), 0.012 * d.norm());
+    EXPECT_GE(c.model.minDetF(truth.u), 0.25);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::solver

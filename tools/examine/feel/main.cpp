@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-feel: what a hand feels of a model, computed without hardware, threads and clocks.
+#include "tools/examine/feel/studies.h"
+#include "tools/program/command_line.h"
+#include "tools/program/run.h"
+
+namespace palpate::feel {
+namespace {
+
+void addModel(program::Options& command, Study& study) {
+  command.add("model", &study.model, "model file (.h5)").required();
+  command.add("--seed", &study.seed, "of the random places and paths");
+  command.flag("--json", &study.json, "print one JSON object on standard output");
+}
+
+int body(int argc, char** argv) {
+  program::CommandLine line("palpate-feel",
+                            "Computes what a hand feels of a model: closed loops, slides, and a device in "
+                            "closed loop, through step().");
+  Study study;
+  program::Options loops = line.options().subcommand(
+      "loops", "closed paths: does the organ ever return more energy than it received?");
+  program::Options slides =
+      line.options().subcommand("slides", "random smooth slides: does the force click?");
+  program::Options coupling =
+      line.options().subcommand("coupling", "a device in a hand presses: up to which coupling is it stable?");
+  for (program::Options* command : {&loops, &slides, &coupling}) addModel(*command, study);
+  loops.add("--loops", &study.count, "number of loops of each kind").range(1, 100000);
+  slides.add("--paths", &study.paths, "number of slides").range(1, 100000);
+  for (program::Options* command : {&loops, &slides})
+    command->add("--depth", &study.depth, "of the tip below the surface, m");
+  slides.add("--speed", &study.speed, "m/s");
+  coupling.flag("--no-device-friction", &study.frictionless,
+                "without the device's Coulomb friction, which hides small instabilities");
+  if (!line.read(argc, argv)) return 0;
+  if (loops.chosen()) return runLoops(study);
+  if (slides.chosen()) return runSlides(study);
+  return runCoupling(study);
+}
+
+}  // namespace
+}  // namespace palpate::feel
+
+int main(int argc, char** argv) {
+  return palpate::program::runProgram("palpate-feel", &palpate::feel::body, argc, argv);
+}

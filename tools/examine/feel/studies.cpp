@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/examine/feel/studies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "tools/examine/feel/loops.h"
+#include "tools/examine/feel/slides.h"
+#include "tools/examine/feel/stability.h"
+#include "tools/program/json.h"
+
+namespace palpate::feel {
+
+namespace {
+
+using program::Json;
+
+constexpr std::array kFrictions{0.0, 0.05, 0.3};
+
+void print(const Json& rows, bool json) {
+  if (json) {
+    std::cout << rows.dump(2, program::Keys::kAsWritten) << '\n';
+    return;
+  }
+  if (rows.empty()) return;
+  for (const auto& item : rows.front().members()) std::cout << item.key << '\t';
+  std::cout << '\n';
+  for (const Json& row : rows) {
+    for (const auto& item : row.members()) std::cout << item.value << '\t';
+    std::cout << '\n';
+  }
+}
+
+/// Leaves out, and counts, the loops with a fixed anchor in which the tool was released on the way.
+Json rowOf(const char* kind, double friction, std::vector<LoopResult> loops) {
+  int releases = 0;
+  for (const LoopResult& loop : loops) releases += loop.releases > 0 ? 1 : 0;
+  const std::size_t count = loops.size();
+  if (std::isinf(friction)) std::erase_if(loops, [](const LoopResult& loop) { return loop.releases > 0; });
+  if (loops.empty())
+    return {{"loops", kind},
+            {"friction", friction},
+            {"count", count},
+            {"least_work_share", nullptr},
+            {"largest_work_share", nullptr},
+            {"with_release", releases}};
+  const auto [least, most] = std::minmax_element(
+      loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.share() < b.share(); });
+  return {{"loops", kind},
+          {"friction", friction},
+          {"count", count},
+          {"least_work_share", least->share()},
+          {"largest_work_share", most->share()},
+          {"with_release", releases}};
+}
+
+Json rowOf(double friction, const std::vector<SlideResult>& slides) {
+  const auto worst = std::max_element(slides.begin(), slides.end(), [](const auto& a, const auto& b) {
+    return a.largest_ratio < b.largest_ratio;
+  });
+  double lag = 0.0;
+  int clicks = 0, later = 0, jumps = 0, releases = 0;
+  for (const SlideResult& slide : slides) {
+    lag = std::max(lag, slide.largest_lag);
+    clicks += slide.largest_ratio > 1.0 ? 1 : 0;
+    later += slide.largest_ratio_later > 1.0 ? 1 : 0;
+    jumps += slide.largest_slow_step > 0.5 * slide.largest_step ? 1 : 0;
+    releases += slide.releases > 0 ? 1 : 0;
+  }
+  return {{"friction", friction},
+          {"count", slides.size()},
+          {"clicks", clicks},
+          {"clicks_after_3_mm", later},
+          {"jumps", jumps},
+          {"worst_step_share", worst->largest_ratio},
+          {"worst_step_N", worst->largest_step},
+          {"worst_median_step_N", worst->median_step},
+          {"worst_mean_force_N", worst->mean_force},
+          {"worst_lag", lag},
+          {"with_release", releases}};
+}
+
+/// The place with the median normal stiffness of 99 random places.
+ContactPoint ordinaryPlace(const MetaModel& model, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::pair<double, ContactPoint>> places;
+  for (int i = 0; i < 99; ++i) {
+    const ContactPoint s = randomContact(model, random);
+    places.emplace_back(normalStiffness(model, s), s);
+  }
+  std::nth_element(places.begin(), places.begin() + 49, places.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  return places[49].second;
+}
+
+}  // namespace
+
+int runLoops(const Study& study) {
+  const MetaModel model = MetaModel::load(study.model);
+  const LoopOptions options{study.count, 1e-3, study.seed};
+  Json rows = Json::array();
+  rows.push_back(rowOf("held", INFINITY, heldLoops(model, options)));
+  for (const double friction : kFrictions)
+    rows.push_back(rowOf("sliding", friction, slidingLoops(model, options, study.depth, friction)));
+  print(rows, study.json);
+  return 0;
+}
+
+int runSlides(const Study& study) {
+  const MetaModel model = MetaModel::load(study.model);
+  Json rows = Json::array();
+  for (const double friction : kFrictions) {
+    SlideOptions options;
+    options.paths = study.paths;
+    options.depth = study.depth;
+    options.speed = study.speed;
+    options.seed = study.seed;
+    options.friction = friction;
+    rows.push_back(rowOf(friction, slides(model, options)));
+  }
+  print(rows, study.json);
+  return 0;
+}
+
+int runCoupling(const Study& study) {
+  constexpr std::array kModuli{5e3, 20e3, 160e3, 1e6};  // Pa
+  constexpr std::array kHands{device::Hand{0.02, 0.5, 50.0}, device::Hand{0.1, 2.0, 200.0},
+                              device::Hand{0.2, 5.0, 500.0}};
+  const MetaModel model = MetaModel::load(study.model);
+  const ContactPoint s = ordinaryPlace(model, study.seed);
+  Json rows = Json::array();
+  for (const DevicePreset& preset : devicePresets())
+    for (const double E : kModuli)
+      for (const device::Hand& hand : kHands) {
+        const StabilityResult result = stability(model, {preset, E, hand, s, !study.frictionless});
+        rows.push_back({{"preset", preset.name},
+                        {"E_Pa", E},
+                        {"hand_N_per_m", hand.stiffness},
+                        {"default_N_per_m", preset.coupling_stiffness},
+                        {"largest_stable_N_per_m", result.largest_stable},
+                        {"stable", result.at_default.stable},
+                        {"oscillation_pp_m", result.at_default.oscillation_pp},
+                        {"max_force_N", result.at_default.max_force}});
+        if (!study.json) std::cerr << rows.back() << '\n';
+      }
+  print(rows, study.json);
+  return 0;
+}
+
+}  // namespace palpate::feel

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/examine/inspect/describe.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <vector>
+
+#include "tools/modelfile/quantile.h"
+
+namespace palpate::inspect {
+
+namespace {
+
+using program::Json;
+
+template <typename... T>
+std::size_t bytesOf(std::span<const T>... parts) {
+  return (parts.size_bytes() + ...);
+}
+
+Json bytesOfParts(const ModelView& v) {
+  Json bytes;
+  bytes["surface"] =
+      bytesOf(v.surface_positions, v.surface_triangles, v.surface_mesh_tag, v.position_of_node);
+  bytes["contact_response"] = bytesOf(v.contact_node, v.contact_accessible, v.contact_force,
+                                      v.contact_displacement, v.contact_domain_radius, v.levels_Z);
+  bytes["far_field"] = bytesOf(v.modes_X, v.modes_packed.X16, v.modes_packed.X8, v.modes_packed.scale,
+                               v.modes_packed.kinds, v.modes_Y);
+  bytes["near_field"] = bytesOf(v.near_offset, v.near_node, v.near_field);
+  bytes["mesh"] = bytesOf(v.mesh_nodes, v.mesh_tetrahedra, v.mesh_node_tag, v.mesh_tetrahedron_tag,
+                          v.mesh_fixed, v.mesh_surface_node);
+  return bytes;
+}
+
+/// Quantiles of /contact/domain_radius over the accessible positions: m, N, or a level.
+Json radii(const ModelView& v) {
+  std::vector<double> values;
+  for (std::size_t m = 0; m < v.positions(); ++m)
+    if (v.contact_accessible[m] != 0) values.push_back(v.contact_domain_radius[m]);
+  if (values.empty()) return nullptr;
+  std::sort(values.begin(), values.end());
+  return {{"min", values.front()},
+          {"p05", modelfile::quantile(values, 0.05)},
+          {"median", modelfile::quantile(values, 0.5)},
+          {"max", values.back()}};
+}
+
+/// What the model is trusted for, and the load of the load-driven kinds.
+void describeDomain(const MetaModel& model, Json& out) {
+  const ModelView& v = model.view();
+  const ModelAttributes& a = model.attributes();
+  out["domain_radius"] = a.parameters == Parameters::kDisplacement ? radii(v) : Json(nullptr);
+  if (a.parameters == Parameters::kForce) {
+    out["reference_force"] = a.reference_force;
+    out["force_radius"] = radii(v);
+  }
+  if (a.parameters != Parameters::kLevel) return;
+  out["level_radius"] = radii(v);
+  out["load"] = {{"size", a.load},
+                 {"direction", a.load_direction},
+                 {"level_functions", v.level_functions},
+                 {"level_steps", model.functions().levelSteps()}};
+}
+
+Json provenanceOf(const std::string& text) {
+  if (auto parsed = Json::read(text); parsed && parsed->isObject()) return *std::move(parsed);
+  return {{"text", text}};
+}
+
+std::string valueText(const Json& value) {
+  return value.isString() ? value.text() : value.dump(-1, program::Keys::kAsWritten);
+}
+
+}  // namespace
+
+Json describe(const MetaModel& model) {
+  const ModelView& v = model.view();
+  const ModelAttributes& a = model.attributes();
+  Json out;
+  out["model_id"] = model.id();
+  out["digest"] = {{"sha256", model.digest().hex()},
+                   {"verified", true}};  // else it would not have been loaded
+  out["parameters"] = toString(a.parameters);
+  out["nodes"] = v.mesh_node_tag.size();
+  out["tetrahedra"] = v.mesh_tetrahedron_tag.size();
+  out["surface_nodes"] = v.surfaceNodes();
+  out["surface_triangles"] = v.triangles();
+  out["accessible_nodes"] = std::count(v.contact_accessible.begin(), v.contact_accessible.end(), 1);
+  out["contact_positions"] = v.positions();
+  out["modes"] = v.modes();
+  const bool polynomial = a.parameters != Parameters::kLevel;
+  out["order"] = polynomial ? Json(a.order) : Json(nullptr);
+  out["force_order"] = polynomial ? Json(a.force_order) : Json(nullptr);
+  out["coefficients"] = model.functions().size();
+  out["patch_radius"] = a.patch_radius;
+  out["near_radius"] = a.near_radius;
+  out["near_nodes_mean"] = static_cast<double>(v.near_node.size()) / static_cast<double>(v.positions());
+  out["reference_displacement"] = a.reference_displacement;
+  describeDomain(model, out);
+  out["material"] = {{"law", a.law}, {"E", a.E}, {"nu", a.nu}};
+  out["file_bytes"] = model.bytes();
+  out["bytes"] = bytesOfParts(v);
+  out["provenance"] = provenanceOf(a.provenance);
+  return out;
+}
+
+std::string table(const Json& description) {
+  std::ostringstream out;
+  for (const auto& [key, value] : description.members()) {
+    if (!value.isObject()) {
+      out << std::left << std::setw(26) << key << valueText(value) << '\n';
+      continue;
+    }
+    for (const auto& [inner, number] : value.members())
+      out << std::left << std::setw(26) << (key + "." + inner) << valueText(number) << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace palpate::inspect

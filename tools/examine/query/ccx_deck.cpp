@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/examine/query/ccx_deck.h"
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <sstream>
+
+#include "tools/examine/query/query_error.h"
+
+namespace palpate::query {
+
+namespace {
+
+constexpr std::size_t kFieldWidth = 20;      // CalculiX cuts what is longer
+constexpr std::size_t kEntriesPerLine = 16;  // and takes no more in one line
+
+/// Each function appends one section of the deck.
+class Deck {
+ public:
+  Deck(const Organ& organ, const FullSolution& solution) : organ_(organ), solution_(solution) {}
+
+  void heading(const std::string& about) {
+    out_ << "*HEADING\npalpate, SI units\n** ";
+    // A comment ends with its line.
+    for (const char c : about.substr(0, 100)) out_ << (c >= ' ' && c <= '~' ? c : '?');
+    out_ << '\n';
+  }
+  void nodes() {
+    out_ << "*NODE,NSET=ALL\n";
+    for (std::size_t i = 0; i < organ_.mesh.node_tag.size(); ++i) {
+      out_ << checked("node", organ_.mesh.node_tag[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) out_ << ',' << ccxNumber(organ_.mesh.nodes[3 * i + axis]);
+      out_ << '\n';
+    }
+  }
+  void elements() {
+    out_ << "*ELEMENT,TYPE=C3D4,ELSET=BODY\n";
+    for (std::size_t e = 0; e < organ_.mesh.tetrahedron_tag.size(); ++e) {
+      out_ << checked("tetrahedron", organ_.mesh.tetrahedron_tag[e]);
+      for (std::size_t k = 0; k < 4; ++k) out_ << ',' << number(organ_.mesh.tetrahedra[4 * e + k]);
+      out_ << '\n';
+    }
+  }
+  void material() {
+    const solver::StVenantKirchhoff& law = organ_.body.material();
+    out_ << "*MATERIAL,NAME=ORGAN\n*ELASTIC\n" << ccxNumber(law.E) << ',' << ccxNumber(law.nu);
+    out_ << "\n*SOLID SECTION,ELSET=BODY,MATERIAL=ORGAN\n";
+  }
+  void supports() {
+    if (organ_.mesh.fixed.empty()) return;
+    out_ << "*NSET,NSET=HELD";
+    for (std::size_t i = 0; i < organ_.mesh.fixed.size(); ++i)
+      out_ << (i % kEntriesPerLine == 0 ? '\n' : ',') << number(organ_.mesh.fixed[i]);
+    out_ << "\n*BOUNDARY\nHELD,1,3\n";
+  }
+  /// Residual and correction down to 1e-9 of the average force and of the largest displacement increment,
+  /// also after many iterations, where CalculiX by default lets go.
+  void step(int steps) {
+    out_ << "*STEP,NLGEOM,INC=1000\n*STATIC\n" << ccxNumber(1.0 / steps) << ",1.,1.e-6\n";
+    out_ << "*CONTROLS,PARAMETERS=FIELD\n1.e-9,1.e-9,,,1.e-9\n";
+    loads();
+    out_ << "*NODE PRINT,NSET=ALL,FREQUENCY=1000\nU\n*END STEP\n";
+  }
+  [[nodiscard]] std::string text() const { return out_.str(); }
+
+ private:
+  void loads() {
+    out_ << "*CLOAD\n";
+    for (std::size_t i = 0; i < solution_.patch.nodes.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        out_ << number(solution_.patch.nodes[i]) << ',' << axis + 1 << ','
+             << ccxNumber(solution_.patch.weights[i] * solution_.state.force[axis]) << '\n';
+  }
+  [[nodiscard]] std::int64_t number(std::int32_t node) const {
+    return organ_.mesh.node_tag[static_cast<std::size_t>(node)];
+  }
+  static std::int64_t checked(const char* what, std::int64_t tag) {
+    constexpr std::int64_t kLargest = 999'999'999;  // CalculiX reads ten characters
+    if (tag >= 1 && tag <= kLargest) return tag;
+    throw QueryError(std::string("CalculiX takes the numbers 1 to 999999999, but the mesh has a ") + what +
+                     " " + std::to_string(tag));
+  }
+
+  const Organ& organ_;
+  const FullSolution& solution_;
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+std::string ccxNumber(double value) {
+  std::array<char, 64> text{};
+  for (int precision = 17;; --precision) {
+    const auto result =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, precision);
+    const auto length = static_cast<std::size_t>(result.ptr - text.data());
+    if (length <= kFieldWidth || precision == 1) return {text.data(), length};
+  }
+}
+
+std::string ccxDeck(const Organ& organ, const FullSolution& solution, const std::string& about, int steps) {
+  Deck deck(organ, solution);
+  deck.heading(about);
+  deck.nodes();
+  deck.elements();
+  deck.material();
+  deck.supports();
+  deck.step(steps);
+  return deck.text();
+}
+
+}  // namespace palpate::query

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-replay: runs a recorded session through the engine again, and says whether it gives the same bits.
+#include <iostream>
+
+#include "tools/examine/replay/replay.h"
+#include "tools/program/command_line.h"
+#include "tools/program/json.h"
+#include "tools/program/run.h"
+
+namespace palpate::replay {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string model;
+  bool partial{false};
+  bool json{false};
+};
+
+void addOptions(program::Options line, Options& options) {
+  line.add("FILE", &options.file, "recording of palpate-server --record").required();
+  line.add("--model", &options.model, "the model file that the session ran on").required().valueName("FILE");
+  line.flag("--partial", &options.partial, "replay what is there, although ticks or the end are missing");
+  line.flag("--json", &options.json, "print one JSON object on standard output");
+}
+
+program::Json jsonOf(const Findings& findings, const record::SessionFacts& facts) {
+  program::Json first;
+  if (findings.first) {
+    first = {{"tick", findings.first->tick},
+             {"tool", findings.first->tool},
+             {"field", findings.first->field},
+             {"recorded", findings.first->recorded},
+             {"replayed", findings.first->replayed}};
+  }
+  return {{"identical", findings.differing == 0},
+          {"ticks", findings.ticks},
+          {"seconds", findings.seconds},
+          {"missing", findings.missing},
+          {"truncated", findings.truncated},
+          {"differing_ticks", findings.differing},
+          {"first_difference", first},
+          {"largest_force_N", findings.largest_force},
+          {"model_id", facts.model.id()}};
+}
+
+void print(const Findings& findings) {
+  std::cout << findings.ticks << " ticks, " << findings.seconds << " s, largest force "
+            << findings.largest_force << " N\n";
+  if (findings.missing > 0)
+    std::cout << findings.missing << " ticks are missing: compared from another state\n";
+  if (findings.truncated) std::cout << "the recording has no end: compared as far as it goes\n";
+  if (findings.differing == 0) {
+    std::cout << "identical, bit for bit\n";
+    return;
+  }
+  const Difference& first = *findings.first;
+  std::cout.precision(17);
+  std::cout << findings.differing << " ticks differ, first tick " << first.tick << ", tool " << first.tool
+            << ", " << first.field << ": recorded " << first.recorded << ", replayed " << first.replayed
+            << "\n";
+}
+
+int body(int argc, char** argv) {
+  // 1. What to replay.
+  program::CommandLine line(
+      "palpate-replay",
+      "Runs a recorded session through the engine again and compares the answers bit for bit.",
+      std::string("palpate-replay ") + PALPATE_VERSION);
+  Options options;
+  addOptions(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
+  // 2. The recording and its model.
+  record::RecordReader recording(options.file);
+  const MetaModel model = MetaModel::load(options.model);
+  // 3. All its ticks.
+  const Findings findings = replay(recording, model, options.partial ? Demand::kPartial : Demand::kWhole);
+  // 4. Tell.
+  if (options.json) {
+    std::cout << jsonOf(findings, recording.facts()).dump(2) << '\n';
+  } else {
+    print(findings);
+  }
+  return findings.differing == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace palpate::replay
+
+int main(int argc, char** argv) {
+  return palpate::program::runProgram("palpate-replay", &palpate::replay::body, argc, argv);
+}

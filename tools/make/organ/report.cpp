@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/make/organ/report.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace palpate::organ {
+namespace {
+
+std::size_t groupSize(const mesh::TetMesh& mesh, const std::string& name) {
+  const auto found = mesh.groups.find(name);
+  return found == mesh.groups.end() ? 0 : found->second.size();
+}
+
+std::string inWords(const Eigen::Vector3d& x) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%.4f %.4f %.4f", x.x(), x.y(), x.z());
+  return text;
+}
+
+}  // namespace
+
+Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary,
+                  std::vector<std::string> notes) {
+  Report report{file, mesh::statisticsOf(mesh, boundary), groupSize(mesh, "fixed"),
+                groupSize(mesh, "accessible"), std::move(notes)};
+  const double largest = (report.statistics.box_max - report.statistics.box_min).maxCoeff();
+  if (largest < 0.01 || largest > 1) {
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "the largest dimension is %.4g m, implausible for an organ: is --scale right?", largest);
+    report.notes.emplace_back(text);
+  }
+  return report;
+}
+
+program::Json toJson(const Report& report) {
+  const auto& s = report.statistics;
+  return {{"file", report.file},
+          {"nodes", s.nodes},
+          {"tetrahedra", s.tetrahedra},
+          {"surface_nodes", s.surface_nodes},
+          {"surface_triangles", s.surface_triangles},
+          {"fixed_nodes", report.fixed_nodes},
+          {"accessible_nodes", report.accessible_nodes},
+          {"bounding_box", {{"min", s.box_min}, {"max", s.box_max}}},
+          {"volume", s.volume},
+          {"worst_quality", s.worst_quality},
+          {"worst_tetrahedron", s.worst_tetrahedron},
+          {"mean_edge", s.mean_edge},
+          {"median_surface_edge", s.median_surface_edge},
+          {"warnings", report.notes}};
+}
+
+void print(std::ostream& out, const Report& report) {
+  const auto& s = report.statistics;
+  char line[200];
+  out << "wrote            " << report.file << '\n';
+  out << "nodes            " << s.nodes << ", " << s.surface_nodes
+      << " on the surface: " << report.fixed_nodes << " fixed, " << report.accessible_nodes
+      << " accessible\n";
+  out << "tetrahedra       " << s.tetrahedra << ", " << s.surface_triangles << " boundary triangles\n";
+  out << "bounding box     " << inWords(s.box_min) << " to " << inWords(s.box_max) << " m, size "
+      << inWords(s.box_max - s.box_min) << " m\n";
+  std::snprintf(line, sizeof line, "volume           %.6g m^3\n", s.volume);
+  out << line;
+  std::snprintf(line, sizeof line, "worst quality    %.4f (tetrahedron %lld; 1 is regular, 0 flat)\n",
+                s.worst_quality, static_cast<long long>(s.worst_tetrahedron));
+  out << line;
+  std::snprintf(line, sizeof line, "edges            mean %.4g m, median on the surface %.4g m\n",
+                s.mean_edge, s.median_surface_edge);
+  out << line;
+  for (const auto& note : report.notes) out << "warning: " << note << '\n';
+}
+
+}  // namespace palpate::organ

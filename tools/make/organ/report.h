@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tools/mesh/statistics.h"
+#include "tools/mesh/tet_mesh.h"
+#include "tools/program/json.h"
+
+namespace palpate::organ {
+
+/// What palpate-organ tells about the organ it wrote.
+struct Report {
+  std::string file;
+  mesh::MeshStatistics statistics;
+  std::size_t fixed_nodes{0};
+  std::size_t accessible_nodes{0};
+  std::vector<std::string> notes;
+};
+
+/// Adds to the notes when the size is implausible in metres (largest dimension below 0.01 or above 1 m).
+[[nodiscard]] Report makeReport(const std::string& file, const mesh::TetMesh& mesh,
+                                const mesh::BoundarySurface& boundary, std::vector<std::string> notes);
+
+[[nodiscard]] program::Json toJson(const Report& report);
+void print(std::ostream& out, const Report& report);
+
+}  // namespace palpate::organ

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-solve: a mesh and a case become a model file.
+//
+// Sample runs:  palpate-solve liver.msh -o liver.h5
+//               palpate-solve case.toml -o liver.h5 --json
+//               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "tools/make/solve/options.h"
+#include "tools/make/solve/provenance.h"
+#include "tools/make/solve/summary.h"
+#include "tools/mesh/checks.h"
+#include "tools/mesh/mesh_error.h"
+#include "tools/mesh/read_mesh.h"
+#include "tools/modelfile/mixed_precision.h"
+#include "tools/modelfile/write_model.h"
+#include "tools/modelfile/write_xdmf.h"
+#include "tools/program/run.h"
+#include "tools/solver/build/build_model.h"
+
+namespace {
+
+using namespace palpate;
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A bare mesh that names its accessible group means it.
+void adoptGroups(solver::Case& c, const mesh::TetMesh& organ) {
+  if (c.text.empty() && organ.groups.count("accessible") != 0) c.accessible = "accessible";
+}
+
+/// What can be said of the output before minutes are spent on it.
+void checkOutput(const std::filesystem::path& output) {
+  const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error("--output " + output.string() + ": " + why);
+  };
+  if (output.extension() == ".xdmf") refuse("an .xdmf is written beside the model; name the model .h5");
+  if (std::filesystem::is_directory(output)) refuse("is a folder");
+  if (!std::filesystem::is_directory(folder)) refuse("there is no folder " + folder.string());
+  if (access(folder.c_str(), W_OK) != 0) refuse("the folder " + folder.string() + " cannot be written");
+}
+
+mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fixed) {
+  mesh::TetMesh organ = mesh::readMesh(path);
+  try {
+    mesh::checkMesh(organ);
+    if (organ.groups.count(fixed) != 0) mesh::checkHeld(organ, fixed);
+  } catch (const mesh::MeshError& error) {
+    throw mesh::MeshError(path.string() + ": " + error.what());
+  }
+  return organ;
+}
+
+void run(solve::Options options) {
+  const auto start = Clock::now();
+  // 1. What to solve, and where to.
+  checkOutput(options.output);
+  solver::Case c = solve::readCase(options);
+  // 2. The organ.
+  const mesh::TetMesh organ = readOrgan(c.mesh, c.fixed);
+  adoptGroups(c, organ);
+  // 3. The model, by the method of the case.
+  if (options.scratch.empty()) options.scratch = std::filesystem::absolute(options.output).parent_path();
+  solver::BuildReport report;
+  modelfile::ModelData data =
+      solver::buildModel(c, organ, {options.threads, options.scratch, options.quiet}, report);
+  const modelfile::StorageReport storage =
+      modelfile::storeMixed(data, options.storage == "mixed" ? solve::ownError(report) : 0.0);
+  // 4. Where it came from, and the file.
+  solve::addProvenance(data, c, report, storage);
+  const auto write_start = Clock::now();
+  modelfile::writeModel(options.output, data);
+  modelfile::writeXdmf(options.output);
+  const double write_seconds = secondsSince(write_start);
+  // 5. What came out.
+  const program::Json s =
+      solve::summarize(options.output, c, data, report, storage, write_seconds, secondsSince(start));
+  solve::print(s);
+  if (options.json) std::cout << s.dump(2) << '\n';
+}
+
+int body(int argc, char** argv) {
+  program::CommandLine line(
+      "palpate-solve",
+      "Computes the meta-model of an organ: its answer to a tool at any position and in any direction.");
+  solve::Options options;
+  solve::describe(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
+  try {
+    run(options);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error("out of memory; fewer modes, a smaller near_radius or a lower order need less");
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return program::runProgram("palpate-solve", &body, argc, argv);
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/make/solve/options.h"
+
+#include <sstream>
+
+namespace palpate::solve {
+
+namespace {
+
+/// Three numbers, not all zero, or "any".
+void setDirection(const std::string& text, solver::LoadCase& load) {
+  load.direction.reset();
+  load.any_direction = text == "any";
+  if (load.any_direction) return;
+  std::istringstream in(text);
+  solver::Vec3 x = solver::Vec3::Zero();
+  char first = 0, second = 0;
+  in >> x[0] >> first >> x[1] >> second >> x[2];
+  const bool read = !in.fail() && first == ',' && second == ',' && (in >> std::ws).eof();
+  if (!read || !x.allFinite() || !(x.norm() > 0.0))
+    throw solver::CaseError("--load-direction " + text +
+                            " is neither three numbers x,y,z, not all zero, nor any");
+  load.direction = x.stableNormalized();
+}
+
+void override(const Options& options, solver::Case& c) {
+  if (options.method) {
+    try {
+      c.method = solver::methodOf(*options.method);
+    } catch (const solver::CaseError& error) {
+      throw solver::CaseError(std::string("--method ") + error.what());
+    }
+  }
+  if (options.modes) c.modes = options.modes;
+  if (options.order) c.order = options.order;
+  if (options.steps) c.load.steps = options.steps;
+  if (options.load) c.load.magnitude = options.load;
+  if (options.direction) setDirection(*options.direction, c.load);
+}
+
+}  // namespace
+
+void describe(program::Options line, Options& options) {
+  line.add("input", &options.input, "case file (.toml), or a mesh in metres to be solved with the defaults")
+      .required();
+  line.add("-o,--output", &options.output, "model file to write");
+  line.add("--method", &options.method,
+           "series-displacement (the default), series-force, pgd-linear, pgd-explicit or pgd-euler");
+  line.add("--modes", &options.modes, "modes of the model").range(1, 2000);
+  line.add("--order", &options.order, "degree of the series").range(1, 7);
+  line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
+  line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
+  line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);
+  line.add("--storage", &options.storage,
+           "modes: mixed (8 to 16 bits or float32, each as its rounding allows) or float32")
+      .oneOf({"mixed", "float32"});
+  line.add("--scratch", &options.scratch, "folder of the scratch file (default: beside the output)");
+  line.add("--threads", &options.threads, "worker threads").range(1, 1024);
+  line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.flag("-q,--quiet", &options.quiet, "no progress");
+}
+
+solver::Case readCase(const Options& options) {
+  solver::Case c = options.input.extension() == ".toml" ? solver::readCase(options.input)
+                                                        : solver::defaultCase(options.input);
+  override(options, c);
+  try {
+    solver::checkCase(c);
+  } catch (const solver::CaseError& error) {
+    throw solver::CaseError(options.input.string() + ": " + error.what());
+  }
+  return c;
+}
+
+}  // namespace palpate::solve

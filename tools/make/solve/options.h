@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "tools/program/command_line.h"
+#include "tools/solver/base/parallel.h"
+#include "tools/solver/build/case_file.h"
+
+namespace palpate::solve {
+
+/// The command line. What it gives of the case overrides the case file.
+struct Options {
+  std::filesystem::path input;
+  std::filesystem::path output{"model.h5"};
+  std::filesystem::path scratch;
+  int threads{solver::machineThreads()};
+  std::string storage{"mixed"};  ///< of the modes: "mixed" or "float32"
+  bool json{false};
+  bool quiet{false};
+
+  std::optional<std::string> method;
+  std::optional<int> modes, order, steps;
+  std::optional<std::string> direction;  ///< "x,y,z" or "any"
+  std::optional<double> load;            ///< N
+};
+
+/// Adds every option to the command line.
+void describe(program::Options line, Options& options);
+
+/// The case of a case file, or the defaults for a bare mesh, with the command line's say.
+/// @throw CaseError also where keys do not fit the method
+[[nodiscard]] solver::Case readCase(const Options& options);
+
+}  // namespace palpate::solve

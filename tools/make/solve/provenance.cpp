@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/make/solve/provenance.h"
+
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <span>
+
+#include "core/data/sha256.h"
+#include "tools/make/solve/summary.h"
+
+namespace palpate::solve {
+
+namespace {
+
+std::string fileHash(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  Sha256 hash;
+  char block[1 << 16];
+  while (in.read(block, sizeof block) || in.gcount() > 0)
+    hash.add(std::as_bytes(std::span<const char>(block, static_cast<std::size_t>(in.gcount()))));
+  return hash.finish().hex();
+}
+
+std::string utcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  char text[32];
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace
+
+void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solver::BuildReport& report,
+                   const modelfile::StorageReport& storage) {
+  program::Json provenance{{"program", "palpate-solve"},
+                           {"version", PALPATE_VERSION},
+                           {"created", utcNow()},
+                           {"mesh", c.mesh.filename().string()},
+                           {"mesh_hash", fileHash(c.mesh)},
+                           {"case", c.text},
+                           {"fixed", c.fixed},
+                           {"accessible", c.accessible.value_or("")},
+                           {"method", toString(c.method)},
+                           {"storage", toJson(storage)},
+                           {"seconds", stages(c.method, report)}};
+  if (report.fit_errors.empty()) {
+    provenance["load"] = loadOf(c, report);
+    provenance["pairs"] = report.greedy_pairs;
+    provenance["residual"] = report.residual;
+    provenance["recompression_error"] = report.truncation;
+  } else {
+    provenance["sweeps"] = c.sweepsOrDefault();
+    provenance["fit_errors"] = report.fit_errors;
+  }
+  data.attributes.provenance = provenance.dump();
+}
+
+}  // namespace palpate::solve

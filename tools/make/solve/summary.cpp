@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/make/solve/summary.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "tools/modelfile/quantile.h"
+
+namespace palpate::solve {
+
+namespace {
+
+using program::Json;
+using solver::Method;
+
+bool isSeries(Method method) {
+  return method == Method::kSeriesDisplacement || method == Method::kSeriesForce;
+}
+
+double peakMemoryMiB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Name of the domain radius of each kind, as palpate-inspect names it.
+const char* radiusKey(Parameters parameters) {
+  switch (parameters) {
+    case Parameters::kForce:
+      return "force_radius";
+    case Parameters::kLevel:
+      return "level_radius";
+    default:
+      return "domain_radius";
+  }
+}
+
+/// Of what a tool may touch, helpers left out.
+Json radii(const modelfile::ModelData& data) {
+  std::vector<double> list;
+  for (std::size_t i = 0; i < data.contact_domain_radius.size(); ++i)
+    if (data.contact_accessible[i] != 0) list.push_back(data.contact_domain_radius[i]);
+  std::sort(list.begin(), list.end());
+  return {{"min", list.front()},
+          {"p05", modelfile::quantile(list, 0.05)},
+          {"median", modelfile::quantile(list, 0.5)}};
+}
+
+void printTimes(const Json& seconds) {
+  std::string line = "time:";
+  const std::pair<const char*, const char*> names[] = {{"factor", "factor"},
+                                                       {"series", "series"},
+                                                       {"fit", "fit"},
+                                                       {"pgd", "PGD"},
+                                                       {"recompression", "recompression"},
+                                                       {"write", "writing"},
+                                                       {"total", "together"}};
+  for (const auto& [key, name] : names) {
+    if (!seconds.contains(key)) continue;
+    char part[64];
+    std::snprintf(part, sizeof part, "%s %s %.1f s", line.back() == ':' ? "" : ",", name,
+                  seconds[key].get<double>());
+    line += part;
+  }
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+void printStorage(const Json& storage) {
+  std::fprintf(stderr,
+               "modes kept as: %zu float32, %zu of 16 bits, %zu of 10, %zu of 8, %.2f MB; rounding costs "
+               "%.3f %% of the largest displacement\n",
+               storage["float32"].get<std::size_t>(), storage["int16"].get<std::size_t>(),
+               storage["bits10"].get<std::size_t>(), storage["bits8"].get<std::size_t>(),
+               1e-6 * storage["bytes"].get<double>(), 100.0 * storage["error_max"].get<double>());
+}
+
+int wholeOr0(const Json& object, const char* key) {
+  const Json* const member = object.find(key);
+  return member == nullptr ? 0 : member->get<int>();
+}
+
+void printRadius(const Json& s) {
+  const auto line = [](const Json& radius, const char* name, double scale, const char* unit) {
+    std::fprintf(stderr, "%s: 5 %% quantile %.4g %s, median %.4g %s; ", name,
+                 scale * radius["p05"].get<double>(), unit, scale * radius["median"].get<double>(), unit);
+  };
+  if (s.contains("domain_radius")) line(s["domain_radius"], "domain radius", 1e3, "mm");
+  if (s.contains("force_radius")) line(s["force_radius"], "largest force", 1.0, "N");
+  if (s.contains("level_radius")) line(s["level_radius"], "largest load level", 1.0, "of the load");
+  if (s.contains("fit_error"))
+    std::fprintf(stderr, "RMS error of the fit %.2f %%", 100.0 * s["fit_error"].get<double>());
+  else
+    std::fprintf(stderr, "%d pairs before recompression, their residual %.2e", s["pairs"].get<int>(),
+                 s["residual"].get<double>());
+  const Json* const load = s.find("load");
+  if (load != nullptr && wholeOr0(*load, "truncation") > 0)
+    std::fprintf(stderr, ", load of %d terms wrong by %.2e", wholeOr0(*load, "truncation"),
+                 load->at("truncation_error").get<double>());
+  if (const int weak = wholeOr0(s, "weak_positions"); weak > 0)
+    std::fprintf(stderr, "; %d positions need more modes", weak);
+  std::fputc('\n', stderr);
+}
+
+}  // namespace
+
+double ownError(const solver::BuildReport& report) {
+  if (!report.fit_errors.empty()) return report.fit_errors.back();
+  return std::max(report.residual, report.truncation);
+}
+
+Json toJson(const modelfile::StorageReport& storage) {
+  return {{"float32", storage.counts.f32},      {"int16", storage.counts.i16},
+          {"int8", storage.counts.inBytes()},   {"bits10", storage.counts.bits10},
+          {"bits8", storage.counts.bits8},      {"error_max", storage.error_max},
+          {"error_limit", storage.error_limit}, {"bytes", storage.bytes}};
+}
+
+Json stages(Method method, const solver::BuildReport& report) {
+  if (isSeries(method))
+    return {
+        {"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}};
+  Json seconds{{"factor", report.factor_seconds}, {"pgd", report.pgd_seconds}};
+  if (method == Method::kPgdLinear) seconds["recompression"] = report.recompression_seconds;
+  return seconds;
+}
+
+Json loadOf(const solver::Case& c, const solver::BuildReport& report) {
+  if (isSeries(c.method)) return Json::object();
+  const solver::Vec3 e = c.load.unitDirection();
+  Json load{{"magnitude", report.load}, {"kind", c.nodalLoad() ? "node" : "patch"}};
+  load["direction"] = c.load.any_direction ? Json("any") : Json(e);
+  if (c.method == Method::kPgdLinear) {
+    load["truncation"] = c.load.truncation.value_or(0);
+    load["truncation_error"] = report.load_truncation;
+  } else {
+    load["steps"] = c.load.stepsOrDefault();
+  }
+  return load;
+}
+
+Json summarize(const std::filesystem::path& output, const solver::Case& c, const modelfile::ModelData& data,
+               const solver::BuildReport& report, const modelfile::StorageReport& storage,
+               double write_seconds, double total_seconds) {
+  Json seconds = stages(c.method, report);
+  seconds["write"] = write_seconds;
+  seconds["total"] = total_seconds;
+  const Parameters parameters = data.attributes.parameters;
+  Json s{{"model", output.string()},
+         {"method", toString(c.method)},
+         {"parameters", std::string(toString(parameters))},
+         {"nodes", data.mesh_node_tag.size()},
+         {"tetrahedra", data.mesh_tetrahedron_tag.size()},
+         {"surface_nodes", data.surface_mesh_tag.size()},
+         {"contact_positions", data.contact_node.size()},
+         {"patch_radius", data.attributes.patch_radius},
+         {"modes", data.modes_X.size() / (3 * data.surface_mesh_tag.size())},
+         {"storage", toJson(storage)},
+         {radiusKey(parameters), radii(data)},
+         {"seconds", seconds},
+         {"file_bytes", std::filesystem::file_size(output)},
+         {"peak_memory_MiB", peakMemoryMiB()}};
+  if (parameters != Parameters::kLevel) s["order"] = data.attributes.order;
+  if (parameters == Parameters::kForce) {
+    s["reference_force"] = data.attributes.reference_force;
+    s["weak_positions"] = report.weak_positions;
+  }
+  if (isSeries(c.method)) {
+    s["fit_error"] = report.fit_errors.back();
+    return s;
+  }
+  s["load"] = loadOf(c, report);
+  s["pairs"] = report.greedy_pairs;
+  s["residual"] = report.residual;
+  s["recompression_error"] = report.truncation;
+  return s;
+}
+
+void print(const Json& s) {
+  std::fprintf(
+      stderr,
+      "%s: %zu nodes, %zu tetrahedra, %zu surface nodes; %zu contact positions, patch radius %.2f mm, ",
+      s["method"].get<std::string>().c_str(), s["nodes"].get<std::size_t>(),
+      s["tetrahedra"].get<std::size_t>(), s["surface_nodes"].get<std::size_t>(),
+      s["contact_positions"].get<std::size_t>(), 1e3 * s["patch_radius"].get<double>());
+  if (s.contains("order")) std::fprintf(stderr, "order %d, ", s["order"].get<int>());
+  std::fprintf(stderr, "%zu modes\n", s["modes"].get<std::size_t>());
+  printTimes(s["seconds"]);
+  printRadius(s);
+  printStorage(s["storage"]);
+  std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
+               1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());
+}
+
+}  // namespace palpate::solve

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/mesh/manifold.h"
+
+#include <algorithm>
+
+namespace palpate::mesh {
+namespace {
+
+using Namer = std::function<std::string(std::int32_t)>;
+
+// An edge as its triangle passes it.
+struct HalfEdge {
+  std::int32_t low, high;  // vertices, ascending
+  bool forward;            // passed from low to high
+  std::int32_t triangle;
+};
+
+std::vector<HalfEdge> sortedHalfEdges(const std::vector<Triangle>& triangles) {
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = triangles[t][i];
+      const auto b = triangles[t][(i + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b, static_cast<std::int32_t>(t)});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
+    if (x.low != y.low) return x.low < y.low;
+    return x.high != y.high ? x.high < y.high : x.triangle < y.triangle;
+  });
+  return edges;
+}
+
+std::optional<std::string> edgeDefect(const std::vector<HalfEdge>& edges, const Namer& vertexName,
+                                      const Namer& triangleName) {
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i;
+    while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+    const auto where = [&] {
+      return "edge between " + vertexName(edges[i].low) + " and " + vertexName(edges[i].high);
+    };
+    if (end - i != 2) {
+      return where() + " lies in " + std::to_string(end - i) + " triangle" + (end - i == 1 ? "" : "s") +
+             " instead of 2, one of them " + triangleName(edges[i].triangle);
+    }
+    if (edges[i].forward == edges[i + 1].forward) {
+      return where() + " is passed in the same direction by " + triangleName(edges[i].triangle) + " and " +
+             triangleName(edges[i + 1].triangle);
+    }
+    i = end;
+  }
+  return std::nullopt;
+}
+
+// With every edge in two triangles, the triangles around a vertex form closed fans. Walk one fan; if it
+// misses a triangle there is a second fan.
+std::optional<std::string> fanDefect(const std::vector<Triangle>& triangles, std::size_t vertex_count,
+                                     const Namer& vertexName, const Namer& triangleName) {
+  struct Spoke {
+    std::int32_t next, previous, triangle;
+  };
+  std::vector<std::vector<Spoke>> around(vertex_count);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      around[static_cast<std::size_t>(triangles[t][i])].push_back(
+          {triangles[t][(i + 1) % 3], triangles[t][(i + 2) % 3], static_cast<std::int32_t>(t)});
+    }
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    const auto& spokes = around[v];
+    if (spokes.empty()) continue;
+    std::size_t met = 0;
+    auto at = spokes.begin();
+    do {
+      ++met;
+      const auto wanted = at->previous;
+      at = std::find_if(spokes.begin(), spokes.end(), [wanted](const Spoke& s) { return s.next == wanted; });
+    } while (at != spokes.begin() && at != spokes.end() && met < spokes.size());
+    if (met != spokes.size()) {
+      return vertexName(static_cast<std::int32_t>(v)) + " joins several fans of triangles, one of them at " +
+             triangleName(spokes.front().triangle);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> manifoldDefect(const std::vector<Triangle>& triangles, std::size_t vertex_count,
+                                          const Namer& vertexName, const Namer& triangleName) {
+  auto defect = edgeDefect(sortedHalfEdges(triangles), vertexName, triangleName);
+  return defect ? defect : fanDefect(triangles, vertex_count, vertexName, triangleName);
+}
+
+}  // namespace palpate::mesh

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/mesh/topology.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace palpate::mesh {
+
+std::vector<TetFace> sortedFaces(const TetMesh& mesh) {
+  std::vector<TetFace> faces;
+  faces.reserve(4 * mesh.tetrahedra.size());
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      TetFace face{{}, static_cast<std::int32_t>(t), static_cast<std::int32_t>(f)};
+      for (std::size_t i = 0; i < 3; ++i) {
+        face.key[i] = mesh.tetrahedra[t][static_cast<std::size_t>(kTetFaces[f][i])];
+      }
+      std::sort(face.key.begin(), face.key.end());
+      faces.push_back(face);
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const TetFace& a, const TetFace& b) {
+    return a.key != b.key ? a.key < b.key : a.tetrahedron < b.tetrahedron;
+  });
+  return faces;
+}
+
+BoundarySurface boundaryOf(const TetMesh& mesh) {
+  const std::vector<TetFace> faces = sortedFaces(mesh);
+  BoundarySurface boundary;
+  std::vector<std::int32_t> local(mesh.nodes.size(), -1);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const bool as_before = i > 0 && faces[i].key == faces[i - 1].key;
+    const bool as_after = i + 1 < faces.size() && faces[i].key == faces[i + 1].key;
+    if (as_before || as_after) continue;
+    const auto& corners = mesh.tetrahedra[static_cast<std::size_t>(faces[i].tetrahedron)];
+    std::array<std::int32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto corner = kTetFaces[static_cast<std::size_t>(faces[i].face)][k];
+      triangle[k] = corners[static_cast<std::size_t>(corner)];
+      local[static_cast<std::size_t>(triangle[k])] = 0;
+    }
+    boundary.triangles.push_back(triangle);
+  }
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (local[i] < 0) continue;
+    local[i] = static_cast<std::int32_t>(boundary.nodes.size());
+    boundary.nodes.push_back(static_cast<std::int32_t>(i));
+  }
+  for (auto& triangle : boundary.triangles) {
+    for (auto& node : triangle) node = local[static_cast<std::size_t>(node)];
+  }
+  return boundary;
+}
+
+double signedVolume(const TetMesh& mesh, std::size_t tetrahedron) {
+  const auto& t = mesh.tetrahedra[tetrahedron];
+  const auto at = [&](std::size_t i) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(t[i])];
+  };
+  return (at(1) - at(0)).dot((at(2) - at(0)).cross(at(3) - at(0))) / 6;
+}
+
+}  // namespace palpate::mesh

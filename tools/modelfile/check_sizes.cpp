@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/modelfile/check_sizes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "core/base/multi_index.h"
+#include "core/data/datasets.h"
+#include "core/data/packed_modes.h"
+
+namespace palpate::modelfile {
+
+namespace {
+
+void expectSize(const std::string& dataset, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    throw ModelFileError(dataset + " has " + std::to_string(found) + " numbers, expected " +
+                         std::to_string(expected));
+}
+
+void expectTuples(const std::string& dataset, std::size_t found, std::size_t width) {
+  if (found % width != 0)
+    throw ModelFileError(dataset + " has " + std::to_string(found) + " numbers, expected a multiple of " +
+                         std::to_string(width));
+}
+
+std::size_t coefficients(int order) {
+  if (order < 1 || order > MonomialBasis::kMaxOrder)
+    throw ModelFileError("order is " + std::to_string(order) + ", expected 1 to " +
+                         std::to_string(MonomialBasis::kMaxOrder));
+  return static_cast<std::size_t>(MonomialBasis::size(order));
+}
+
+void checkSurface(const ModelData& d, std::size_t Ns) {
+  expectSize(dataset::kSurfacePositions.name(), d.surface_positions.size(), 3 * Ns);
+  expectTuples(dataset::kSurfaceTriangles.name(), d.surface_triangles.size(), 3);
+  expectSize(dataset::kPositionOfNode.name(), d.position_of_node.size(), Ns);
+  expectSize(dataset::kMeshSurfaceNode.name(), d.mesh_surface_node.size(), Ns);
+}
+
+void checkContact(const ModelData& d, std::size_t M, std::size_t C) {
+  expectSize(dataset::kContactAccessible.name(), d.contact_accessible.size(), M);
+  const bool load_driven = d.attributes.parameters != Parameters::kDisplacement;
+  const std::size_t Cf = load_driven ? 0 : coefficients(forceOrder(d.attributes));
+  expectSize(dataset::kContactForce.name(), d.contact_force.size(), M * Cf * 3);
+  expectSize(dataset::kContactDisplacement.name(), d.contact_displacement.size(),
+             load_driven ? M * C * 3 : 0);
+  expectSize(dataset::kContactDomainRadius.name(), d.contact_domain_radius.size(), M);
+}
+
+void checkLevels(const ModelData& d, std::size_t C) {
+  if (d.attributes.parameters != Parameters::kLevel)
+    return expectSize(dataset::kLevelsZ.name(), d.levels_Z.size(), 0);
+  expectTuples(dataset::kLevelsZ.name(), d.levels_Z.size(), C);
+  if (d.levels_Z.size() < 2 * C)
+    throw ModelFileError(dataset::kLevelsZ.name() + " has " + std::to_string(d.levels_Z.size() / C) +
+                         " levels, expected at least 2");
+}
+
+void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t C) {
+  expectTuples(dataset::kModesX.name(), d.modes_X.size(), 3 * Ns);
+  expectSize(dataset::kModesY.name(), d.modes_Y.size(), M * C * (d.modes_X.size() / (3 * Ns)));
+  expectSize(dataset::kNearOffset.name(), d.near_offset.size(), M + 1);
+  expectSize(dataset::kNearField.name(), d.near_field.size(), 3 * C * d.near_node.size());
+}
+
+void checkPacked(const ModelData& d, std::size_t Ns) {
+  const PackedModesData& packed = d.modes_packed;
+  expectSize(dataset::kModesKinds.name(), packed.kinds.size(), packed.scale.empty() ? 0 : kPackedKinds);
+  std::size_t modes = 0;
+  for (const std::int32_t kind : packed.kinds) {
+    if (kind < 0)
+      throw ModelFileError(dataset::kModesKinds.name() + " has " + std::to_string(kind) +
+                           ", expected at least 0");
+    modes += static_cast<std::size_t>(kind);
+  }
+  expectSize(dataset::kModesScale.name(), packed.scale.size(), modes);
+  if (modes > modeCount(d))
+    throw ModelFileError(dataset::kModesKinds.name() + " adds up to " + std::to_string(modes) +
+                         ", expected at most " + std::to_string(modeCount(d)));
+  const ModeCounts counts = countModes(packed.view(), modeCount(d));
+  if (packed.tiles > tilesOf(3 * Ns))
+    throw ModelFileError(dataset::kModesInt16.name() + " and bytes have " + std::to_string(packed.tiles) +
+                         " tiles, expected at most " + std::to_string(tilesOf(3 * Ns)));
+  const std::size_t tile_numbers = packed.tiles * kTile;
+  expectSize(dataset::kModesInt16.name(), packed.X16.size(), counts.pairs() * tile_numbers * 2);
+  expectSize(dataset::kModesBytes.name(), packed.X8.size(), counts.quads() * tile_numbers * 4);
+}
+
+void checkMesh(const ModelData& d) {
+  expectSize(dataset::kMeshNodes.name(), d.mesh_nodes.size(), 3 * d.mesh_node_tag.size());
+  expectSize(dataset::kMeshTetrahedra.name(), d.mesh_tetrahedra.size(), 4 * d.mesh_tetrahedron_tag.size());
+}
+
+}  // namespace
+
+std::size_t fieldCoefficients(const ModelData& data) {
+  if (data.attributes.parameters != Parameters::kLevel) return coefficients(data.attributes.order);
+  const std::size_t width = 3 * data.contact_node.size();
+  if (width == 0)
+    throw ModelFileError(dataset::kContactNode.name() + " is empty, expected contact positions");
+  expectTuples(dataset::kContactDisplacement.name(), data.contact_displacement.size(), width);
+  const std::size_t C = data.contact_displacement.size() / width;
+  if (C == 0 || C > static_cast<std::size_t>(MonomialBasis::kMaxCoefficients))
+    throw ModelFileError(dataset::kContactDisplacement.name() + " has " + std::to_string(C) +
+                         " level functions, expected 1 to " +
+                         std::to_string(MonomialBasis::kMaxCoefficients));
+  return C;
+}
+
+void checkSizes(const ModelData& data) {
+  const std::size_t C = fieldCoefficients(data);
+  const std::size_t Ns = data.surface_mesh_tag.size();
+  const std::size_t M = data.contact_node.size();
+  if (Ns == 0) throw ModelFileError(dataset::kSurfaceMeshTag.name() + " is empty, expected a surface");
+  if (M == 0) throw ModelFileError(dataset::kContactNode.name() + " is empty, expected contact positions");
+  checkSurface(data, Ns);
+  checkContact(data, M, C);
+  checkLevels(data, C);
+  checkFields(data, Ns, M, C);
+  checkPacked(data, Ns);
+  checkMesh(data);
+}
+
+}  // namespace palpate::modelfile

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "core/data/model_view.h"
+#include "core/data/packed_modes.h"
+
+namespace palpate::modelfile {
+
+/// Data that do not fit together, or a file that cannot be written or read. what() is one sentence.
+class ModelFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Degree of the contact's answer in the file: as given, or that of the fields.
+[[nodiscard]] inline int forceOrder(const ModelAttributes& a) {
+  return a.force_order == 0 ? a.order : a.force_order;
+}
+
+/// What PackedModes views.
+struct PackedModesData {
+  std::vector<std::int16_t> X16;
+  std::vector<std::uint8_t> X8;
+  std::vector<float> scale;
+  std::vector<std::int32_t> kinds;
+  std::size_t tiles{0};
+
+  [[nodiscard]] PackedModes view() const { return {X16, X8, scale, kinds, tiles}; }
+};
+
+/// Everything that a model file holds, as vectors. Shapes are row-major as in docs/model_file.md;
+/// Ns surface nodes, T triangles, M contact positions, C coefficients of the fields
+/// (MonomialBasis::size(order), or the number of level functions), n modes, N volume nodes, V tetrahedra.
+/// attributes.parameters chooses the kind; what belongs to the other kinds stays empty. Stored coefficient =
+/// true coefficient * d_ref^|alpha|, or f_ref^|alpha|. Indices are 0-based.
+struct ModelData {
+  ModelAttributes attributes;  ///< law "stvk"; provenance is the text of a JSON object
+
+  std::vector<double> surface_positions;         ///< [Ns][3] m
+  std::vector<std::int32_t> surface_triangles;   ///< [T][3] counter-clockwise from outside
+  std::vector<std::int64_t> surface_mesh_tag;    ///< [Ns]
+  std::vector<std::int32_t> position_of_node;    ///< [Ns] or -1
+  std::vector<std::int32_t> contact_node;        ///< [M]
+  std::vector<std::uint8_t> contact_accessible;  ///< [M] 0 or 1
+  std::vector<double> contact_force;  ///< [M][Cf][3] N, Cf = size(force_order); "displacement" only
+  std::vector<double>
+      contact_displacement;  ///< [M][C][3] m, d_alpha(s) as the modes give it; "force", "level"
+  std::vector<double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
+  std::vector<double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
+  std::vector<float> modes_X;                      ///< [n][3 Ns]
+  PackedModesData modes_packed;                    ///< storeMixed(), or empty: the tick reads modes_X
+  std::vector<float> modes_Y;                      ///< [M][C][n] m
+  std::vector<std::int64_t> near_offset;           ///< [M+1]
+  std::vector<std::int32_t> near_node;             ///< [sum K]
+  std::vector<float> near_field;                   ///< per position [C][K_m][3] m
+  std::vector<double> mesh_nodes;                  ///< [N][3] m
+  std::vector<std::int32_t> mesh_tetrahedra;       ///< [V][4]
+  std::vector<std::int64_t> mesh_node_tag;         ///< [N]
+  std::vector<std::int64_t> mesh_tetrahedron_tag;  ///< [V]
+  std::vector<std::int32_t> mesh_fixed;            ///< volume nodes
+  std::vector<std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
+};
+
+/// The same, as core reads it. Borrowed: valid as long as the data are not changed.
+[[nodiscard]] ModelView viewOf(const ModelData& data);
+
+/// n, the number of modes; 0 without a surface.
+[[nodiscard]] inline std::size_t modeCount(const ModelData& d) {
+  return d.surface_mesh_tag.empty() ? 0 : d.modes_X.size() / (3 * d.surface_mesh_tag.size());
+}
+
+}  // namespace palpate::modelfile

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "tools/modelfile/model_data.h"
+
+namespace palpate::modelfile {
+
+/// Writes a model file (docs/model_file.md): version 1 for "displacement", version 2 for "force" and "level".
+/// Contiguous, early-allocated, aligned to 4096 bytes.
+/// Written to `path.tmp-PID` beside the target, synced, renamed: a reader sees the old file or the new one,
+/// never a part.
+/// @throw ModelFileError naming the dataset when sizes do not fit each other, or the file that cannot be
+/// written
+void writeModel(const std::filesystem::path& path, const ModelData& data);
+
+}  // namespace palpate::modelfile

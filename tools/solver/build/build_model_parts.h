@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <functional>
+
+#include "tools/solver/build/build_model.h"
+#include "tools/solver/build/store_modes.h"
+#include "tools/solver/fem/cholesky.h"
+#include "tools/solver/fit/field_table.h"
+#include "tools/solver/series/series.h"
+
+namespace palpate::solver {
+
+// Parts that the methods share. buildModel() calls one of the last two functions or runs its own method.
+
+/// Wall-clock time since its construction, s.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
+};
+
+/// Factorizes K_T(0). @throw std::runtime_error when it is not positive definite
+void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const Case& c);
+
+/// Takes the series of one position. Called from several threads, once per position.
+using SeriesSink =
+    std::function<void(const SeriesSolver& series, int lane, std::size_t position, double radius)>;
+
+/// Solves the series of all contact positions on all workers; surface fields go to the table.
+/// @param table  positions x coefficients of the fields x 3 Ns
+/// @throw std::runtime_error naming the node whose series has no domain
+void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,
+                    const Cholesky& factor, SeriesKind kind, const BuildOptions& options, FieldTable& table,
+                    const SeriesSink& sink);
+
+/// Attributes that every kind of model has.
+void storeAttributes(const Case& c, const SolverSetup& setup, ModelAttributes& attributes);
+
+}  // namespace palpate::solver

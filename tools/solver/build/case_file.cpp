@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/build/case_file.h"
+
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace palpate::solver {
+
+namespace {
+
+/// One table of a case file. Each key is taken once; keys left at the end are unknown.
+class Section {
+ public:
+  Section(const std::string& file, std::string name, const toml::table& table)
+      : file_(file), name_(std::move(name)), table_(table) {}
+
+  template <typename T>
+  std::optional<T> take(const std::string& key, const char* type) {
+    known_.insert(key);
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return std::nullopt;
+    const std::optional<T> value = node->value_exact<T>();
+    if (!value) refuse(*node, key, std::string("is not ") + type);
+    return value;
+  }
+
+  /// A number, integers included, with low < or <= x <= high.
+  std::optional<double> number(const std::string& key, double low, bool low_included, double high) {
+    known_.insert(key);
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_number()) refuse(*node, key, "is not a number");
+    const double x = *node->value<double>();
+    if (!(low_included ? x >= low : x > low) || !(x <= high)) {
+      std::ostringstream why;
+      why << "= " << x << " is out of range " << (low_included ? "[" : "(") << low << ", " << high << "]";
+      refuse(*node, key, why.str());
+    }
+    return x;
+  }
+
+  std::optional<int> integer(const std::string& key, std::int64_t low, std::int64_t high) {
+    const std::optional<std::int64_t> x = take<std::int64_t>(key, "an integer");
+    if (x && (*x < low || *x > high))
+      refuse(*table_.get(key), key,
+             "= " + std::to_string(*x) + " is out of range [" + std::to_string(low) + ", " +
+                 std::to_string(high) + "]");
+    return x ? std::optional<int>(static_cast<int>(*x)) : std::nullopt;
+  }
+
+  const toml::table* table(const std::string& key) {
+    known_.insert(key);
+    const toml::node* node = table_.get(key);
+    if (node != nullptr && !node->is_table()) refuse(*node, key, "is not a table");
+    return node == nullptr ? nullptr : node->as_table();
+  }
+
+  const toml::node* find(const std::string& key) {
+    known_.insert(key);
+    return table_.get(key);
+  }
+
+  void refuseTheRest() const {
+    for (const auto& [key, node] : table_) {
+      if (known_.count(std::string(key.str())) != 0) continue;
+      std::string list;
+      for (const std::string& name : known_) list += (list.empty() ? "" : ", ") + name;
+      refuse(node, std::string(key.str()), "is not known here (known: " + list + ")");
+    }
+  }
+
+  [[noreturn]] void refuse(const toml::node& node, const std::string& key, const std::string& why) const {
+    throw CaseError(file_ + ":" + std::to_string(node.source().begin.line) + ": " +
+                    (name_.empty() ? key : name_ + "." + key) + " " + why);
+  }
+  [[nodiscard]] const toml::node& node(const std::string& key) const { return *table_.get(key); }
+
+ private:
+  const std::string& file_;
+  std::string name_;
+  const toml::table& table_;
+  std::set<std::string> known_;
+};
+
+template <typename T, typename U>
+void assign(T& target, const std::optional<U>& value) {
+  if (value) target = *value;
+}
+
+void readBoundary(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "boundary", table);
+  assign(c.fixed, section.take<std::string>("fixed", "a string"));
+  assign(c.accessible, section.take<std::string>("accessible", "a string"));
+  section.refuseTheRest();
+}
+
+void readMaterial(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "material", table);
+  assign(c.law, section.take<std::string>("law", "a string"));
+  if (c.law != "stvk")
+    section.refuse(section.node("law"), "law", "= \"" + c.law + "\" is not known (known: stvk)");
+  assign(c.E, section.number("E", 0.0, false, 1e12));
+  assign(c.nu, section.number("nu", -0.99, true, 0.4999));
+  section.refuseTheRest();
+}
+
+void readModel(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "model", table);
+  if (const auto name = section.take<std::string>("method", "a string")) {
+    try {
+      c.method = methodOf(*name);
+    } catch (const CaseError& error) {
+      section.refuse(section.node("method"), "method", error.what());
+    }
+  }
+  c.patch_radius = section.number("patch_radius", 0.0, false, 1.0);
+  c.order = section.integer("order", 1, 7);
+  c.modes = section.integer("modes", 1, 2000);
+  c.near_radius = section.number("near_radius", 0.0, true, 1.0);
+  c.sweeps = section.integer("sweeps", 1, 1000);
+  section.refuseTheRest();
+}
+
+/// One of two words. @return whether it is the second
+std::optional<bool> choice(Section& section, const std::string& key, const std::string& no,
+                           const std::string& yes) {
+  const std::optional<std::string> word = section.take<std::string>(key, "a string");
+  if (word && *word != no && *word != yes)
+    section.refuse(section.node(key), key,
+                   "= \"" + *word + "\" is not known (known: " + no + ", " + yes + ")");
+  return word ? std::optional<bool>(*word == yes) : std::nullopt;
+}
+
+/// Three numbers, not all zero, or "any".
+void readDirection(Section& section, LoadCase& load) {
+  const toml::node* node = section.find("direction");
+  if (node == nullptr) return;
+  if (node->value_exact<std::string>() == "any") {
+    load.any_direction = true;
+    return;
+  }
+  const toml::array* list = node->as_array();
+  Vec3 x = Vec3::Zero();
+  bool good = list != nullptr && list->size() == 3;
+  for (std::size_t i = 0; good && i < 3; ++i) {
+    good = (*list)[i].is_number();
+    if (good) x[static_cast<Eigen::Index>(i)] = *(*list)[i].value<double>();
+  }
+  if (!good || !x.allFinite() || !(x.norm() > 0.0))
+    section.refuse(*node, "direction", "is neither three numbers, not all zero, nor \"any\"");
+  load.direction = x.stableNormalized();
+}
+
+void readLoad(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "load", table);
+  readDirection(section, c.load);
+  c.load.magnitude = section.number("magnitude", 0.0, false, 1e6);
+  c.load.steps = section.integer("steps", 1, 100000);
+  c.load.node = choice(section, "kind", "patch", "node");
+  c.load.truncation = section.integer("truncation", 0, 100000);
+  section.refuseTheRest();
+}
+
+void readPgd(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "pgd", table);
+  c.pgd.hadamard = choice(section, "separation", "scalar", "hadamard");
+  c.pgd.tolerance = section.number("tolerance", 0.0, true, 0.999);
+  c.pgd.greedy_pairs = section.integer("greedy_pairs", 1, 100000);
+  c.pgd.sweeps = section.integer("sweeps", 1, 1000);
+  c.pgd.update = section.integer("update", 0, 100000);
+  c.pgd.block = section.integer("block", 1, 1000);
+  section.refuseTheRest();
+}
+
+std::string readText(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path)) throw CaseError(path.string() + ": cannot be read");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+Case readCase(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  Case c;
+  c.text = readText(path);
+  toml::table root;
+  try {
+    root = toml::parse(c.text, file);
+  } catch (const toml::parse_error& error) {
+    throw CaseError(file + ":" + std::to_string(error.source().begin.line) + ": " +
+                    std::string(error.description()));
+  }
+  Section section(file, "", root);
+  const std::optional<std::string> mesh = section.take<std::string>("mesh", "a string");
+  if (const toml::table* t = section.table("boundary")) readBoundary(file, *t, c);
+  if (const toml::table* t = section.table("material")) readMaterial(file, *t, c);
+  if (const toml::table* t = section.table("model")) readModel(file, *t, c);
+  if (const toml::table* t = section.table("load")) readLoad(file, *t, c);
+  if (const toml::table* t = section.table("pgd")) readPgd(file, *t, c);
+  section.refuseTheRest();
+  if (!mesh) throw CaseError(file + ": mesh is missing");
+  c.mesh = path.parent_path() / *mesh;
+  return c;
+}
+
+Case defaultCase(const std::filesystem::path& mesh) {
+  Case c;
+  c.mesh = mesh;
+  return c;
+}
+
+}  // namespace palpate::solver

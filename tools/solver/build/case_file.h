@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "tools/solver/fem/fe_model.h"
+
+namespace palpate::solver {
+
+/// A case file or an option is invalid. what() names the file, the line and the key.
+class CaseError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// How the model is computed, and which parameters it has beside s.     docs/design.md, Reproduction, Series
+enum class Method : std::uint8_t {
+  kSeriesDisplacement,  ///< series in d, three parts: u(X; s, d), f(s, d)
+  kSeriesForce,         ///< series in f, modes only: u(X; s, f)
+  kPgdLinear,           ///< linear PGD: u(X; s, t), or u(X; s, f) for any direction
+  kPgdExplicit,         ///< load stepping with the ten terms of Eq. (19): u(X; s, t)
+  kPgdEuler,            ///< the same without the residual (Remark 2)
+};
+
+/// "series-displacement", "series-force", "pgd-linear", "pgd-explicit", "pgd-euler".
+[[nodiscard]] std::string toString(Method method);
+/// @throw CaseError that lists the methods
+[[nodiscard]] Method methodOf(const std::string& name);
+
+/// The load of the PGD methods.
+struct LoadCase {
+  std::optional<Vec3> direction;    ///< unit vector; absent: -z
+  bool any_direction{false};        ///< one right-hand side for each Cartesian direction
+  std::optional<double> magnitude;  ///< N, (0, 1e6]; absent: moves the contact by 2 mm
+  std::optional<int> steps;         ///< of the load, 1 to 100000; absent: 30
+  std::optional<bool> node;         ///< acts on the node alone; absent: on its patch
+  std::optional<int> truncation;    ///< m of Eq. (2), 0 to 100000; absent or 0: none
+
+  [[nodiscard]] Vec3 unitDirection() const { return direction.value_or(Vec3(0.0, 0.0, -1.0)); }
+  [[nodiscard]] int stepsOrDefault() const { return steps.value_or(30); }
+};
+
+/// How the PGD methods enrich. Absent keys: the defaults of LinearPgdOptions and ExplicitOptions.
+struct PgdCase {
+  std::optional<bool> hadamard;     ///< component-wise pairs, Eq. (3)
+  std::optional<double> tolerance;  ///< of the residual, relative, [0, 1)
+  std::optional<int> greedy_pairs;  ///< before recompression, modes to 100000; absent: 1.5 modes
+  std::optional<int> sweeps;        ///< alternating directions per pair, 1 to 1000
+  std::optional<int> update;        ///< pairs between updates of all Y, 0 to 100000; 0: never
+  std::optional<int> block;         ///< pairs iterated at once, 1 to 1000
+};
+
+/// What to solve: the contents of a case file, or the defaults for a bare mesh. SI units. Absent keys have
+/// defaults that depend on the method.
+struct Case {
+  std::filesystem::path mesh;             ///< volume mesh in metres; relative paths start at the case file
+  std::string fixed{"fixed"};             ///< physical group of the clamped nodes
+  std::optional<std::string> accessible;  ///< physical group that a tool may touch; absent: all free nodes
+  std::string law{"stvk"};                ///< "stvk"
+  double E{160e3};                        ///< Pa, (0, 1e12]
+  double nu{0.48};                        ///< [-0.99, 0.4999]
+  Method method{Method::kSeriesDisplacement};
+  std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges
+  std::optional<int> order;            ///< p, 1 to 7; absent: 3
+  std::optional<int> modes;            ///< n, 1 to 2000; absent: 120 beside a near field, else 167
+  std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 0.025
+  std::optional<int> sweeps;           ///< of the fit of the modes, 1 to 1000; absent: 6
+  LoadCase load;
+  PgdCase pgd;
+  std::string text;  ///< the case file as read, for the provenance
+
+  [[nodiscard]] int orderOrDefault() const { return order.value_or(3); }
+  [[nodiscard]] int modesOrDefault() const {
+    return modes.value_or(method == Method::kSeriesDisplacement ? 120 : 167);
+  }
+  [[nodiscard]] double nearRadiusOrDefault() const { return near_radius.value_or(0.025); }
+  [[nodiscard]] int sweepsOrDefault() const { return sweeps.value_or(6); }
+  [[nodiscard]] bool nodalLoad() const { return load.node.value_or(false); }
+};
+
+/// Refuses keys that contradict each other, and keys that the method does not use.
+/// @throw CaseError naming the key, the method and the reason
+void checkCase(const Case& c);
+
+/// Reads a case file (TOML). Refuses, by name and line, keys that are unknown, of a wrong type or out of
+/// range. checkCase() judges whether the keys fit the method, after the command line has changed the case.
+/// @throw CaseError
+[[nodiscard]] Case readCase(const std::filesystem::path& path);
+
+/// The defaults for a mesh without a case file. A group `accessible` of the mesh is used; see tools/make/solve.
+[[nodiscard]] Case defaultCase(const std::filesystem::path& mesh);
+
+}  // namespace palpate::solver

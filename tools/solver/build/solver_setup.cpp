@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/build/solver_setup.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <string>
+
+#include "tools/mesh/topology.h"
+
+namespace palpate::solver {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+const std::vector<std::int32_t>& groupOf(const Case& c, const mesh::TetMesh& mesh, const std::string& name) {
+  const auto found = mesh.groups.find(name);
+  if (found != mesh.groups.end() && !found->second.empty()) return found->second;
+  std::string list;
+  for (const auto& [group, nodes] : mesh.groups) list += (list.empty() ? "" : ", ") + group;
+  throw CaseError(c.mesh.string() + ": no group \"" + name +
+                  "\" (there are: " + (list.empty() ? "none" : list) + ")");
+}
+
+std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, const FeModel& model,
+                                  const PatchSurface& surface) {
+  std::vector<bool> by_volume_node(mesh.nodes.size(), !c.accessible.has_value());
+  if (c.accessible)
+    for (const std::int32_t node : groupOf(c, mesh, *c.accessible)) by_volume_node[at(node)] = true;
+  std::vector<bool> accessible;
+  for (const std::int32_t node : surface.nodes)
+    accessible.push_back(by_volume_node[at(node)] && model.isFree(node));
+  if (std::none_of(accessible.begin(), accessible.end(), [](bool yes) { return yes; }))
+    throw CaseError(c.mesh.string() + ": no accessible node on the free surface");
+  return accessible;
+}
+
+/// Free nodes in the order of the mesh, then the clamped nodes: these never move, and the packed modes leave
+/// them out.
+void clampedLast(const FeModel& model, mesh::BoundarySurface& boundary) {
+  std::vector<int> order(boundary.nodes.size()), place(boundary.nodes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(),
+                        [&](int node) { return model.isFree(boundary.nodes[at(node)]); });
+  const std::vector<std::int32_t> nodes = boundary.nodes;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    boundary.nodes[i] = nodes[at(order[i])];
+    place[at(order[i])] = static_cast<int>(i);
+  }
+  for (auto& triangle : boundary.triangles)
+    for (std::int32_t& node : triangle) node = place[at(node)];
+}
+
+PatchSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
+  mesh::BoundarySurface boundary = mesh::boundaryOf(mesh);
+  clampedLast(model, boundary);
+  return PatchSurface(model, std::move(boundary.nodes), std::move(boundary.triangles));
+}
+
+std::string text(double x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.4g", x);
+  return buffer;
+}
+
+/// The patch of a nodal load: so narrow that it holds one node.
+double nodalRadius(const PatchSurface& surface) {
+  return 1e-6 * surface.medianEdge();
+}
+
+/// The given or default a. A patch that reaches no neighbour is a point load; one as wide as the organ is no
+/// contact.
+double patchRadius(const Case& c, const PatchSurface& surface) {
+  if (c.nodalLoad()) return nodalRadius(surface);
+  const double edge = surface.medianEdge();
+  const double a = c.patch_radius.value_or(1.3 * edge);
+  Vec3 low = surface.positions.front(), high = low;
+  for (const Vec3& x : surface.positions) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double widest = 0.5 * (high - low).minCoeff();
+  if (!(a > edge / 3.0) || a > std::max(widest, 1.3 * edge))
+    throw CaseError(c.mesh.string() + ": model.patch_radius = " + text(a) +
+                    " m does not fit; the median surface edge is " + text(edge) +
+                    " m, half the smallest extent " + text(widest) + " m");
+  return a;
+}
+
+void storeSurface(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::ModelData& data) {
+  data.position_of_node.assign(setup.surface.nodes.size(), -1);
+  for (std::size_t p = 0; p < setup.positions.nodes.size(); ++p)
+    data.position_of_node[at(setup.positions.nodes[p])] = static_cast<std::int32_t>(p);
+  data.contact_node = setup.positions.nodes;
+  data.contact_accessible = setup.positions.accessible;
+  for (const auto& t : setup.surface.triangles)
+    data.surface_triangles.insert(data.surface_triangles.end(), t.begin(), t.end());
+  for (std::size_t i = 0; i < setup.surface.nodes.size(); ++i) {
+    data.surface_mesh_tag.push_back(mesh.node_tags[at(setup.surface.nodes[i])]);
+    for (int c = 0; c < 3; ++c) data.surface_positions.push_back(setup.surface.positions[i][c]);
+  }
+}
+
+void storeMesh(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::ModelData& data) {
+  for (const Vec3& X : mesh.nodes) data.mesh_nodes.insert(data.mesh_nodes.end(), X.data(), X.data() + 3);
+  for (const auto& t : mesh.tetrahedra)
+    data.mesh_tetrahedra.insert(data.mesh_tetrahedra.end(), t.begin(), t.end());
+  data.mesh_node_tag = mesh.node_tags;
+  data.mesh_tetrahedron_tag = mesh.tetrahedron_tags;
+  data.mesh_fixed = setup.model.fixedNodes();
+  data.mesh_surface_node = setup.surface.nodes;
+}
+
+}  // namespace
+
+ContactPositions contactPositions(const FeModel& model, const PatchSurface& surface,
+                                  const std::vector<bool>& accessible, double patch_radius,
+                                  const mesh::TetMesh& mesh) {
+  // A helper needs enough of its patch on free nodes to have an answer of its own.
+  constexpr double kEnough = 0.05;
+  std::vector<bool> wanted = accessible;
+  for (const auto& t : surface.triangles)
+    if (std::any_of(t.begin(), t.end(), [&](std::int32_t node) { return accessible[at(node)]; }))
+      for (const std::int32_t node : t) wanted[at(node)] = true;
+  ContactPositions positions;
+  for (const bool helpers : {false, true}) {
+    for (std::size_t node = 0; node < surface.nodes.size(); ++node) {
+      if (!wanted[node] || accessible[node] == helpers) continue;
+      Patch patch = makePatch(model, surface, surface.atNode(static_cast<int>(node)), patch_radius);
+      if (patch.nodes.empty() && !helpers)
+        throw CaseError("node " + std::to_string(mesh.node_tags[at(surface.nodes[node])]) +
+                        ": its contact patch lies on clamped nodes only");
+      if (helpers && patch.free_share < kEnough) continue;
+      positions.nodes.push_back(static_cast<std::int32_t>(node));
+      positions.accessible.push_back(helpers ? 0 : 1);
+      positions.patches.push_back(std::move(patch));
+    }
+  }
+  return positions;
+}
+
+SolverSetup::SolverSetup(const Case& c, const mesh::TetMesh& mesh)
+    : model(mesh.nodes, mesh.tetrahedra, groupOf(c, mesh, c.fixed), {c.E, c.nu}),
+      surface(surfaceOf(model, mesh)),
+      patch_radius(patchRadius(c, surface)),
+      positions(
+          contactPositions(model, surface, accessibleNodes(c, mesh, model, surface), patch_radius, mesh)) {}
+
+std::vector<double> SolverSetup::positionAreas() const {
+  std::vector<double> areas;
+  for (const std::int32_t node : positions.nodes) areas.push_back(surface.areas[at(node)]);
+  return areas;
+}
+
+void storeOrgan(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::ModelData& data) {
+  storeSurface(setup, mesh, data);
+  storeMesh(setup, mesh, data);
+}
+
+}  // namespace palpate::solver

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/fem/patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace palpate::solver {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+std::vector<Vec3> positionsOf(const FeModel& model, const std::vector<std::int32_t>& nodes) {
+  std::vector<Vec3> positions;
+  for (const std::int32_t node : nodes) positions.push_back(model.nodes()[at(node)]);
+  return positions;
+}
+
+std::span<const double> numbers(const std::vector<Vec3>& points) {
+  return {points.empty() ? nullptr : points.front().data(), 3 * points.size()};
+}
+
+std::span<const std::int32_t> numbers(const std::vector<std::array<std::int32_t, 3>>& triangles) {
+  return {triangles.empty() ? nullptr : triangles.front().data(), 3 * triangles.size()};
+}
+
+}  // namespace
+
+PatchSurface::PatchSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
+                           std::vector<std::array<std::int32_t, 3>> surface_triangles)
+    : nodes(std::move(surface_nodes)),
+      triangles(std::move(surface_triangles)),
+      positions(positionsOf(model, nodes)),
+      graph(numbers(positions), numbers(triangles)),
+      areas(graph.lumpedAreas()) {}
+
+Vec3 PatchSurface::position(const ContactPoint& s) const {
+  Vec3 x = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * positions[at(triangles[at(s.triangle)][k])];
+  return x;
+}
+
+ContactPoint PatchSurface::atNode(int node) const {
+  ContactPoint s;
+  s.triangle = graph.trianglesOf(node).front();
+  for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = triangles[at(s.triangle)][k] == node ? 1.0 : 0.0;
+  return s;
+}
+
+double PatchSurface::medianEdge() const {
+  std::vector<double> lengths;
+  for (const auto& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      lengths.push_back((positions[at(t[k])] - positions[at(t[(k + 1) % 3])]).norm());
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+std::vector<std::pair<std::int32_t, double>> surfaceDistances(const PatchSurface& surface,
+                                                              const ContactPoint& s, double bound) {
+  return SurfaceFront(surface.graph).from(s, bound);
+}
+
+Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s, double a) {
+  Patch patch;
+  double total = 0.0;
+  double free_total = 0.0;
+  for (const auto& [node, r] : surfaceDistances(surface, s, 3.0 * a)) {
+    const double weight = surface.areas[at(node)] * std::exp(-0.5 * r * r / (a * a));
+    total += weight;
+    const std::int32_t volume_node = surface.nodes[at(node)];
+    if (!model.isFree(volume_node)) continue;
+    free_total += weight;
+    patch.nodes.push_back(volume_node);
+    patch.weights.push_back(weight);
+  }
+  for (double& weight : patch.weights) weight /= free_total;
+  patch.free_share = total > 0.0 ? free_total / total : 0.0;
+  return patch;
+}
+
+}  // namespace palpate::solver

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/base/contact_point.h"
+#include "core/surface/surface_distance.h"
+#include "tools/solver/fem/fe_model.h"
+
+namespace palpate::solver {
+
+/// The surface that a tool may touch, in surface-node numbering, with the graph and areas that define
+/// patches.
+struct PatchSurface {
+  std::vector<std::int32_t> nodes;                     ///< Ns volume nodes, in any order
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, outward
+  std::vector<Vec3> positions;                         ///< Ns, m
+  SurfaceGraph graph;                                  ///< of the same surface, for distances along it
+  std::vector<double> areas;                           ///< Ns lumped rest areas A_i, m^2
+
+  PatchSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
+               std::vector<std::array<std::int32_t, 3>> surface_triangles);
+
+  [[nodiscard]] Vec3 position(const ContactPoint& s) const;
+  /// The point that is surface node i.
+  [[nodiscard]] ContactPoint atNode(int node) const;
+  /// Median edge length, m.
+  [[nodiscard]] double medianEdge() const;
+};
+
+/// The contact patch G_s of docs/design.md, Symbols: G_s f = nodal forces w_i f, G_s^T u = sum w_i u_i.
+struct Patch {
+  std::vector<std::int32_t> nodes;  ///< volume nodes, free ones only
+  std::vector<double> weights;      ///< w_i, sum 1
+  double free_share{0.0};           ///< weight on free nodes before renormalization, in [0, 1]
+
+  void addForce(const Vec3& f, Eigen::VectorXd& nodal) const {
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodal.segment<3>(3 * nodes[i]) += weights[i] * f;
+  }
+  [[nodiscard]] Vec3 average(const Eigen::VectorXd& u) const {
+    Vec3 d = Vec3::Zero();
+    for (std::size_t i = 0; i < nodes.size(); ++i) d += weights[i] * u.segment<3>(3 * nodes[i]);
+    return d;
+  }
+};
+
+/// Distances along the surface from s to the nodes nearer than a bound, computed as the server does
+/// (core's SurfaceFront). docs/design.md, Parts
+/// @return pairs (surface node, distance in m), nearest first
+[[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const PatchSurface& surface,
+                                                                            const ContactPoint& s,
+                                                                            double bound);
+
+/// w_i(s) proportional to A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, restricted to free nodes, sum 1.
+/// docs/design.md, Symbols, Parts. A patch without a free node is empty and has free_share 0.
+[[nodiscard]] Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s,
+                              double a);
+
+}  // namespace palpate::solver

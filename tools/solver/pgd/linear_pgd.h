@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tools/solver/pgd/parametric_problem.h"
+#include "tools/solver/pgd/separated_solution.h"
+
+namespace palpate::solver {
+
+enum class Separation {
+  kScalar,    ///< u = sum X_k(x) Y_k(s): one operator, a block power iteration for the energy-norm SVD
+  kHadamard,  ///< u_j = sum X_k,j(x) Y_k,j(s), component by component: one factorization a sweep
+};
+
+struct LinearPgdOptions {
+  Separation separation{Separation::kScalar};
+  std::vector<int> components;  ///< of every unknown, Hadamard only; empty: unknown i belongs to i % 3
+  int load_terms{0};            ///< m of Eq. (2), >= 0; 0: the load is not truncated
+  int max_pairs{250};           ///< n, >= 1
+  double tolerance{1e-3};       ///< stop at this dual norm of the residual over that of the loads, [0, 1)
+  int max_sweeps{3};            ///< alternating directions for a pair (or block), >= 1
+  double pair_tolerance{1e-2};  ///< stop a pair at this change of the normalized pair in a sweep, >= 0
+  int update{8};                ///< pairs between updates of all Y for fixed X, >= 0; 0: never
+  int block{8};                 ///< pairs iterated at once, >= 1; scalar only, Hadamard iterates one
+  int residual_every{8};        ///< pairs between estimates of the residual, >= 1
+  int probes{24};               ///< random combinations of positions that estimate the residual, >= 2
+  int workers{1};               ///< threads of the solves, >= 1
+  unsigned seed{1};
+  bool quiet{false};
+};
+
+/// Components of the unknowns of a body: x, y, z in turn.
+[[nodiscard]] std::vector<int> bodyComponents(int dofs);
+
+/// Linear parametric PGD: K u_s = l_s for all s at once, by greedy enrichment with alternating directions;
+/// no full solution at a load position is ever formed.                      paper Eqs. (1)-(12), docs/design.md, Reproduction
+/// Differs from the paper: a pair stops when it changes little, and the enrichment when the energy norm of
+/// the residual is small. Pairs may be iterated in blocks, and a Galerkin step may update all Y for fixed X.
+/// Solutions for a few random combinations of the loads estimate the residual's dual norm (the energy norm of
+/// the error) without bias; EnrichmentStep::spread is the estimate's standard deviation. With a truncated
+/// load it is the norm for that load.
+/// @throw std::invalid_argument naming the option that is out of range, std::runtime_error when K is singular
+/// Memory O((dofs + M) n). Cost per pair and sweep: one solve, O((dofs + M) n); Hadamard: one factorization.
+[[nodiscard]] SeparatedSolution solveLinearPgd(const ParametricProblem& problem,
+                                               const LinearPgdOptions& options);
+
+}  // namespace palpate::solver

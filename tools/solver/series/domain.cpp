@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/series/domain.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palpate::solver {
+
+namespace {
+
+/// Estimates the truncation error of a series from its last terms: the terms beyond are taken to fall as
+/// slowly as over the last degree or the last two. Near the radius of convergence this tail exceeds the last
+/// terms. docs/design.md, Series
+double remainder(double last, double previous, double before_previous) {
+  if (last == 0.0) return 0.0;
+  // Where the terms of a degree vanish by chance the ratio has no meaning; the tail is at most four times the
+  // last term.
+  constexpr double kSlowest = 0.8;
+  const double ratio = std::min(kSlowest, std::max(last / previous, std::sqrt(last / before_previous)));
+  return last * std::max(1.0, ratio / (1.0 - ratio));
+}
+
+/// The answer and its derivative along one ray, x = r e, by degree. The monomials are summed once, so each r
+/// costs one term per degree.
+class Ray {
+ public:
+  Ray(const MonomialBasis& basis, std::span<const Vec3> coefficients, int kept, double tolerance,
+      const Vec3& direction);
+  [[nodiscard]] bool isTrusted(double r) const;
+
+ private:
+  std::size_t order_;
+  std::size_t kept_;                                       // highest degree in the model
+  double tolerance_;                                       // of the truncation error
+  std::array<Vec3, MonomialBasis::kMaxOrder + 1> terms_;   // of degree n at r = 1
+  std::array<Mat3, MonomialBasis::kMaxOrder + 1> slopes_;  // of those, symmetric part; kept degrees only
+};
+
+Ray::Ray(const MonomialBasis& basis, std::span<const Vec3> coefficients, int kept, double tolerance,
+         const Vec3& direction)
+    : order_(static_cast<std::size_t>(basis.order())),
+      kept_(static_cast<std::size_t>(kept)),
+      tolerance_(tolerance) {
+  std::array<double, MonomialBasis::kMaxCoefficients> value{};
+  std::array<Vec3, MonomialBasis::kMaxCoefficients> slope;
+  basis.evaluate(direction, value);
+  basis.gradient(direction, slope);
+  terms_.fill(Vec3::Zero());
+  slopes_.fill(Mat3::Zero());
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    const MultiIndex& a = basis[static_cast<int>(k)];
+    const auto degree = static_cast<std::size_t>(a[0] + a[1] + a[2]);
+    terms_[degree] += value[k] * coefficients[k];
+    if (degree <= kept_) slopes_[degree] += coefficients[k] * slope[k].transpose();
+  }
+  for (Mat3& K : slopes_) K = (0.5 * (K + K.transpose())).eval();
+}
+
+bool Ray::isTrusted(double r) const {
+  std::array<double, MonomialBasis::kMaxOrder + 1> size{};  // of the terms of each degree
+  Vec3 whole = Vec3::Zero(), cut = Vec3::Zero();
+  Mat3 K = Mat3::Zero();
+  double power = 1.0;  // r^(n-1)
+  for (std::size_t n = 1; n <= order_; ++n, power *= r) {
+    const Vec3 term = power * r * terms_[n];
+    size[n] = term.norm();
+    whole += term;
+    if (n > kept_) cut += term;
+    K += power * slopes_[n];
+  }
+  if (order_ > 1) {  // a linear answer has no term to estimate its error from
+    const double before_previous = order_ > 2 ? size[order_ - 2] : std::numeric_limits<double>::infinity();
+    const double tail = remainder(size[order_], size[order_ - 1], before_previous);
+    if (cut.norm() + tail > tolerance_ * whole.norm()) return false;
+  }
+  return K.llt().info() == Eigen::Success;
+}
+
+/// x^alpha for x = radius * direction, per lane.
+LaneVector laneMonomials(const MonomialBasis& basis, const Vec3& direction, const Lanes& radius) {
+  std::array<double, MonomialBasis::kMaxCoefficients> unit{};
+  basis.evaluate(direction, unit);
+  LaneVector monomials(static_cast<std::size_t>(basis.size()));
+  for (int degree = 1; degree <= basis.order(); ++degree) {
+    Lanes power = radius;
+    for (int n = 1; n < degree; ++n) power *= radius;
+    for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k)
+      monomials[static_cast<std::size_t>(k)] = power * unit[static_cast<std::size_t>(k)];
+  }
+  return monomials;
+}
+
+/// The elements in which some lane could pass below the limit: det F >= (1 - |H|)^3.
+std::vector<int> suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
+                          const Lanes& radius) {
+  LaneVector powers(static_cast<std::size_t>(basis.size()));
+  for (int degree = 1; degree <= basis.order(); ++degree) {
+    Lanes power = radius;
+    for (int n = 1; n < degree; ++n) power *= radius;
+    for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k) {
+      // |x^alpha| <= |x|^|alpha| in every direction.
+      powers[static_cast<std::size_t>(k)] = power;
+    }
+  }
+  LaneVector bounds(static_cast<std::size_t>(input.element_count));
+  gradientBounds(input, powers.data(), bounds.data());
+  const double harmless = 1.0 - std::cbrt(min_det_f);
+  std::vector<int> found;
+  for (int e = 0; e < input.element_count; ++e) {
+    double largest = 0.0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      largest = std::max(largest, bounds[static_cast<std::size_t>(e)][lane]);
+    if (!(largest < harmless)) found.push_back(e);
+  }
+  return found;
+}
+
+}  // namespace
+
+const std::vector<Vec3>& sampledDirections() {
+  static const std::vector<Vec3> directions = [] {
+    std::vector<Vec3> list;
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (x != 0 || y != 0 || z != 0) list.push_back(Vec3(x, y, z).normalized());
+    return list;
+  }();
+  return directions;
+}
+
+double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept, double cap,
+                    double tolerance) {
+  constexpr int kScan = 100;  // scan for the radius, then halve between two samples
+  double radius = cap;
+  for (const Vec3& direction : sampledDirections()) {
+    const Ray ray(basis, answer, kept, tolerance, direction);
+    double good = 0.0;
+    const double step = cap / kScan;
+    while (good < radius && ray.isTrusted(std::min(good + step, radius)))
+      good = std::min(good + step, radius);
+    double bad = std::min(good + step, radius);
+    for (int halving = 0; halving < 12 && good < radius; ++halving) {
+      const double middle = 0.5 * (good + bad);
+      (ray.isTrusted(middle) ? good : bad) = middle;
+      if (bad - good < 1e-3 * step) break;
+    }
+    radius = std::min(radius, good);
+  }
+  return radius;
+}
+
+void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
+                 std::span<double> radii) {
+  Lanes radius{};
+  for (std::size_t lane = 0; lane < radii.size(); ++lane) radius[static_cast<int>(lane)] = radii[lane];
+  for (const int element : suspects(basis, input, min_det_f, radius)) {
+    for (const Vec3& direction : sampledDirections()) {
+      // A radius that is too large is halved up to ten times, to a thousandth.
+      Lanes good{};
+      Lanes tried = radius;
+      Lanes step = 0.5 * radius;
+      const Lanes offered = radius;
+      for (int halving = 0; halving < 11; ++halving) {
+        Lanes det;
+        detF(input, element, laneMonomials(basis, direction, tried).data(), &det);
+        bool all_good = true;
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const bool fine = det[lane] >= min_det_f;
+          if (fine) good[lane] = std::max(good[lane], tried[lane]);
+          if (good[lane] == offered[lane]) continue;
+          all_good = false;
+          tried[lane] += fine ? step[lane] : -step[lane];
+          step[lane] *= 0.5;
+        }
+        if (all_good) break;
+      }
+      radius = good;
+    }
+  }
+  for (std::size_t lane = 0; lane < radii.size(); ++lane) radii[lane] = radius[static_cast<int>(lane)];
+}
+
+}  // namespace palpate::solver

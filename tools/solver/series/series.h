@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/multi_index.h"
+#include "tools/solver/fem/cholesky.h"
+#include "tools/solver/fem/fe_model.h"
+#include "tools/solver/fem/patch.h"
+
+namespace palpate::solver {
+
+/// What a series is driven by, and what it answers.
+enum class SeriesKind : std::uint8_t {
+  kDisplacement,  ///< d prescribed, f found: the default method                      docs/design.md, Series
+  kForce,  ///< f prescribed, d found: the paper's parameters, position and orientation   docs/design.md, Reproduction
+};
+
+/// Sampling and limits of the domain radius d_max(s), or f_max(s).                     docs/design.md, Series
+struct DomainCriteria {
+  double answer_error{0.01};  ///< relative error of the force (or displacement) that the series may have
+  double min_det_f{0.3};      ///< over all elements
+  double cap{0.05};           ///< m, largest radius; driven by force: of the linear answer
+};
+
+/// The series of up to kLanes contact positions at once.                               docs/design.md, Series
+///   kDisplacement: u(X; s, d) = sum d^alpha U_alpha(X, s),  f(s, d) = sum d^alpha f_alpha(s)
+///   kForce:        u(X; s, f) = sum f^alpha U_alpha(X, s),  d(s, f) = sum f^alpha d_alpha(s)
+/// 1 <= |alpha| <= p for the fields. With f prescribed the recursion is the one of docs/design.md, Series
+/// without its correction: U_{e_i} = W_s e_i, U_alpha = -K0^-1 r_alpha, d_alpha = G_s^T U_alpha.
+/// One factorization K0 = K_T(0) serves every position, direction and order. Coefficients are not scaled:
+/// U_alpha in m^(1-|alpha|), f_alpha in N m^-|alpha|; or U_alpha and d_alpha in m N^-|alpha|. One object per
+/// thread; the factor is shared.
+class SeriesSolver {
+ public:
+  /// @param factor  of K_T(0)  @param order  p, 1 to MonomialBasis::kMaxOrder
+  SeriesSolver(const FeModel& model, const Cholesky& factor, int order,
+               SeriesKind kind = SeriesKind::kDisplacement);
+  ~SeriesSolver();
+
+  /// @param patches  1 to kLanes contact patches with at least one free node each
+  /// @throw std::runtime_error when a patch cannot move (C_s singular) or a result is not finite
+  void solve(std::span<const Patch> patches);
+
+  /// Degree of the answer for fields of degree p: 2p, or less where a MonomialBasis cannot hold the energy,
+  /// which has one degree more.
+  [[nodiscard]] static constexpr int answerOrder(int order) noexcept {
+    return std::max(order, std::min(2 * order, MonomialBasis::kMaxOrder - 1));
+  }
+
+  /// The monomials of the fields, degree p.
+  [[nodiscard]] const MonomialBasis& basis() const noexcept;
+  /// The monomials of the answer, degree answerOrder(p).
+  [[nodiscard]] const MonomialBasis& answerBasis() const noexcept;
+  /// f_alpha (driven by force: d_alpha) of the position in a lane, alpha = answerBasis()[k].
+  [[nodiscard]] Vec3 answer(int lane, int k) const;
+  /// U_alpha of the position in a lane at a volume node.
+  [[nodiscard]] Vec3 displacement(int lane, int k, int node) const;
+  /// Largest |d| (|f|) at which the series of a lane meets the criteria, over 26 directions, m (N). Driven by
+  /// displacement the whole answer is judged; driven by force only its part of degree p, which a model keeps.
+  [[nodiscard]] std::vector<double> domainRadii(const DomainCriteria& criteria) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace palpate::solver
