@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "tools/mesh/read_msh.h"
+#include "tools/mesh/byte_reader.h"
+#include "tools/mesh/msh_element.h"
+#include "tools/mesh/raw_mesh.h"
 
 namespace palpate::mesh {
 

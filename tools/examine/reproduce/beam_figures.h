@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/examine/reproduce/beam_problem.h"
+#include "tools/examine/reproduce/output.h"
 #include "tools/solver/pgd/level_solution.h"
 
 namespace palpate::reproduce {

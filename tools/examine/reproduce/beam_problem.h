@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/examine/reproduce/beam_study.h"
+#include "tools/examine/reproduce/beam_options.h"
 #include "tools/mesh/tet_mesh.h"
 #include "tools/solver/pgd/parametric_problem.h"
 

@@ -8,6 +8,7 @@
 #include "core/response/patch_response.h"
 #include "core/response/response.h"
 #include "tools/modelfile/write_model.h"
+#include "tools/solver/build/build_model.h"
 #include "tools/solver/build/force_series.h"
 #include "tools/solver/build/store_modes.h"
 

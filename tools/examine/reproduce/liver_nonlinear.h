@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "tools/examine/reproduce/liver_study.h"
+#include "tools/examine/reproduce/liver_options.h"
+#include "tools/examine/reproduce/output.h"
 #include "tools/examine/reproduce/touches.h"
 #include "tools/mesh/tet_mesh.h"
 #include "tools/solver/build/solver_setup.h"

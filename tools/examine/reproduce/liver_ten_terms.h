@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tools/examine/reproduce/liver_study.h"
+#include "tools/examine/reproduce/liver_options.h"
+#include "tools/examine/reproduce/output.h"
 
 namespace palpate::reproduce {
 

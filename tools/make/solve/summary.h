@@ -6,7 +6,7 @@
 #include "tools/modelfile/mixed_precision.h"
 #include "tools/modelfile/model_data.h"
 #include "tools/program/json.h"
-#include "tools/solver/build/build_model.h"
+#include "tools/solver/build/build_options.h"
 #include "tools/solver/build/case_file.h"
 
 namespace palpate::solve {

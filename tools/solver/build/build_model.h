@@ -1,34 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "tools/mesh/tet_mesh.h"
+#include "tools/modelfile/model_data.h"
+#include "tools/solver/build/build_options.h"
 #include "tools/solver/build/case_file.h"
-#include "tools/solver/build/solver_setup.h"
 
 namespace palpate::solver {
-
-struct BuildOptions {
-  int workers{1};
-  std::filesystem::path scratch{"."};  ///< folder of the scratch file
-  bool quiet{false};
-};
-
-/// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
-struct BuildReport {
-  double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
-  double pgd_seconds{0}, recompression_seconds{0};
-  std::vector<double> fit_errors;  ///< series methods: after each sweep, see FarField::errors
-  int greedy_pairs{0};             ///< PGD methods: pairs before recompression
-  double residual{0};              ///< PGD methods: of the last enrichment, dual norm, relative, an estimate
-  double truncation{0};            ///< PGD methods: relative energy norm of what recompression drops
-  double load_truncation{0};       ///< pgd-linear: relative error of m terms, Eq. (2), in nodal forces
-  double load{0};                  ///< PGD methods: N
-  int weak_positions{0};           ///< load-driven: positions where the modes are too few to invert dd/df
-};
 
 /// Builds the model of an organ with the method c.method (table of methods: tools/make/solve/README.md).
 /// The memory of the series methods depends on the model and the workers only: the table of all fields is in

@@ -29,14 +29,6 @@ std::vector<float> surfaceFields(const SeriesSolver& series, int lane, const Pat
   return fields;
 }
 
-/// Surface node of each volume node, -1 inside.
-std::vector<std::int32_t> surfaceNodeOf(const SolverSetup& setup) {
-  std::vector<std::int32_t> index(at(setup.model.nodeCount()), -1);
-  for (std::size_t i = 0; i < setup.surface.nodes.size(); ++i)
-    index[at(setup.surface.nodes[i])] = static_cast<std::int32_t>(i);
-  return index;
-}
-
 }  // namespace
 
 void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const Case& c) {
@@ -79,26 +71,6 @@ void storeAttributes(const Case& c, const SolverSetup& setup, ModelAttributes& a
   attributes.E = c.E;
   attributes.nu = c.nu;
   attributes.patch_radius = setup.patch_radius;
-}
-
-void storeModes(const SolverSetup& setup, const Eigen::MatrixXf& X, const Eigen::MatrixXf& Y,
-                modelfile::ModelData& data) {
-  data.modes_X.assign(X.data(), X.data() + X.size());
-  data.modes_Y.assign(Y.data(), Y.data() + Y.size());
-  const std::size_t M = setup.positions.nodes.size();
-  data.near_offset.assign(M + 1, 0);
-  const Eigen::Index C = Y.cols() / static_cast<Eigen::Index>(M);
-  const std::vector<std::int32_t> surface_node = surfaceNodeOf(setup);
-  data.contact_displacement.resize(3 * static_cast<std::size_t>(Y.cols()));
-  for (std::size_t s = 0; s < M; ++s) {
-    const Patch& patch = setup.positions.patches[s];
-    Eigen::MatrixXd average = Eigen::MatrixXd::Zero(3, X.cols());
-    for (std::size_t i = 0; i < patch.nodes.size(); ++i)
-      average += patch.weights[i] * X.middleRows<3>(3 * surface_node[at(patch.nodes[i])]).cast<double>();
-    const Eigen::Index column = static_cast<Eigen::Index>(s) * C;
-    Eigen::Map<Eigen::MatrixXd>(data.contact_displacement.data() + 3 * column, 3, C) =
-        average * Y.middleCols(column, C).cast<double>();
-  }
 }
 
 }  // namespace palpate::solver

@@ -5,15 +5,15 @@
 #include <chrono>
 #include <functional>
 
-#include "tools/solver/build/build_model.h"
-#include "tools/solver/build/store_modes.h"
+#include "tools/solver/build/build_options.h"
+#include "tools/solver/build/solver_setup.h"
 #include "tools/solver/fem/cholesky.h"
 #include "tools/solver/fit/field_table.h"
 #include "tools/solver/series/series.h"
 
 namespace palpate::solver {
 
-// Parts that the methods share. buildModel() calls one of the last two functions or runs its own method.
+// Parts that the methods share.
 
 /// Wall-clock time since its construction, s.
 class Stopwatch {

@@ -10,6 +10,7 @@
 
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/build/build_model_parts.h"
+#include "tools/solver/build/store_modes.h"
 #include "tools/solver/pgd/explicit_pgd.h"
 #include "tools/solver/pgd/linear_pgd.h"
 #include "tools/solver/pgd/parametric_problem.h"

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tools/solver/build/build_model.h"
+#include "tools/mesh/tet_mesh.h"
+#include "tools/modelfile/model_data.h"
+#include "tools/solver/build/build_options.h"
+#include "tools/solver/build/case_file.h"
 
 namespace palpate::solver {
 

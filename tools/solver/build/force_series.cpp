@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tools/solver/build/build_model_parts.h"
+#include "tools/solver/build/store_modes.h"
 #include "tools/solver/fit/far_field.h"
 #include "tools/solver/series/domain.h"
 

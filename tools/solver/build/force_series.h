@@ -4,7 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "tools/solver/build/build_model.h"
+#include "tools/mesh/tet_mesh.h"
+#include "tools/modelfile/model_data.h"
+#include "tools/solver/build/build_options.h"
+#include "tools/solver/build/case_file.h"
 
 namespace palpate::solver {
 

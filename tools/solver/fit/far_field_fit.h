@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/solver/fit/far_field.h"
+#include "tools/solver/fit/fit_problem.h"
 
 namespace palpate::solver {
 

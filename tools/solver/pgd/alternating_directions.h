@@ -4,8 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "tools/solver/pgd/linear_pgd.h"
+#include "tools/solver/fem/cholesky.h"
+#include "tools/solver/pgd/linear_pgd_options.h"
 #include "tools/solver/pgd/load_separation.h"
+#include "tools/solver/pgd/separated_solution.h"
 
 namespace palpate::solver {
 

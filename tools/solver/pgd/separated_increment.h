@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tools/solver/pgd/explicit_pgd.h"
+#include "tools/solver/fem/cholesky.h"
+#include "tools/solver/pgd/load_stepping.h"
+#include "tools/solver/pgd/parametric_problem.h"
 #include "tools/solver/pgd/tangent_table.h"
 
 namespace palpate::solver {

@@ -13,6 +13,7 @@
 #include "palpate/testing/files.h"
 #include "tools/mesh/box_mesh.h"
 #include "tools/modelfile/write_model.h"
+#include "tools/solver/build/solver_setup.h"
 #include "tools/solver/fem/newton.h"
 
 namespace palpate::solver {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace palpate::solver {
+
+struct BuildOptions {
+  int workers{1};
+  std::filesystem::path scratch{"."};  ///< folder of the scratch file
+  bool quiet{false};
+};
+
+/// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
+struct BuildReport {
+  double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
+  double pgd_seconds{0}, recompression_seconds{0};
+  std::vector<double> fit_errors;  ///< series methods: after each sweep, see FarField::errors
+  int greedy_pairs{0};             ///< PGD methods: pairs before recompression
+  double residual{0};              ///< PGD methods: of the last enrichment, dual norm, relative, an estimate
+  double truncation{0};            ///< PGD methods: relative energy norm of what recompression drops
+  double load_truncation{0};       ///< pgd-linear: relative error of m terms, Eq. (2), in nodal forces
+  double load{0};                  ///< PGD methods: N
+  int weak_positions{0};           ///< load-driven: positions where the modes are too few to invert dd/df
+};
+
+}  // namespace palpate::solver
