@@ -6,53 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "palpate/server/config.h"
+#include "asked.h"
 
 namespace palpate::server {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Facts factsOf(const std::string& device) {
-  Facts facts;
-  facts.server_id = 6;
-  facts.device.fill(device);
-  facts.step = withDevice({}, device, {});
-  facts.youngs_modulus = 160e3;
-  return facts;
-}
-
-// A request for one field.
-dds::ParameterRequest request(std::uint32_t field, double value) {
-  dds::ParameterRequest asked{};
-  asked.request_id = 42;
-  asked.tool_id = dds::kAllTools;
-  asked.fields = field;
-  for (double* number : {&asked.youngs_modulus, &asked.friction, &asked.coupling_stiffness,
-                         &asked.coupling_damping, &asked.force_limit, &asked.force_rate_limit})
-    *number = kNaN;  // what is not set is not looked at
-  switch (field) {
-    case dds::parameter::kYoungsModulus:
-      asked.youngs_modulus = value;
-      break;
-    case dds::parameter::kFriction:
-      asked.friction = value;
-      break;
-    case dds::parameter::kCouplingStiffness:
-      asked.coupling_stiffness = value;
-      break;
-    case dds::parameter::kCouplingDamping:
-      asked.coupling_damping = value;
-      break;
-    case dds::parameter::kForceLimit:
-      asked.force_limit = value;
-      break;
-    default:
-      asked.force_rate_limit = value;
-  }
-  return asked;
-}
 
 struct Refusal {
   std::uint32_t field;
@@ -248,54 +207,6 @@ TEST(ParameterBook, ToolsWithDifferentDevicesHaveDifferentLimits) {
   asked.tool_id = 1;
   EXPECT_TRUE(book.decide(asked).accepted);
   EXPECT_NE(book.describe().find("; tool 1: device premium30, tip_radius 0.004 m"), std::string::npos);
-}
-
-// What a driver says first.
-DriverWord wordOf(const dds::ToolAnnouncement& what) {
-  return {1, {}, what};
-}
-
-TEST(ParameterBook, WhereParametersAreOffADriverOnlyLowersToItsDevice) {
-  Facts facts = factsOf("touch");
-  facts.parameters = false;
-  ParameterBook book(facts);
-  dds::ToolAnnouncement said{};
-  said.device_force_limit = 1.0;
-  said.fields = dds::parameter::kFriction;
-  said.values.friction = 0.1;
-  said.has_tip_radius = true;
-  said.tip_radius = 0.004;
-  EXPECT_TRUE(book.announced(0, wordOf(said)));
-  EXPECT_EQ(book.refusal(0), "");
-  EXPECT_EQ(book.inForce()[0].live.force_limit, 1.0);
-  EXPECT_EQ(book.inForce()[0].live.friction, 0.3);
-  EXPECT_EQ(book.inForce()[0].tip_radius, facts.step.tip_radius);
-}
-
-TEST(ParameterBook, ADriversTipIsHalfToTwiceTheOperators) {
-  for (const double ratio : {0.49, 0.5, 2.0, 2.1, std::nan("")}) {
-    const Facts facts = factsOf("touch");
-    ParameterBook book(facts);
-    dds::ToolAnnouncement said{};
-    said.has_tip_radius = true;
-    said.tip_radius = ratio * facts.step.tip_radius;
-    EXPECT_TRUE(book.announced(0, wordOf(said)));
-    const bool near = ratio >= 0.5 && ratio <= 2.0;
-    EXPECT_EQ(book.refusal(0).empty(), near) << ratio << ": " << book.refusal(0);
-    EXPECT_EQ(book.inForce()[0].tip_radius, near ? said.tip_radius : facts.step.tip_radius);
-  }
-}
-
-TEST(ParameterBook, ADeviceWeakerThanTheOperatorsLowestStillHolds) {
-  Facts facts = factsOf("touch");
-  facts.limits.force_limit = Bounds{2.0, 3.3};
-  ParameterBook book(facts);
-  dds::ToolAnnouncement said{};
-  said.device_force_limit = 0.5;
-  EXPECT_TRUE(book.announced(0, wordOf(said)));
-  EXPECT_EQ(book.refusal(0), "");
-  EXPECT_EQ(book.inForce()[0].live.force_limit, 0.5);
-  EXPECT_EQ(book.answer().tools[0].lowest.force_limit, 0.5);
 }
 
 TEST(ParameterBook, LimitsOfEThatLeaveOutTheModelsAreRefused) {

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/model/field_evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "../response/random_touch.h"
+
+namespace palpate::testing {
+
+namespace {
+
+/// The sum of the format's text, term by term, in double precision.
+std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
+  const ModelView& v = organ().view();
+  const std::size_t C = static_cast<std::size_t>(organ().functions().size()), n = v.modes();
+  std::vector<double> monomial(C), u(v.surface_positions.size());
+  MonomialBasis(options().order).evaluate(d / options().reference_displacement, monomial);
+  const PositionMix mix = organ().surface().mix(s);
+  for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b) {
+    const auto m = static_cast<std::size_t>(mix.position[b]);
+    const auto first = static_cast<std::size_t>(v.near_offset[m]);
+    const auto K = static_cast<std::size_t>(v.near_offset[m + 1]) - first;
+    for (std::size_t k = 0; k < C; ++k) {
+      const double w = mix.weight[b] * monomial[k];
+      for (std::size_t mode = 0; mode < n; ++mode)
+        for (std::size_t i = 0; i < u.size(); ++i)
+          u[i] += w * double(v.modes_Y[(m * C + k) * n + mode]) * double(v.modes_X[mode * u.size() + i]);
+      for (std::size_t i = 0; i < 3 * K; ++i)
+        u[3 * static_cast<std::size_t>(v.near_node[first + i / 3]) + i % 3] +=
+            w * double(v.near_field[3 * C * first + k * 3 * K + i]);
+    }
+  }
+  return u;
+}
+
+}  // namespace
+
+TEST(Field, IsTheSumOfTheFormat) {
+  Random random;
+  for (int trial = 0; trial < 10; ++trial) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 d = random.vector(0.004);
+    const std::vector<float> fast = field(s, d);
+    const std::vector<double> plain = plainField(s, d);
+    for (std::size_t i = 0; i < fast.size(); ++i) ASSERT_NEAR(fast[i], plain[i], 1e-8);
+  }
+}
+
+TEST(Field, SourcesAddWithTheirGains) {
+  Random random;
+  const FieldSource a{random.contactPoint(), random.vector(0.003), 1.0};
+  const FieldSource b{random.contactPoint(), random.vector(0.003), 0.25};
+  FieldScratch scratch(organ());
+  std::vector<float> both(organ().view().surface_positions.size());
+  const std::array<FieldSource, 2> sources{a, b};
+  evaluateField(organ(), sources, scratch, both);
+  const std::vector<float> one = field(a.s, a.parameter), other = field(b.s, b.parameter);
+  for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(both[i], one[i] + 0.25F * other[i], 1e-8);
+}
+
+}  // namespace palpate::testing

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "../driver.h"
+#include "core/response/patch_response.h"
+
+namespace palpate::testing {
+
+inline const SyntheticOptions& options() {
+  static const SyntheticOptions instance{.subdivisions = 2, .order = 3, .force_order = 5};
+  return instance;
+}
+
+inline const MetaModel& organ() {
+  static const MetaModel model = loadSynthetic(options());
+  return model;
+}
+
+class Random {
+ public:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+  Vec3 vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+  /// A point somewhere on the accessible surface.
+  ContactPoint contactPoint() {
+    for (;;) {
+      const auto triangle =
+          static_cast<int>(engine_() % static_cast<unsigned>(organ().surface().triangles()));
+      const double a = uniform(0.0, 1.0), b = uniform(0.0, 1.0 - a);
+      if (organ().surface().accessible(triangle)) return {triangle, {1.0 - a - b, a, b}};
+    }
+  }
+
+ private:
+  std::mt19937 engine_{11};
+};
+
+inline std::vector<float> field(const ContactPoint& s, const Vec3& d) {
+  FieldScratch scratch(organ());
+  std::vector<float> u(organ().view().surface_positions.size());
+  evaluateField(organ(), s, d, scratch, u);
+  return u;
+}
+
+}  // namespace palpate::testing
