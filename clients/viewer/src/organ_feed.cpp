@@ -45,9 +45,10 @@ bool sameSurface(const client::Surface& a, const client::Surface& b) {
 
 }  // namespace
 
-OrganFeed::OrganFeed(const dds::Participant& participant, double rate_hz, WakeFunction wake, void* context)
+OrganFeed::OrganFeed(const dds::Participant& participant, std::uint32_t server_id, double rate_hz,
+                     WakeFunction wake, void* context)
     : rate_hz_(rate_hz),
-      watch_(participant.domain()),
+      watch_(participant.domain(), server_id),
       statuses_(participant),
       parameter_answers_(participant),
       surfaces_(participant),

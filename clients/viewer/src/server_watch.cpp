@@ -13,12 +13,17 @@ std::string secondsOf(std::int64_t ns) {
 }  // namespace
 
 bool ServerWatch::saw(const dds::ServerStatus& status, std::int64_t now_ns, dds::WriterId writer) {
+  const bool stopping = status.state == dds::server_state::kStopping;
+  if (wanted_ != dds::kServerAny && status.server_id != wanted_) {
+    others_.erase(status.session);
+    if (!stopping) keepOther(status, now_ns);
+    return false;
+  }
   const bool another = status_ && status_->session != status.session;
   if (status_ && !another && alive(now_ns) && writer != writer_) return false;
   const bool begins = status_ && status_->state == dds::server_state::kStarting &&
                       status.state == dds::server_state::kRunning;  // the other one began first
   const bool held = alive(now_ns) && status_->state != dds::server_state::kStopping && !begins;
-  const bool stopping = status.state == dds::server_state::kStopping;
   if (another && (held || stopping)) {
     others_.erase(status.session);
     if (!stopping) keepOther(status, now_ns);
@@ -47,11 +52,17 @@ std::string ServerWatch::othersAt(std::int64_t now_ns) const {
   return words;
 }
 
+std::string ServerWatch::awaited() const {
+  return wanted_ == dds::kServerAny ? "a server" : "server " + std::to_string(wanted_);
+}
+
 ServerState ServerWatch::state(std::int64_t now_ns, const std::string& surface_model,
                                const std::string& mismatch) const {
-  const std::string domain = " on DDS domain " + std::to_string(domain_);
+  const std::string domain = " on DDS domain " + std::to_string(domain_), others = othersAt(now_ns);
   if (!status_ && !mismatch.empty()) return {"mismatch", "a server" + domain + " does not fit: " + mismatch};
-  if (!status_) return {"waiting", "waiting for a server" + domain};
+  if (!status_)
+    return {"waiting", "waiting for " + awaited() + domain + (others.empty() ? "" : "; not shown: " + others),
+            others};
   if (!alive(now_ns)) return {"gone", "no word from the server since " + secondsOf(now_ns - heard_ns_)};
   if (status_->state == dds::server_state::kStopping) return {"gone", "the server stops"};
   if (status_->state == dds::server_state::kStarting) return {"starting", "the server starts"};
@@ -59,7 +70,6 @@ ServerState ServerWatch::state(std::int64_t now_ns, const std::string& surface_m
   if (surface_model != status_->model_id)
     return {"waiting",
             "the surface is of another model: waiting for that of " + dds::printable(status_->model_id)};
-  const std::string others = othersAt(now_ns);
   return {"serving", others.empty() ? "serving" : "serving; also on the domain, not shown: " + others,
           others};
 }

@@ -24,7 +24,9 @@ class ServerWatch {
   static constexpr std::int64_t kSilenceNs = 2'500'000'000;  ///< a status comes about once a second
   static constexpr std::size_t kMostOthers = 16;
 
-  explicit ServerWatch(std::uint32_t domain) : domain_(domain) {}
+  /// @param[in] server_id  the only one that is followed; SERVER_ANY: whichever is found first
+  explicit ServerWatch(std::uint32_t domain, std::uint32_t server_id = dds::kServerAny)
+      : domain_(domain), wanted_(server_id) {}
 
   /// A status came. Of several servers, or runs of one, the watch follows the first until it is gone or stopping.
   /// @param[in] writer  who sent it: another one that names the followed run is not believed
@@ -52,8 +54,10 @@ class ServerWatch {
   };
   void keepOther(const dds::ServerStatus& status, std::int64_t now_ns);
   [[nodiscard]] std::string othersAt(std::int64_t now_ns) const;
+  [[nodiscard]] std::string awaited() const;
 
   std::uint32_t domain_;
+  std::uint32_t wanted_;
   std::optional<dds::ServerStatus> status_;
   dds::WriterId writer_{0};
   std::int64_t heard_ns_{0};

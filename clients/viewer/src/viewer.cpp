@@ -9,9 +9,9 @@
 
 namespace palpate::viewer {
 
-Viewer::Viewer(const dds::Participant& participant, double rate_hz, std::vector<std::uint32_t> tool_ids,
-               WakeFunction wake, void* context)
-    : feed(participant, rate_hz, wake, context),
+Viewer::Viewer(const dds::Participant& participant, std::uint32_t server_id, double rate_hz,
+               std::vector<std::uint32_t> tool_ids, WakeFunction wake, void* context)
+    : feed(participant, server_id, rate_hz, wake, context),
       tools(participant, std::move(tool_ids)),
       parameters(participant) {
   feed.setWatched(false);

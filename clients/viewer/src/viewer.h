@@ -16,9 +16,9 @@ class Page;
 class Viewer {
  public:
   /// @param[in] wake  called on DDS's thread when a field comes
-  /// @throw dds::DdsError
-  Viewer(const dds::Participant& participant, double rate_hz, std::vector<std::uint32_t> tool_ids,
-         WakeFunction wake, void* context);
+  /// @param[in] server_id  the only server that is followed, or SERVER_ANY  @throw dds::DdsError
+  Viewer(const dds::Participant& participant, std::uint32_t server_id, double rate_hz,
+         std::vector<std::uint32_t> tool_ids, WakeFunction wake, void* context);
 
   /// Takes in what came and passes it on; call about every 20 ms.
   void tend(std::int64_t now_ns);

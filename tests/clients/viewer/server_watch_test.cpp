@@ -35,6 +35,18 @@ TEST(ServerWatch, SaysWhatIsMissing) {
   EXPECT_EQ(watch.state(kSecond, "aa", "").name, "serving");
 }
 
+TEST(ServerWatch, OfManyServersTheOneThatIsNamedIsFollowed) {
+  ServerWatch watch(7, 3);
+  EXPECT_FALSE(watch.saw(running(2, "aa"), kSecond));
+  const ServerState waiting = watch.state(kSecond, "aa", "");
+  EXPECT_EQ(waiting.name, "waiting");
+  EXPECT_NE(waiting.text.find("waiting for server 3 on DDS domain 7; not shown: server 2"), std::string::npos)
+      << waiting.text;
+  EXPECT_TRUE(watch.saw(running(3, "bb"), kSecond));
+  EXPECT_FALSE(watch.saw(running(2, "aa"), 9 * kSecond)) << "the named one is silent: still no other";
+  EXPECT_EQ(watch.state(9 * kSecond, "bb", "").name, "gone");
+}
+
 TEST(ServerWatch, AServerThatIsSilentIsGoneUntilOneComes) {
   ServerWatch watch(0);
   (void)watch.saw(running(0, "aa"), kSecond);
