@@ -21,11 +21,11 @@ bool pulls(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   return f.dot(contact.normal) > 0.0;
 }
 
-/// Releases the contact. A remaining force, along the surface, is a jump.
-void letGo(Contact& contact) noexcept PALPATE_NONBLOCKING {
+/// Releases the contact. A remaining force is a jump.
+void letGo(ContactJump jump, Contact& contact) noexcept PALPATE_NONBLOCKING {
   const bool felt = !(contact.coupled.response.force.norm() < kSmallForce);
   ContactSolver::release(contact);
-  contact.jumped = felt;
+  contact.jump = felt ? jump : ContactJump::kNone;
 }
 
 /// Whether the tip is no deeper than one tick can bring it, and its force is explained by that. In the dent of
@@ -52,14 +52,20 @@ Vec3 shown(const Contact& contact) noexcept PALPATE_NONBLOCKING {
 
 }  // namespace
 
-void ContactSolver::update(const MetaModel& model, const ContactLaw& law, const Vec3& c, Budget& budget,
-                           Contact& contact) const noexcept PALPATE_NONBLOCKING {
-  contact.jumped = false;
-  if (contact.state == ContactState::kFree)
+bool ContactSolver::update(const MetaModel& model, const ContactLaw& law, const Vec3& c, TipWay way,
+                           Budget& budget, Contact& contact) const noexcept PALPATE_NONBLOCKING {
+  const Contact before = contact;
+  contact.jump = ContactJump::kNone;
+  if (way == TipWay::kNone) forget(contact);
+  if (way == TipWay::kUnseen) loseWay(model, c, contact);
+  if (contact.isFree())
     tryCapture(model, law, c, budget, contact);
   else
     follow(model, law, c, budget, contact);
   if (budget.cut()) contact.flags |= kAnswerCutShort;
+  if (contact.coupled.response.force.allFinite() && contact.stiffness.allFinite()) return true;
+  contact = before;
+  return false;
 }
 
 /// Nobody saw where the tool went: round the organ, if it is clear of it; else it is taken to have stayed where it was if it
@@ -67,11 +73,10 @@ void ContactSolver::update(const MetaModel& model, const ContactLaw& law, const 
 void ContactSolver::loseWay(const MetaModel& model, const Vec3& c,
                             Contact& contact) const noexcept PALPATE_NONBLOCKING {
   constexpr double kUnseen = 0.04;  // m
-  contact.jumped = false;
-  const bool held = contact.state != ContactState::kFree;
+  const bool held = !contact.isFree();
   const Vec3 at_rest = c - contact.carried.constant;
   const bool clear = !TipSweep(model, tip_radius_).at(at_rest).below;
-  if (clear && held) letGo(contact);
+  if (clear && held) letGo(ContactJump::kLeftUnseen, contact);
   if (clear || (!held && (at_rest - contact.from).norm() > kUnseen)) contact.has_side = false;
 }
 
@@ -90,13 +95,13 @@ void ContactSolver::follow(const MetaModel& model, const ContactLaw& law, const 
   contact.clearance = 0.0;
   contact.has_side = true;
   hold(model, law, c, budget, contact);
-  if (contact.state == ContactState::kFree) return;
+  if (contact.isFree()) return;
   contact.from = touching(model, contact);
   const double way = (contact.from - there).norm();
-  contact.jumped = way > kFar && way > kOfTheTipsWay * (c - tip).norm();
+  if (way > kFar && way > kOfTheTipsWay * (c - tip).norm()) contact.jump = ContactJump::kSnapped;
   const Vec3 at_rest = c - shown(contact);
   if (!hasLeft(model, at_rest, contact)) return;
-  letGo(contact);
+  letGo(ContactJump::kReleasedWithForce, contact);
   contact.from = at_rest;
 }
 
@@ -178,19 +183,19 @@ void ContactSolver::tryCapture(const MetaModel& model, const ContactLaw& law, co
   const ContactPoint sheet = contact.fine;
   contact.coupled.displacement.setZero();
   hold(model, law, c, budget, contact);
-  contact.overlapping = contact.state == ContactState::kFree;
+  contact.overlapping = contact.isFree();
   if (contact.overlapping) {
     contact.fine = sheet;
-    contact.jumped = false;  // the force was zero, and is
+    contact.jump = ContactJump::kNone;  // the force was zero, and is
     return;
   }
-  contact.jumped = was_overlapping || !beganSoftly(contact);
+  if (was_overlapping || !beganSoftly(contact)) contact.jump = ContactJump::kDeepCapture;
 }
 
 void ContactSolver::hold(const MetaModel& model, const ContactLaw& law, const Vec3& c, Budget& budget,
                          Contact& contact) const noexcept PALPATE_NONBLOCKING {
   Equilibrium equilibrium(model, law, tip_radius_, c, budget, contact);
-  if (!equilibrium.slide() || pulls(contact)) return letGo(contact);
+  if (!equilibrium.slide() || pulls(contact)) return letGo(ContactJump::kReleasedWithForce, contact);
   contact.stiffness = equilibrium.stiffness();
   if (contact.at_border) contact.flags |= kNotAccessible;
 }

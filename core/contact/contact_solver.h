@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/budget.h"
 #include "core/base/types.h"
 #include "core/contact/contact.h"
 #include "core/model/meta_model.h"
 
 namespace palpate {
+
+/// What is known of a tip's way from its last pose to this one.
+enum class TipWay : std::uint8_t {
+  kStraight,  ///< so short that it is taken as straight: the tip is swept along it
+  kUnseen,  ///< it may have gone round the organ: free if it is clear of it; else it keeps its side where it is near
+            ///< enough to have stayed
+  kNone,  ///< it leapt: the contact is forgotten, and a tool that is inside has the side of the nearest point
+};
 
 /// Moves a tool through free, stick and slide                                         docs/design.md, Contact
 ///   free -> stick:  the tip's sphere touched the contact surface, as other tools displaced it, on its way from the last
@@ -19,33 +29,31 @@ namespace palpate {
 ///                   from afar, and a thin part that bends away is held while it pushes
 /// The direction from anchor to tip is n(s) itself, not the one at capture. So g depends on where the anchor is, not on its
 /// path, and the surface that a tip of radius R slides on, X(s) + R n(s), has no edges.
-/// A tool without a way (its first pose, after a leap) that is inside at once has the side of the nearest point.
+/// A tool at its first pose that is inside at once has the side of the nearest point.
 class ContactSolver {
  public:
   explicit ContactSolver(double tip_radius) noexcept : tip_radius_(tip_radius) {}
   [[nodiscard]] double tipRadius() const noexcept PALPATE_NONBLOCKING { return tip_radius_; }
 
   /// One tick of one tool. @param c  tip centre, W, m, finite. At most one change between free and not free.
-  /// Sets `jumped` where the force is not continuous in c: at a release that leaves a tangential force, at a capture
-  /// that is deep at once, and where the anchor snaps from one balance to another. A budget that ends leaves the best
-  /// balance found, kAnswerCutShort; the next tick goes on from there. Real-time: yes.
-  void update(const MetaModel& model, const ContactLaw& law, const Vec3& c, Budget& budget,
+  /// Sets `jump` where the force is not continuous in c. A budget that ends leaves the best balance found,
+  /// kAnswerCutShort; the next tick goes on from there.
+  /// @return false when the model's answer is not finite: the contact is as it was. Real-time: yes.
+  bool update(const MetaModel& model, const ContactLaw& law, const Vec3& c, TipWay way, Budget& budget,
               Contact& contact) const noexcept PALPATE_NONBLOCKING;
-  /// The same with a budget for this tick alone.
-  void update(const MetaModel& model, const ContactLaw& law, const Vec3& c,
+  /// The same for a straight way, with a budget for this tick alone.
+  bool update(const MetaModel& model, const ContactLaw& law, const Vec3& c,
               Contact& contact) const noexcept PALPATE_NONBLOCKING {
     Budget budget;
-    update(model, law, c, budget, contact);
+    return update(model, law, c, TipWay::kStraight, budget, contact);
   }
   /// Frees the tool: no force, no displacement; the anchor stays as the nearest point known. Real-time: yes.
   static void release(Contact& contact) noexcept PALPATE_NONBLOCKING;
   /// release(), and forgets which side the tool came from and what the others carried it. Real-time: yes.
   static void forget(Contact& contact) noexcept PALPATE_NONBLOCKING;
-  /// Before update(), when nothing is known of the way to c: a tool that is clear of the surface there is free, one that is
-  /// not, and near to where it was, keeps its side. Sets `jumped` where it takes a force away. Real-time: yes.
-  void loseWay(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
 
  private:
+  void loseWay(const MetaModel& model, const Vec3& c, Contact& contact) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] Vec3 touching(const MetaModel& model,
                               const Contact& contact) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool hasLeft(const MetaModel& model, const Vec3& at_rest,

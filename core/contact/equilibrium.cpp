@@ -180,9 +180,9 @@ bool Equilibrium::slide() noexcept PALPATE_NONBLOCKING {
   for (int i = 0; i < kMaxSlides && slips() && budget_.allows(); ++i) {
     contact_.state = ContactState::kSlide;
     const Vec2 step = stepOf(now);
-    const Start start{contact_, frame_, energy_slope_};
+    const TangentFrame frame = frame_;
     if (!slideBy(step) && ++stopped == 2) break;  // at the border: the first step may have gone too far
-    now = learned(slip(), start, now);
+    now = learned(slip(), frame, now);
   }
   if (contact_.state == ContactState::kSlide) giveWay(now);
   return true;
@@ -190,9 +190,9 @@ bool Equilibrium::slide() noexcept PALPATE_NONBLOCKING {
 
 /// A does not know how dW/ds changes along the way; the last step shows it (Broyden's update, C. G. Broyden,
 /// Math. Comp. 19 (1965) 577-593).
-Equilibrium::Slip Equilibrium::learned(Slip next, const Start& start,
+Equilibrium::Slip Equilibrium::learned(Slip next, const TangentFrame& frame,
                                        const Slip& from) const noexcept PALPATE_NONBLOCKING {
-  const Mat2 turn = frame_.tangent.transpose() * start.frame.tangent;
+  const Mat2 turn = frame_.tangent.transpose() * frame.tangent;
   const Vec2 way = next.way - turn * from.way;
   const Vec2 missed = next.T - turn * from.T + next.A * way;
   const Mat2 A = symmetricPart(next.A - missed * way.transpose() / way.squaredNorm());

@@ -56,15 +56,10 @@ class Equilibrium {
                                       const Mat2& per_tip) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] Vec3 touching() const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool slides() const noexcept PALPATE_NONBLOCKING;
-  /// Where a step begins.
-  struct Start {
-    Contact contact;
-    TangentFrame frame;
-    Vec2 energy_slope;
-  };
   [[nodiscard]] static Vec2 stepOf(const Slip& slip) noexcept PALPATE_NONBLOCKING;
   bool slideBy(const Vec2& step) noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] Slip learned(Slip next, const Start& start,
+  /// @param frame, from  of the place before
+  [[nodiscard]] Slip learned(Slip next, const TangentFrame& frame,
                              const Slip& from) const noexcept PALPATE_NONBLOCKING;
   void giveWay(const Slip& now) noexcept PALPATE_NONBLOCKING;
 

@@ -10,7 +10,7 @@ void ToolGroup::feelEachOther() noexcept PALPATE_NONBLOCKING {
     if (contacts_[i] == nullptr) continue;
     Contact& contact = *contacts_[i];
     contact.carried = {};
-    if (contact.state == ContactState::kFree) continue;
+    if (contact.isFree()) continue;
     s_[count_] = contact.s;
     d_[count_] = contact.coupled.displacement;
     pressing_[count_++] = i;
@@ -45,7 +45,7 @@ void ToolGroup::feelSlopes() noexcept PALPATE_NONBLOCKING {
 /// What tools in the air would find displaced.
 void ToolGroup::approach() noexcept PALPATE_NONBLOCKING {
   for (Contact* const place : contacts_) {
-    if (place == nullptr || place->state != ContactState::kFree || place->s.triangle < 0) continue;
+    if (place == nullptr || !place->isFree() || place->s.triangle < 0) continue;
     Contact& contact = *place;
     for (std::size_t i = 0; i < count_; ++i)
       for (const FieldSource& source : ownField(model_, s_[i], d_[i], own_[i]))
@@ -59,8 +59,7 @@ void ToolGroup::hasMoved(std::size_t tool) noexcept PALPATE_NONBLOCKING {
   for (std::size_t i = 0; i < count_; ++i) {
     if (pressing_[i] != tool) continue;
     const Contact& contact = *contacts_[tool];
-    if (contact.state == ContactState::kFree || contact.jumped)
-      return;  // the others feel that in the next tick
+    if (contact.isFree() || contact.jumped()) return;  // the others feel that in the next tick
     for (std::size_t later = i + 1; later < count_; ++later)
       contacts_[pressing_[later]]->carried.constant +=
           influence_[later][i] * (contact.coupled.displacement - d_[i]);

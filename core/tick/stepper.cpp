@@ -2,7 +2,6 @@
 #include "core/tick/stepper.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/contact/tool_group.h"
 
@@ -17,115 +16,60 @@ void store(const Vector& from, std::array<double, N>& to) noexcept PALPATE_NONBL
 
 }  // namespace
 
-/// Flags of the pose itself; 0 when it is usable.
-std::uint32_t Stepper::judge(const ToolInput& tool) const noexcept PALPATE_NONBLOCKING {
-  constexpr double kFarthest = 1000.0;  // m; larger than any scene, and squares stay finite
-  for (const double x : tool.position)
-    if (!(std::abs(x) <= kFarthest)) return kNonFinitePose;
-  double square = 0.0;
-  for (const double q : tool.orientation) {
-    if (!std::isfinite(q)) return kNonFinitePose;
-    square += q * q;
-  }
-  return std::abs(std::sqrt(square) - 1.0) <= work_.config_.quaternion_tolerance ? 0 : kNonUnitQuaternion;
-}
-
-/// Longest that the arrivals of a good pose and the last one may lie apart, s, with a margin, because poses arrive unevenly.
-double Stepper::between(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
-  constexpr double kUneven = 2e-3;  // s
-  return std::max(0.0, memory.age + dt_ - 1e-9 * double(tool.age_ns)) + kUneven;
-}
-
-/// Whether a good pose is farther from the last one than a tool may move in the time between.
-bool Stepper::leapt(const ToolInput& tool, const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
-  if (!memory.known) return false;
-  const Vec3 here(tool.position[0], tool.position[1], tool.position[2]);
-  return (here - memory.position).norm() > work_.config_.speed_limit * between(tool, memory);
-}
-
-/// Whether so long no pose came, in a loop that would have taken one in every period, that the way from the last one
-/// is not known.
-bool Stepper::interrupted(const ToolInput& tool,
-                          const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
-  constexpr double kUneven = 2e-3;  // s, again: a period late is not lost
-  return memory.known && between(tool, memory) - period_ > work_.config_.stale_timeout + 2.0 * kUneven;
-}
-
 ContactLaw Stepper::law(const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
   const LiveParameters& live = work_.live(numberOf(memory));
-  return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E, period_};
+  return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E,
+          time_.period};
 }
 
-/// Advances the tools' live parameters, one that changes at once disturbs the contact; and exchanges tips that touch nothing.
+/// Advances the tools' live parameters, and exchanges tips that touch nothing.
 void Stepper::changeLive() noexcept PALPATE_NONBLOCKING {
   for (std::size_t i = 0; i < kMaxTools; ++i) {
     ToolMemory& memory = work_.tools_[i];
     LiveBlend& live = work_.live_[i];
     const bool changes = input_.has_settings != 0;
     if (changes) work_.tip_radius_[i] = input_.settings[i].tip_radius;
-    live.advance(changes ? input_.settings[i].live : live.target(), ramp_dt_,
+    live.advance(changes ? input_.settings[i].live : live.target(), time_.ramp,
                  memory.rendering.rendered.norm());
-    const bool is_free = memory.contact.state == ContactState::kFree;
-    if (is_free && work_.solver_[i].tipRadius() != work_.tip_radius_[i]) {
+    if (!memory.contact.isFree()) {
+      if (live.jumped()) memory.continuity.disturb(kParameterSwitched);
+    } else if (work_.solver_[i].tipRadius() != work_.tip_radius_[i]) {
       work_.solver_[i] = ContactSolver(work_.tip_radius_[i]);
       ContactSolver::forget(memory.contact);  // its clearance is the old tip's
     }
-    if (live.jumped() && !is_free) memory.leapt = true;
   }
 }
 
 /// Moves the contact to a pose. @return false when the model's answer is not finite; then nothing has moved
-bool Stepper::follow(const ToolInput& tool, ToolMemory& memory,
+bool Stepper::follow(const ToolInput& tool, TipWay way, ToolMemory& memory,
                      ToolResult& out) noexcept PALPATE_NONBLOCKING {
-  const Contact before = memory.contact;
-  const Vec3 c(tool.position[0], tool.position[1], tool.position[2]);
-  if (leapt(tool, memory)) {
+  if (way == TipWay::kNone) {
     out.flags |= kPoseJump;
-    ContactSolver::forget(memory.contact);
-    memory.leapt = true;
+    memory.continuity.disturb(kPoseLeapt);
   }
-  const ContactSolver& solver = work_.solver_[numberOf(memory)];
-  if (interrupted(tool, memory)) {
-    solver.loseWay(model_, c, memory.contact);
-    memory.leapt = memory.leapt || memory.contact.jumped;
-  }
+  const Vec3 c(tool.position[0], tool.position[1], tool.position[2]);
   Budget budget;
-  solver.update(model_, law(memory), c, budget, memory.contact);
-  memory.position = c;
-  if (memory.contact.coupled.response.force.allFinite() && memory.contact.stiffness.allFinite()) return true;
-  memory.contact = before;
+  const ContactSolver& solver = work_.solver_[numberOf(memory)];
+  if (solver.update(model_, law(memory), c, way, budget, memory.contact)) return true;
   out.flags |= kNonFiniteForce;
   return false;
 }
 
-/// Age of a tool's last good pose in a tick without one.
-void Stepper::grow(const ToolInput& tool, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
-  memory.age += dt_;
-  if (tool.present != 0) memory.age = std::max(memory.age, 1e-9 * double(tool.age_ns));
-  if (!memory.known) memory.age = std::max(memory.age, work_.config_.zero_after);
-}
-
+/// One tool: its pose, its contact, whether its force goes on, its force.
 void Stepper::advance(const ToolInput& tool, ToolMemory& memory,
                       ToolResult& out) noexcept PALPATE_NONBLOCKING {
-  if (tool.present == 0 && !memory.known) return;
-  if (disturbed_ && memory.contact.state != ContactState::kFree) memory.leapt = true;
-  if (tool.present != 0) out.flags |= judge(tool);
-  const bool fresh = tool.present != 0 && 1e-9 * double(tool.age_ns) <= work_.config_.stale_timeout;
-  const bool usable = fresh && out.flags == 0;
-  const bool good = usable && input_.shutting_down == 0 && follow(tool, memory, out);
-  const bool itself = good && (memory.contact.jumped || memory.was_stale || memory.leapt || !memory.known);
-  const bool jumped = itself || (good && shaken_ && memory.contact.state != ContactState::kFree);
-  work_.shaken_ = work_.shaken_ || itself;
-  if (good) memory.leapt = false;
-  if (usable && (out.flags & ~kPoseJump) == 0) {
-    memory.age = std::max(0.0, 1e-9 * double(tool.age_ns));
-    memory.known = true;
-  } else {
-    grow(tool, memory);
-  }
-  memory.was_stale = memory.age > work_.config_.stale_timeout;
-  jumped_ = jumped_ || jumped;
-  render(memory, !good, jumped, out);
+  Continuity& continuity = memory.continuity;
+  if (tool.present == 0 && !continuity.known()) return;
+  if (time_.stood_still && !memory.contact.isFree()) continuity.disturb(kLoopStoodStill);
+  const PoseJudgement pose = continuity.judge(tool, time_, work_.config_);
+  out.flags |= pose.flags;
+  const bool stops = input_.shutting_down != 0;
+  const bool moved = pose.usable && !stops && follow(tool, pose.way, memory, out);
+  const std::uint32_t causes = moved ? continuity.take(memory.contact, shaken_, work_.config_) : 0;
+  work_.shaken_ = work_.shaken_ || (causes & ~kOthersJumped) != 0;
+  jumped_ = jumped_ || causes != 0;
+  continuity.end(tool, pose.usable && (moved || stops), time_, work_.config_);
+  render(memory, !moved, causes != 0, out);
 }
 
 /// Limits and fades the force. Releases a contact whose force has faded to zero.
@@ -134,21 +78,22 @@ void Stepper::render(ToolMemory& memory, bool held, bool jumped,
   LimiterInput in;
   const LiveParameters& live = work_.live(numberOf(memory));
   if (held)
-    memory.damper.wait(dt_);
+    memory.damper.wait(time_.since_last);
   else
-    in.force = -memory.damper.force(memory.contact, live.coupling_damping / live.coupling_stiffness, dt_);
+    in.force = -memory.damper.force(memory.contact, live.coupling_damping / live.coupling_stiffness,
+                                    time_.since_last);
   in.stiffness = -memory.contact.stiffness;
   in.force_limit = live.force_limit;
   in.force_rate_limit = live.force_rate_limit;
-  in.age = memory.age;
-  in.dt = ramp_dt_;
-  in.period = period_;
+  in.age = memory.continuity.age();
+  in.dt = time_.ramp;
+  in.period = time_.period;
   in.held = held;
   in.jumped = jumped;
   in.shutting_down = input_.shutting_down != 0;
   const LimitedForce limited = work_.limiter_.limit(in, memory.rendering);
   if (memory.rendering.gain <= 0.0) {
-    work_.shaken_ = work_.shaken_ || memory.contact.state != ContactState::kFree;
+    work_.shaken_ = work_.shaken_ || !memory.contact.isFree();
     ContactSolver::release(memory.contact);
     memory.damper = {};
   }
@@ -174,7 +119,7 @@ StepStatus Stepper::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   changeLive();
   ToolGroup::Contacts contacts{};
   for (std::size_t i = 0; i < kMaxTools; ++i)
-    if (work_.tools_[i].known) contacts[i] = &work_.tools_[i].contact;
+    if (work_.tools_[i].continuity.known()) contacts[i] = &work_.tools_[i].contact;
   ToolGroup group(model_, contacts, work_.scratch_);
   group.feelEachOther();
   for (std::size_t i = 0; i < kMaxTools; ++i) {

@@ -19,8 +19,8 @@ void Stepper::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
     blend = work_.shown_age_ <= ramp_time ? 1.0 : 0.0;
     work_.blends_from_shown_ = true;
   }
-  work_.shown_age_ += ramp_dt_;
-  blend = ramp_time > 0.0 ? std::max(0.0, blend - ramp_dt_ / ramp_time) : 0.0;
+  work_.shown_age_ += time_.ramp;
+  blend = ramp_time > 0.0 ? std::max(0.0, blend - time_.ramp / ramp_time) : 0.0;
   const ToolSurface surface(model_, work_.tools_, work_.scratch_);
   work_.sources_.keep(surface.sources());
   const bool overflowed = std::exchange(work_.overflowed_, false);  // found again while it lasts

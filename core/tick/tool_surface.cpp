@@ -16,7 +16,7 @@ ToolSurface::ToolSurface(const MetaModel& model, std::span<const ToolMemory, kMa
     const Contact& contact = tools[i].contact;
     const double gain = tools[i].rendering.gain;
     anchors_[i] = contact.s;
-    if (contact.state == ContactState::kFree) continue;
+    if (contact.isFree()) continue;
     const Vec3& d = contact.coupled.displacement;
     const Vec3 carried = contact.carried.at(d);
     if (carried == Vec3::Zero()) {

@@ -10,6 +10,7 @@
 #include "core/contact/contact_solver.h"
 #include "core/model/field_evaluation.h"
 #include "core/model/meta_model.h"
+#include "core/tick/continuity.h"
 #include "core/tick/coupling_damper.h"
 #include "core/tick/force_limiter.h"
 #include "core/tick/live_blend.h"
@@ -21,11 +22,7 @@ namespace palpate {
 struct ToolMemory {
   Contact contact;
   Rendering rendering;
-  bool known{false};             ///< a good pose was seen
-  bool was_stale{false};         ///< the force was fading in the last tick: blend over when a pose comes back
-  bool leapt{false};             ///< pose, time or a parameter jumped, and no force was given since
-  double age{0.0};               ///< s since the last good pose
-  Vec3 position = Vec3::Zero();  ///< of the last good pose, m
+  Continuity continuity;
   CouplingDamper damper;
 };
 
@@ -83,7 +80,7 @@ class Workspace {
   bool blends_from_shown_{false};         // which is still displacement_ itself until the next one is shown,
   double displacement_blend_{0.0};        // and its weight, 1 at the jump, then falling to 0
   double shown_age_{0.0};                 // s since displacement_ was shown last
-  bool shaken_{false};  // a contact came or went at once: the others feel it in the next tick
+  bool shaken_{false};                    // a contact came or went at once: kOthersJumped in the next tick
 };
 
 }  // namespace palpate

@@ -51,7 +51,7 @@ void hunt(const MetaModel& model, int evaluations, int walks, Visit&& visit) {
     Vec3 c = from;
     for (int tick = 0; tick < kTicks; ++tick) {
       Budget budget(evaluations);
-      solver.update(model, law, c, budget, contact);
+      solver.update(model, law, c, TipWay::kStraight, budget, contact);
       visit(budget, contact);
       c = walk % 2 == 0 ? Vec3(c + random.vector(2e-3)) : Vec3(from + random.vector(depth));
     }
@@ -111,7 +111,7 @@ TEST(Budget, WhatWasCutShortIsFinishedInTheNextTicks) {
   for (int tick = 0; tick < 30; ++tick) {
     Budget little(60);
     solver.update(model, law, aside, whole);
-    solver.update(model, law, aside, little, pieces);
+    solver.update(model, law, aside, TipWay::kStraight, little, pieces);
     EXPECT_TRUE(tick > 0 || little.cut());
     EXPECT_FALSE(tick == 29 && little.cut());
   }
@@ -127,7 +127,7 @@ TEST(Budget, OneSpentBeforeTheFirstAnswerHoldsTheForce) {
     solver.update(forceModel(), law, above(forceModel(), depth), contact);
   const Vec3 before = contact.coupled.response.force;
   Budget none(0);
-  solver.update(forceModel(), law, above(forceModel(), 0.0025), none, contact);
+  solver.update(forceModel(), law, above(forceModel(), 0.0025), TipWay::kStraight, none, contact);
   EXPECT_EQ(contact.coupled.response.force, before);
   EXPECT_NE(contact.flags & kAnswerCutShort, 0U);
 }

@@ -208,7 +208,7 @@ TEST(Sliding, AnAnchorThatLosesItsHoldSlidesToItsBalanceWithoutAJump) {
   double largest = 0.0;
   for (int ms = 0; ms < 200; ++ms) {
     const Vec3 now = at(0.05, 0.0);
-    ASSERT_FALSE(contact.jumped) << ms;
+    ASSERT_FALSE(contact.jumped()) << ms;
     largest = std::max(largest, (now - last).norm());
     last = now;
   }

@@ -53,7 +53,7 @@ void contactForce(benchmark::State& benchmark, const MetaModel& model, const Sta
           in.force = -damper.force(contact, 0.003, kTick);
           in.stiffness = -contact.stiffness;
           in.dt = in.period = kTick;
-          in.jumped = contact.jumped;
+          in.jumped = contact.jumped();
           benchmark::DoNotOptimize(limiter.limit(in, rendering));
         });
       }
