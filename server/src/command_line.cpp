@@ -17,6 +17,8 @@
 namespace palpate::server {
 namespace {
 
+constexpr const char* kTipRadius = "tip-radius";  // in --tool and --limit
+
 // What the command line names.
 struct Given {
   std::optional<std::string> model;
@@ -126,6 +128,7 @@ std::string optionOf(const std::string& key) {
     if (key == info.key) return info.option;
   for (const LiveParameterInfo& info : kLiveParameters)
     if (key == std::string("limits.") + info.name) return std::string("--limit ") + &info.option[2];
+  if (key == "limits.tip_radius") return std::string("--limit ") + kTipRadius;
   if (key.size() > 6 && key.rfind("tool.", 0) == 0 && key[6] == '.')
     return std::string("--tool ") + key[5] + ":" + optionOf("tool." + key.substr(7)).substr(2);
   std::string option = key.substr(key.find('.') == std::string::npos ? 0 : key.find('.') + 1);
@@ -150,23 +153,24 @@ void combineContact(const Given& given, StepConfig& step) {
 [[noreturn]] void refuseLimit(const std::string& word) {
   std::string names;
   for (const LiveParameterInfo& info : kLiveParameters) names += std::string(&info.option[2]) + " ";
-  throw ConfigError("--limit is \"" + word + "\", expected NAME=LOW:HIGH, NAME one of " + names);
+  throw ConfigError("--limit is \"" + word + "\", expected NAME=LOW:HIGH, NAME one of " + names + kTipRadius);
 }
 
 // "friction=0:0.5".
-void takeLimit(const std::string& word, LiveBounds& limits) {
+void takeLimit(const std::string& word, ServerConfig& config) {
   std::istringstream text(word);
   std::string name, low, high;
   std::getline(std::getline(std::getline(text, name, '='), low, ':'), high);
-  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
-    if (name != &kLiveParameters[i].option[2]) continue;
-    char *low_end = nullptr, *high_end = nullptr;
-    const Bounds bounds{std::strtod(low.c_str(), &low_end), std::strtod(high.c_str(), &high_end)};
-    if (low.empty() || high.empty() || *low_end != '\0' || *high_end != '\0') refuseLimit(word);
-    limits.*kLiveFields<LiveBounds>[i] = bounds;
-    return;
-  }
-  refuseLimit(word);
+  char *low_end = nullptr, *high_end = nullptr;
+  const Bounds bounds{std::strtod(low.c_str(), &low_end), std::strtod(high.c_str(), &high_end)};
+  if (low.empty() || high.empty() || *low_end != '\0' || *high_end != '\0') refuseLimit(word);
+  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
+    if (name == &kLiveParameters[i].option[2]) {
+      config.limits.*kLiveFields<LiveBounds>[i] = bounds;
+      return;
+    }
+  if (name != kTipRadius) refuseLimit(word);
+  config.tip_limits = bounds;
 }
 
 [[noreturn]] void refuseTool(const std::string& word) {
@@ -182,7 +186,7 @@ bool takeOwn(const std::string& name, const std::string& value, OwnOptions& own)
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
   if (value.empty() || *end != '\0') return false;
-  if (name == "tip-radius") {
+  if (name == kTipRadius) {
     own.tip_radius = number;
     return true;
   }
@@ -248,7 +252,7 @@ ServerConfig combine(const Given& given) {
   takeWord("--parameters", [&] {
     if (given.parameters) config.parameters = parseSwitch(*given.parameters);
   });
-  for (const std::string& word : given.limits) takeLimit(word, config.limits);
+  for (const std::string& word : given.limits) takeLimit(word, config);
   takeWord("--device", [&] { checkDevice(config.device); });
   for (std::size_t tool = 0; tool < config.own.size(); ++tool)
     takeWord("--tool", [&] { checkDevice(deviceOf(config, tool)); });

@@ -196,6 +196,7 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   for (std::size_t tool = 0; tool < config.own.size(); ++tool) readOwn(keys, tool, config.own[tool]);
   settleTools(config);
   readLimits(keys, config.limits);
+  keys.read("limits.tip_radius", config.tip_limits);
   keys.refuseUnasked();
   if (root.contains("model")) {
     if (model.empty()) keys.refuse("model", "is empty, expected the path of a model file");

@@ -42,6 +42,7 @@ Facts factsOf(const MetaModel& model, const ServerConfig& config) {
   facts.youngs_modulus = model.attributes().E;
   facts.parameters = config.parameters;
   facts.limits = config.limits;
+  facts.tip_limits = config.tip_limits;
   return facts;
 }
 

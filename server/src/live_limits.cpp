@@ -41,6 +41,31 @@ LiveLimits liveLimits(const LiveParameters& start, const LiveBounds& named) {
   return limits;
 }
 
+Bounds tipLimits(double start, const std::optional<Bounds>& named) noexcept {
+  constexpr double kMostRatio = 2.0;
+  return named.value_or(Bounds{start / kMostRatio, start * kMostRatio});
+}
+
+namespace {
+
+std::optional<Complaint> tipComplaint(const ServerConfig& config) {
+  constexpr Bounds kAll{0.0, 0.05};  // of StepConfig::tip_radius
+  if (!config.tip_limits) return std::nullopt;
+  const Bounds& named = *config.tip_limits;
+  const std::string key = "limits.tip_radius", found = "is " + describe(named, "m");
+  if (!(kAll.low <= named.low && named.low <= named.high && named.high <= kAll.high))
+    return Complaint{key, found + ", expected a range within " + describe(kAll, "m")};
+  for (const ToolSettings& tool : toolSettings(config.step)) {
+    if (named.low <= tool.tip_radius && tool.tip_radius <= named.high) continue;
+    std::ostringstream text;
+    text << found << ", which leaves out the start's " << tool.tip_radius;
+    return Complaint{key, text.str()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<Complaint> limitsComplaint(const ServerConfig& config) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
@@ -59,7 +84,7 @@ std::optional<Complaint> limitsComplaint(const ServerConfig& config) {
       return Complaint{key, text.str()};
     }
   }
-  return std::nullopt;
+  return tipComplaint(config);
 }
 
 }  // namespace palpate::server

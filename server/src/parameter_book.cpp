@@ -49,13 +49,12 @@ void lower(LiveLimits& limits, const LiveParameters& device) {
   }
 }
 
-// Empty: the tip that a driver names is near the operator's.
-std::string tipComplaint(double radius, double start) {
-  if (radius >= start / ParameterBook::kMostTipRatio && radius <= start * ParameterBook::kMostTipRatio)
-    return {};
+// Empty: the tip that a driver names is within the operator's limits.
+std::string tipComplaint(double radius, const Bounds& limits) {
+  if (radius >= limits.low && radius <= limits.high) return {};
   std::ostringstream text;
-  text << "tip_radius is " << radius << ", expected " << start / ParameterBook::kMostTipRatio << " to "
-       << start * ParameterBook::kMostTipRatio << " m: the server was started with " << start;
+  text << "tip_radius is " << radius << ", expected " << limits.low << " to " << limits.high
+       << " m: what the server was started with";
   return text.str();
 }
 
@@ -87,7 +86,8 @@ ParameterBook::ParameterBook(const Facts& facts)
       open_(facts.parameters),
       model_youngs_modulus_(facts.youngs_modulus),
       device_(facts.device),
-      settings_(toolSettings(facts.step)) {
+      settings_(toolSettings(facts.step)),
+      tip_limits_(facts.tip_limits) {
   for (std::size_t tool = 0; tool < settings_.size(); ++tool) {
     const LiveParameters start = named(settings_[tool].live, model_youngs_modulus_);
     limits_[tool] = liveLimits(start, facts.limits);
@@ -134,7 +134,7 @@ std::string ParameterBook::overlay(const dds::ToolAnnouncement& said, const Tool
       wanted.live.*kLiveFields<LiveParameters>[i] = said.values.*kLiveFields<dds::LiveValues>[i];
   if (!said.has_tip_radius) return {};
   wanted.tip_radius = said.tip_radius;
-  return tipComplaint(said.tip_radius, book.start.tip_radius);
+  return tipComplaint(said.tip_radius, tipLimits(book.start.tip_radius, tip_limits_));
 }
 
 // Takes it whole and says nothing, or says why not. A server that takes no parameters takes the device, which only lowers.

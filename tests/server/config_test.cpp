@@ -213,10 +213,12 @@ TEST_F(ConfigFile, AToolMayHaveADeviceAndValuesOfItsOwn) {
 }
 
 TEST_F(ConfigFile, TakesTheLimitsOfRequests) {
-  const ServerConfig config =
-      read("parameters = \"off\"\n[limits]\nfriction = [0, 0.5]\nforce_rate_limit = [10, inf]");
+  const ServerConfig config = read(
+      "parameters = \"off\"\n[limits]\nfriction = [0, 0.5]\nforce_rate_limit = [10, inf]\ntip_radius = "
+      "[0.004, 0.006]");
   EXPECT_FALSE(config.parameters);
   EXPECT_EQ(config.limits.friction->high, 0.5);
+  EXPECT_EQ(config.tip_limits->high, 0.006);
   EXPECT_TRUE(std::isinf(config.limits.force_rate_limit->high));
   EXPECT_FALSE(config.limits.force_limit.has_value());
   EXPECT_EQ(refusal("[limits]\nfriction = 0.5").find(":2: limits.friction is of type floating-point, "), 0U);
@@ -253,6 +255,20 @@ TEST(LimitsComplaint, NamesLimitsThatCannotBe) {
     EXPECT_EQ(complaint->text.find(limits.text), 0U) << complaint->text;
   }
   EXPECT_FALSE(limitsComplaint(ServerConfig{}).has_value());
+}
+
+TEST(LimitsComplaint, NamesATipThatCannotBe) {
+  ServerConfig config;
+  config.tip_limits = Bounds{0.004, 0.006};
+  EXPECT_FALSE(limitsComplaint(config).has_value());
+  for (const auto& [bounds, text] :
+       {std::pair{Bounds{0.001, 0.06}, "is 0.001 to 0.06 m, expected a range within 0 to 0.05 m"},
+        std::pair{Bounds{0.001, 0.004}, "is 0.001 to 0.004 m, which leaves out the start's 0.005"}}) {
+    config.tip_limits = bounds;
+    const auto complaint = limitsComplaint(config);
+    ASSERT_TRUE(complaint.has_value()) << text;
+    EXPECT_EQ(complaint->key + " " + complaint->text, std::string("limits.tip_radius ") + text);
+  }
 }
 
 TEST_F(ConfigFile, RefusesAnUnknownPolicyByNameAndLine) {

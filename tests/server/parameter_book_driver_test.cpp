@@ -46,6 +46,19 @@ TEST(ParameterBook, ADriversTipIsHalfToTwiceTheOperators) {
   }
 }
 
+TEST(ParameterBook, ADriversTipIsWithinWhatTheOperatorAllows) {
+  for (const double radius : {0.0049, 0.005, 0.006, 0.0061}) {
+    Facts facts = factsOf("touch");
+    facts.tip_limits = Bounds{0.005, 0.006};
+    ParameterBook book(facts);
+    dds::ToolAnnouncement said{};
+    said.has_tip_radius = true;
+    said.tip_radius = radius;
+    EXPECT_TRUE(book.announced(0, wordOf(said)));
+    EXPECT_EQ(book.refusal(0).empty(), radius >= 0.005 && radius <= 0.006) << book.refusal(0);
+  }
+}
+
 TEST(ParameterBook, ADeviceWeakerThanTheOperatorsLowestStillHolds) {
   Facts facts = factsOf("touch");
   facts.limits.force_limit = Bounds{2.0, 3.3};

@@ -70,6 +70,8 @@ struct ServerConfig {
   LiveOverrides said;                  ///< of the file and the command line
   bool parameters{true};               ///< requests may change live parameters
   LiveBounds limits;                   ///< within these; what is not named: liveLimits()
+  std::optional<Bounds>
+      tip_limits;  ///< of the tip that a driver may name, m: [limits] tip_radius; tipLimits()
   /// parameters of the engine, the device's included: withDevice() was applied. [tool] and [organ] in the file
   StepConfig step{withDevice({}, std::string(kDefaultDevice), {})};
   std::array<OwnOptions, kMaxTools> own;  ///< by tool; what is named there wins over the above. [tool.N]

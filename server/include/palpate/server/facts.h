@@ -29,6 +29,7 @@ struct Facts {
   double youngs_modulus{0.0};                 ///< the model's own, Pa
   bool parameters{true};                      ///< requests may change live parameters
   LiveBounds limits;                          ///< within these
+  std::optional<Bounds> tip_limits;           ///< ServerConfig::tip_limits
   bool memory_locked{false};
   bool realtime{false};
   std::string realtime_detail;  ///< what was obtained, or how to get it

@@ -18,6 +18,10 @@ struct LiveLimits {
 /// @param start  the values of the start; E is a number, never 0
 [[nodiscard]] LiveLimits liveLimits(const LiveParameters& start, const LiveBounds& named);
 
+/// The tip that a driver may name: the bounds that were named, else half to twice the radius of the start, so that contact
+/// begins that much earlier or later. m
+[[nodiscard]] Bounds tipLimits(double start, const std::optional<Bounds>& named) noexcept;
+
 /// @return the first bounds named that are out of the parameter's range, above what the device renders stably, or without
 /// the start's value. E is judged only where the start names it.
 [[nodiscard]] std::optional<Complaint> limitsComplaint(const ServerConfig& config);

@@ -24,9 +24,6 @@ struct DriverWord {
 /// entity. Threads: one. Real-time: no.
 class ParameterBook {
  public:
-  /// A driver may name a tip of half to twice the radius that the operator gave: contact begins that much earlier or later.
-  static constexpr double kMostTipRatio = 2.0;
-
   /// Starts from the values of the start, and keeps the operator's limits.
   /// @throw std::invalid_argument  limits of E leave out what the organ starts with
   explicit ParameterBook(const Facts& facts);
@@ -77,6 +74,7 @@ class ParameterBook {
   std::array<std::string, kMaxTools> device_;
   AllToolSettings settings_;
   std::array<LiveLimits, kMaxTools> limits_;
+  std::optional<Bounds> tip_limits_;
   std::array<Tool, kMaxTools> tools_;
   std::uint64_t revision_{0};
 };
