@@ -6,7 +6,10 @@
 #include <memory>
 
 #include "palpate/idl/endpoint_fit.h"
+#include "palpate/idl/error.h"
 #include "palpate/idl/printable.h"
+#include "palpate/idl/qos.h"
+#include "palpate/idl/raw.h"
 
 namespace palpate::dds {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <thread>
 
-#include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/error.h"
 
 namespace palpate::dds::raw {
@@ -59,13 +58,6 @@ std::string participantGuid(dds_entity_t reader, dds_instance_handle_t writer) {
   const std::string text = textOf(endpoint->participant_key);
   dds_builtintopic_free_endpoint(endpoint);
   return text;
-}
-
-std::string mismatchOf(dds_entity_t endpoint, bool writes) {
-  EndpointWatch watch(dds_get_participant(endpoint), std::chrono::milliseconds(0));
-  watch.add(endpoint, writes);
-  const std::vector<std::string> lines = watch.poll();
-  return lines.empty() ? std::string() : lines.front();
 }
 
 bool waitUntilMatched(unsigned (*matched)(dds_entity_t) noexcept, dds_entity_t entity, unsigned count,

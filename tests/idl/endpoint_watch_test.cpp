@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "link.h"
+#include "palpate/idl/reader.h"
+#include "palpate/idl/writer.h"
 
 namespace palpate::dds {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/devices/path/path.h"
-#include "palpate/haptic/haptic_tool.h"
+#include "palpate/haptic/force.h"
 
 namespace palpate::haptic {
 

@@ -19,7 +19,7 @@ enum class Close : std::uint16_t { kNone = 0, kNotText = 1003, kPolicy = 1008, k
 
 /// One page: what it has, and what it gets next. It has no queue: each message is made from the newest data when the socket
 /// takes it. At most kInFlight frames are unacknowledged. Threads: the web thread.
-class Page {
+class Page final : public PageListener {
  public:
   static constexpr std::uint32_t kInFlight = 2;
   static constexpr double kMessagesPerSecond = 400.0;
@@ -29,9 +29,7 @@ class Page {
   static constexpr std::int64_t kLeastStatusNs = 100'000'000;
 
   Page(std::uint64_t id, Viewer& viewer, double max_rate_hz);
-  ~Page();
-  Page(const Page&) = delete;
-  Page& operator=(const Page&) = delete;
+  ~Page() override;
 
   /// A part of a text message came. @param[in] last  completes the message
   /// @return kNone, or the reason to close the page
@@ -43,12 +41,12 @@ class Page {
   /// Appends the next message. @return whether it is binary; nothing without a message
   [[nodiscard]] std::optional<bool> next(std::int64_t now_ns, Bytes& out);
 
-  void toolEnded(const std::string& message) { grant_ = ToolGrant{false, 0, message}; }
-  void answered(const ParameterDesk::Answer& answer);
+  void toolEnded(const std::string& message) override { grant_ = ToolGrant{false, 0, message}; }
+  void answered(const ParameterDesk::Answer& answer) override;
   /// Tells the page when another program sends the tool that it drives.
-  void lookForRival(std::int64_t now_ns);
+  void lookForRival(std::int64_t now_ns) override;
 
-  [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
+  [[nodiscard]] std::uint64_t id() const noexcept override { return id_; }
 
  private:
   [[nodiscard]] Close act(const PageMessage& message);

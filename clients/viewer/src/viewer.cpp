@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "page.h"
-
 namespace palpate::viewer {
 
 Viewer::Viewer(const dds::Participant& participant, std::uint32_t server_id, double rate_hz,
@@ -41,32 +39,32 @@ void Viewer::tendTools(std::int64_t now_ns) {
     tools.setSurface(*feed.surface());
   }
   for (const ToolDesk::Ending& ending : tools.endings())
-    if (Page* page = find(ending.page_id)) page->toolEnded(ending.message);
-  for (Page* page : pages_) page->lookForRival(now_ns);
+    if (PageListener* page = find(ending.page_id)) page->toolEnded(ending.message);
+  for (PageListener* page : pages_) page->lookForRival(now_ns);
 }
 
 void Viewer::tendParameters(std::int64_t now_ns) {
   for (const dds::ServerParameters& answer : feed.newParameters()) parameters.saw(answer);
   parameters.tend(feed.watch().alive(now_ns) ? feed.parameters() : std::nullopt, now_ns);
   for (const ParameterDesk::Answer& answer : parameters.answers())
-    if (Page* page = find(answer.page_id)) page->answered(answer);
+    if (PageListener* page = find(answer.page_id)) page->answered(answer);
 }
 
-void Viewer::add(Page& page) {
+void Viewer::add(PageListener& page) {
   pages_.push_back(&page);
   feed.setWatched(true);
 }
 
-void Viewer::remove(Page& page) {
+void Viewer::remove(PageListener& page) {
   std::erase(pages_, &page);
   tools.drop(page.id());
   parameters.drop(page.id());
   feed.setWatched(!pages_.empty());
 }
 
-Page* Viewer::find(std::uint64_t page_id) const {
-  const auto at =
-      std::find_if(pages_.begin(), pages_.end(), [&](const Page* page) { return page->id() == page_id; });
+PageListener* Viewer::find(std::uint64_t page_id) const {
+  const auto at = std::find_if(pages_.begin(), pages_.end(),
+                               [&](const PageListener* page) { return page->id() == page_id; });
   return at == pages_.end() ? nullptr : *at;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "organ_feed.h"
@@ -9,7 +11,19 @@
 
 namespace palpate::viewer {
 
-class Page;
+/// What the viewer tells a page that it serves.
+class PageListener {
+ public:
+  PageListener() = default;
+  PageListener(const PageListener&) = delete;
+  PageListener& operator=(const PageListener&) = delete;
+  virtual ~PageListener() = default;
+  [[nodiscard]] virtual std::uint64_t id() const noexcept = 0;
+  virtual void toolEnded(const std::string& message) = 0;
+  virtual void answered(const ParameterDesk::Answer& answer) = 0;
+  /// Time to look whether another program sends the tool that the page drives.
+  virtual void lookForRival(std::int64_t now_ns) = 0;
+};
 
 /// State shared by all pages: data from DDS, the tools that pages drive, the parameters that they set.
 /// Threads: one, the web thread.
@@ -23,14 +37,14 @@ class Viewer {
   /// Takes in what came and passes it on; call about every 20 ms.
   void tend(std::int64_t now_ns);
 
-  void add(Page& page);
-  void remove(Page& page);
+  void add(PageListener& page);
+  void remove(PageListener& page);
 
   OrganFeed feed;
   ToolDesk tools;
   ParameterDesk parameters;
 
-  [[nodiscard]] const std::vector<Page*>& pages() const noexcept { return pages_; }
+  [[nodiscard]] const std::vector<PageListener*>& pages() const noexcept { return pages_; }
   [[nodiscard]] const ServerState& state() const noexcept { return state_; }
   /// Rises when state() changes; above 0 after the first tend().
   [[nodiscard]] std::uint64_t stateVersion() const noexcept { return state_version_; }
@@ -38,9 +52,9 @@ class Viewer {
  private:
   void tendTools(std::int64_t now_ns);
   void tendParameters(std::int64_t now_ns);
-  [[nodiscard]] Page* find(std::uint64_t page_id) const;
+  [[nodiscard]] PageListener* find(std::uint64_t page_id) const;
 
-  std::vector<Page*> pages_;
+  std::vector<PageListener*> pages_;
   ServerState state_;
   std::uint64_t state_version_{0};
   std::uint32_t surface_revision_{0};

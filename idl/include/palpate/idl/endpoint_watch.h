@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "palpate/idl/reader.h"
-#include "palpate/idl/writer.h"
+#include "palpate/idl/participant.h"
 
 namespace palpate::dds {
 
@@ -26,13 +25,10 @@ class EndpointWatch {
       : EndpointWatch(participant.handle(), patience) {}
   EndpointWatch(dds_entity_t participant, std::chrono::milliseconds patience);
 
-  template <class T>
-  void add(const Writer<T>& writer) {
-    add(writer.handle(), true);
-  }
-  template <class T>
-  void add(const Reader<T>& reader) {
-    add(reader.handle(), false);
+  /// @param endpoint  a Writer or a Reader
+  template <class E>
+  void add(const E& endpoint) {
+    add(endpoint.handle(), E::kWrites);
   }
   void add(dds_entity_t endpoint, bool writes);
 

@@ -35,10 +35,6 @@ namespace palpate::dds::raw {
 /// GUID of the participant of a matched writer, 32 hexadecimal digits; empty when there is no such writer.
 [[nodiscard]] std::string participantGuid(dds_entity_t reader, dds_instance_handle_t writer);
 
-/// One line when a counterpart is there that does not match: by which policies, and whose it is; empty when none is.
-/// Looks at all that DDS discovered, so not for a loop: EndpointWatch is.
-[[nodiscard]] std::string mismatchOf(dds_entity_t endpoint, bool writes);
-
 /// Looks every few milliseconds until `matched(entity)` reaches `count`. @return whether it did within
 /// `timeout`
 [[nodiscard]] bool waitUntilMatched(unsigned (*matched)(dds_entity_t) noexcept, dds_entity_t entity,

@@ -10,6 +10,7 @@
 
 #include "palpate/idl/error.h"
 #include "palpate/idl/loaned_samples.h"
+#include "palpate/idl/mismatch.h"
 #include "palpate/idl/topic.h"
 
 namespace palpate::dds {
@@ -73,6 +74,7 @@ template <class T>
 class Reader {
  public:
   using Traits = TopicTraits<T>;
+  static constexpr bool kWrites = false;
 
   /// Without a callback: take() when you like.
   /// @throw DdsError naming the topic
@@ -108,7 +110,7 @@ class Reader {
     return raw::waitUntilMatched(&raw::matchedWriters, entity_.handle(), count, timeout);
   }
   /// One line when a writer was found whose type or QoS does not fit; else empty.
-  [[nodiscard]] std::string mismatch() const { return raw::mismatchOf(entity_.handle(), false); }
+  [[nodiscard]] std::string mismatch() const { return mismatchOf(entity_.handle(), false); }
   [[nodiscard]] dds_entity_t handle() const noexcept { return entity_.handle(); }
 
  private:

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "palpate/idl/error.h"
+#include "palpate/idl/mismatch.h"
 #include "palpate/idl/reader.h"
 
 namespace palpate::dds {
@@ -57,7 +58,7 @@ class Tap {
     return raw::waitUntilMatched(&raw::matchedWriters, entity_.handle(), count, timeout);
   }
   [[nodiscard]] dds_entity_t handle() const noexcept { return entity_.handle(); }
-  [[nodiscard]] std::string mismatch() const { return raw::mismatchOf(entity_.handle(), false); }
+  [[nodiscard]] std::string mismatch() const { return mismatchOf(entity_.handle(), false); }
   /// GUID of a writer's participant, 32 hexadecimal digits; empty when the writer is gone.
   [[nodiscard]] std::string participantOf(WriterId writer) const {
     return raw::participantGuid(entity_.handle(), writer);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "palpate/idl/mismatch.h"
 #include "palpate/idl/topic.h"
 
 namespace palpate::dds {
@@ -14,6 +15,7 @@ template <class T>
 class Writer {
  public:
   using Traits = TopicTraits<T>;
+  static constexpr bool kWrites = true;
 
   /// @throw DdsError naming the topic
   /// Real-time: no.
@@ -37,7 +39,7 @@ class Writer {
     return raw::waitUntilMatched(&raw::matchedReaders, entity_.handle(), count, timeout);
   }
   /// One line when a reader was found whose type or QoS does not fit; else empty.
-  [[nodiscard]] std::string mismatch() const { return raw::mismatchOf(entity_.handle(), true); }
+  [[nodiscard]] std::string mismatch() const { return mismatchOf(entity_.handle(), true); }
   [[nodiscard]] dds_entity_t handle() const noexcept { return entity_.handle(); }
 
  private:

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/haptic/force.h"
+
 #if defined(__GNUC__)
 #define PALPATE_HAPTIC_API __attribute__((visibility("default")))
 #else
@@ -18,7 +20,6 @@
 /// force on it. palpate_haptic.h offers the same to C. SI units; world frame W is that of the organ's mesh.
 namespace palpate::haptic {
 
-using Vec3 = std::array<double, 3>;        ///< x, y, z in W
 using Quaternion = std::array<double, 4>;  ///< x, y, z, w, unit length
 
 /// What failed and why, in one line. Only HapticTool's constructor throws it.
@@ -42,21 +43,6 @@ struct Options {
   int receive_priority{0};  ///< SCHED_FIFO priority of the receiving threads, 1 to 99; 0: unchanged
   /// As in palpate-server --device: its limits hold for this tool where they are lower. Empty: none said
   std::string device{};
-};
-
-/// The force on the tool at one moment, and its context.
-struct Force {
-  Vec3 force{};                ///< on the tool in W, N: what the device renders. Never larger than the limits
-  Vec3 anchor{};               ///< X(s): rest position of the touched material point, m
-  Vec3 proxy{};                ///< current position of that point, m: draw the tool resting here
-  double age_s{0.0};           ///< time since the newest answer, s; infinity before the first one
-  double gain{0.0};            ///< the watchdog's gain, 0 to 1, already in `force`
-  std::uint64_t pose_seq{0};   ///< the answered pose, as send() returned it; 0 before the first answer
-  std::uint32_t flags{0};      ///< FLAG_* of palpate.idl, PALPATE_HAPTIC_FLAG_* of palpate_haptic.h
-  std::uint32_t state{0};      ///< 0 free, 1 stick, 2 slide
-  std::uint32_t server_id{0};  ///< of the server whose force it is
-  std::uint64_t session{
-      0};  ///< of the run of that server, random; another one: another server has taken over. 0 before the first answer
 };
 
 /// One tool of one server. It holds on to one run of one server: the first that answers, or that of `server_id`. Forces of other
