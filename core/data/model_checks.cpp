@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -161,6 +162,12 @@ void checkFinite(const ModelView& v, const Checker& check) {
   check.finite(dataset::kMeshNodes.name(), v.mesh_nodes);
 }
 
+std::string knownLaws() {
+  std::string list;
+  for (const std::string_view law : kLaws) list += (list.empty() ? "\"" : " or \"") + std::string(law) + '"';
+  return list;
+}
+
 }  // namespace
 
 void checkAttributes(const ModelAttributes& a, const std::string& name) {
@@ -169,7 +176,8 @@ void checkAttributes(const ModelAttributes& a, const std::string& name) {
     check.require(std::isfinite(value) && good,
                   std::string("attribute ") + attribute + " is " + digitsOf(value), expected);
   };
-  check.require(a.law == "stvk", "attribute law is \"" + a.law.substr(0, 40) + "\"", "\"stvk\"");
+  check.require(std::find(kLaws.begin(), kLaws.end(), a.law) != kLaws.end(),
+                "attribute law is \"" + a.law.substr(0, 40) + "\"", knownLaws());
   if (a.parameters != Parameters::kLevel) checkOrders(a, check);
   range("E", a.E, a.E > 0.0, "more than 0 Pa");
   range("nu", a.nu, a.nu > -1.0 && a.nu < 0.5, "more than -1 and less than 0.5");

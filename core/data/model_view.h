@@ -32,9 +32,12 @@ enum class Parameters {
   return "unknown";
 }
 
+/// The laws of the material that model files may name. The solver's MaterialLaw says what they are.
+inline constexpr std::array<std::string_view, 1> kLaws{"stvk"};
+
 /// Root attributes of a model file.
 struct ModelAttributes {
-  std::string law;         ///< "stvk"
+  std::string law;         ///< one of kLaws
   std::string provenance;  ///< text of a JSON object: who made it, from what, how well it fits
   double E{0.0};           ///< Young's modulus, Pa, > 0
   double nu{0.0};          ///< Poisson's ratio, in (-1, 0.5)

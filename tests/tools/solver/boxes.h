@@ -58,7 +58,7 @@ struct Box {
   }
 
   /// Clamped at x = 0.
-  [[nodiscard]] FeModel clamped(const StVenantKirchhoff& material) const {
+  [[nodiscard]] FeModel clamped(const Material& material) const {
     return FeModel(nodes(), tetrahedra(), face(0, false), material);
   }
 

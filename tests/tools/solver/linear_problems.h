@@ -44,7 +44,7 @@ inline LinearProblem springRod(int n) {
 /// A block clamped at one end, patches on every free node of its surface.
 struct PalpatedBox {
   Box box{4, 2, 2, Vec3(0.08, 0.04, 0.04)};
-  FeModel model{box.clamped({160e3, 0.4})};
+  FeModel model{box.clamped({{160e3, 0.4}})};
   PatchSurface surface{box.surface(model)};
   std::vector<Patch> patches;
   std::vector<double> areas;

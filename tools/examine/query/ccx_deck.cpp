@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <sstream>
+#include <variant>
 
 #include "tools/examine/query/query_error.h"
 
@@ -43,8 +44,12 @@ class Deck {
     }
   }
   void material() {
-    const solver::StVenantKirchhoff& law = organ_.body.material();
-    out_ << "*MATERIAL,NAME=ORGAN\n*ELASTIC\n" << ccxNumber(law.E) << ',' << ccxNumber(law.nu);
+    const solver::Material& material = organ_.body.material();
+    const solver::CcxMaterial of_deck =
+        std::visit([&](auto law) { return law.ccx(material.elasticity); }, material.law);
+    out_ << "*MATERIAL,NAME=ORGAN\n" << of_deck.keyword << '\n';
+    for (std::size_t i = 0; i < of_deck.constants.size(); ++i)
+      out_ << (i == 0 ? "" : ",") << ccxNumber(of_deck.constants[i]);
     out_ << "\n*SOLID SECTION,ELSET=BODY,MATERIAL=ORGAN\n";
   }
   void supports() {

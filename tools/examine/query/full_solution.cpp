@@ -29,7 +29,8 @@ std::vector<Vec3> points(std::span<const double> flat) {
 
 solver::FeModel bodyOf(const ModelAttributes& a, const modelfile::VolumeMesh& mesh) {
   try {
-    return solver::FeModel(points(mesh.nodes), tuples<4>(mesh.tetrahedra), mesh.fixed, {a.E, a.nu});
+    return solver::FeModel(points(mesh.nodes), tuples<4>(mesh.tetrahedra), mesh.fixed,
+                           {{a.E, a.nu}, solver::lawOf(a.law), {}});
   } catch (const std::invalid_argument& error) {
     throw QueryError(std::string("the mesh in the model file: ") + error.what());
   }

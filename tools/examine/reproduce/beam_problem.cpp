@@ -86,7 +86,7 @@ Beam::Beam(const BeamOptions& options)
 }
 
 double Beam::axialStiffness() const {
-  return model.material().E * kSize.y() * kSize.z();
+  return model.material().elasticity.E * kSize.y() * kSize.z();
 }
 
 Eigen::VectorXd Beam::toUnknowns(const Eigen::VectorXd& nodal) const {

@@ -176,8 +176,8 @@ void addCurve(const Beam& beam, const BeamSolutions& solutions, Json& results) {
 Json problemOf(const Beam& beam, const BeamOptions& options) {
   return {{"nodes", beam.model.nodeCount()},
           {"tetrahedra", beam.model.elementCount()},
-          {"E_MPa", 1e-6 * beam.model.material().E},
-          {"nu", beam.model.material().nu},
+          {"E_MPa", 1e-6 * beam.model.material().elasticity.E},
+          {"nu", beam.model.material().elasticity.nu},
           {"nodes_along", std::to_string(options.nodes[0]) + " x " + std::to_string(options.nodes[1]) +
                               " x " + std::to_string(options.nodes[2])},
           {"load_N", options.load},

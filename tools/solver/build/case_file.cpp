@@ -8,6 +8,9 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <stdexcept>
+
+#include "tools/solver/fem/material.h"
 
 namespace palpate::solver {
 
@@ -102,8 +105,11 @@ void readBoundary(const std::string& file, const toml::table& table, Case& c) {
 void readMaterial(const std::string& file, const toml::table& table, Case& c) {
   Section section(file, "material", table);
   assign(c.law, section.take<std::string>("law", "a string"));
-  if (c.law != "stvk")
-    section.refuse(section.node("law"), "law", "= \"" + c.law + "\" is not known (known: stvk)");
+  try {
+    (void)lawOf(c.law);
+  } catch (const std::invalid_argument& error) {
+    section.refuse(section.node("law"), "law", error.what());
+  }
   assign(c.E, section.number("E", 0.0, false, 1e12));
   assign(c.nu, section.number("nu", -0.99, true, 0.4999));
   section.refuseTheRest();

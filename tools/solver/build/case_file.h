@@ -60,7 +60,7 @@ struct Case {
   std::filesystem::path mesh;             ///< volume mesh in metres; relative paths start at the case file
   std::string fixed{"fixed"};             ///< physical group of the clamped nodes
   std::optional<std::string> accessible;  ///< physical group that a tool may touch; absent: all free nodes
-  std::string law{"stvk"};                ///< "stvk"
+  std::string law{"stvk"};                ///< lawOf() knows it
   double E{160e3};                        ///< Pa, (0, 1e12]
   double nu{0.48};                        ///< [-0.99, 0.4999]
   Method method{Method::kSeriesDisplacement};

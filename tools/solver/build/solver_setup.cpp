@@ -143,7 +143,7 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
 }
 
 SolverSetup::SolverSetup(const Case& c, const mesh::TetMesh& mesh)
-    : model(mesh.nodes, mesh.tetrahedra, groupOf(c, mesh, c.fixed), {c.E, c.nu}),
+    : model(mesh.nodes, mesh.tetrahedra, groupOf(c, mesh, c.fixed), {{c.E, c.nu}, lawOf(c.law), {}}),
       surface(surfaceOf(model, mesh)),
       patch_radius(patchRadius(c, surface)),
       positions(

@@ -4,6 +4,8 @@
 #include <cholmod.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,9 +24,9 @@ struct Pattern {
 Pattern lowerPattern(const FeModel& model) {
   const auto node_count = static_cast<std::size_t>(model.nodeCount());
   std::vector<std::vector<int>> lower(node_count);  // dofs of the neighbours with dof >= own
-  for (const auto& t : model.tetrahedra())
-    for (const int a : t)
-      for (const int b : t)
+  for (int e = 0; e < model.elementCount(); ++e)
+    for (const int a : model.elementNodes(e))
+      for (const int b : model.elementNodes(e))
         if (model.isFree(a) && model.isFree(b) && b >= a)
           lower[static_cast<std::size_t>(a)].push_back(model.dof(b));
   Pattern pattern;
@@ -121,13 +123,13 @@ struct Cholesky::State {
   void assemble(const Eigen::VectorXd& u) {
     std::fill(values.begin(), values.end(), 0.0);
     for (int e = 0; e < model->elementCount(); ++e) {
-      const Eigen::Matrix<double, 12, 12> K = model->elementTangent(e, u);
-      const auto& t = model->tetrahedra()[static_cast<std::size_t>(e)];
-      for (int a = 0; a < 12; ++a) {
-        const int row = model->dof(t[static_cast<std::size_t>(a / 3)]);
+      const FeModel::ElementMatrix K = model->elementTangent(e, u);
+      const std::span<const std::int32_t> nodes = model->elementNodes(e);
+      for (int a = 0; a < K.rows(); ++a) {
+        const int row = model->dof(nodes[static_cast<std::size_t>(a / 3)]);
         if (row < 0) continue;
-        for (int b = 0; b < 12; ++b) {
-          const int column = model->dof(t[static_cast<std::size_t>(b / 3)]);
+        for (int b = 0; b < K.cols(); ++b) {
+          const int column = model->dof(nodes[static_cast<std::size_t>(b / 3)]);
           if (column >= 0) add(row + a % 3, column + b % 3, K(a, b));
         }
       }

@@ -9,9 +9,9 @@ namespace palpate::solver {
 
 double volumeChange(const FeModel& model, const Eigen::VectorXd& u) {
   double rest = 0.0, gain = 0.0;
-  for (int e = 0; e < model.elementCount(); ++e) {
-    rest += model.volume(e);
-    gain += model.volume(e) * ((Mat3::Identity() + model.displacementGradient(e, u)).determinant() - 1.0);
+  for (const FeModel::Point& point : model.points()) {
+    rest += point.weight;
+    gain += point.weight * ((Mat3::Identity() + displacementGradient(point, u)).determinant() - 1.0);
   }
   return gain / rest;
 }

@@ -14,12 +14,12 @@ std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Zeros wherever two free nodes share a tetrahedron.
+/// Zeros wherever two free nodes share an element.
 SparseMatrix patternOf(const FeModel& model) {
   std::vector<std::vector<int>> neighbours(at(model.nodeCount()));
-  for (const auto& t : model.tetrahedra())
-    for (const int a : t)
-      for (const int b : t)
+  for (int e = 0; e < model.elementCount(); ++e)
+    for (const int a : model.elementNodes(e))
+      for (const int b : model.elementNodes(e))
         if (model.isFree(a) && model.isFree(b)) neighbours[at(a)].push_back(model.dof(b));
   SparseMatrix K(model.dofCount(), model.dofCount());
   std::vector<int> counts(at(model.dofCount()));
@@ -54,15 +54,17 @@ BodyProblem::BodyProblem(const FeModel& model, SparseMatrix loads, Eigen::Vector
                                 std::to_string(loads_.cols()) + ", weights " +
                                 std::to_string(weights_.size()) + "; expected " +
                                 std::to_string(model.dofCount()) + " rows and as many columns as weights");
-  places_.reserve(at(model.elementCount()) * 144);
-  for (const auto& t : model.tetrahedra())
-    for (std::size_t b = 0; b < 12; ++b)
-      for (std::size_t a = 0; a < 12; ++a) {
-        const int row = model.dof(t[a / 3]), column = model.dof(t[b / 3]);
+  places_.reserve(at(model.elementCount()) * FeModel::ElementMatrix::SizeAtCompileTime);
+  for (int e = 0; e < model.elementCount(); ++e) {
+    const std::span<const std::int32_t> nodes = model.elementNodes(e);
+    for (std::size_t b = 0; b < 3 * nodes.size(); ++b)
+      for (std::size_t a = 0; a < 3 * nodes.size(); ++a) {
+        const int row = model.dof(nodes[a / 3]), column = model.dof(nodes[b / 3]);
         places_.push_back(row < 0 || column < 0 ? -1
                                                 : placeOf(stiffness_, row + static_cast<int>(a % 3),
                                                           column + static_cast<int>(b % 3)));
       }
+  }
   tangent(Eigen::VectorXd::Zero(dofs()), stiffness_);
 }
 
@@ -79,8 +81,8 @@ void BodyProblem::tangent(const Eigen::VectorXd& u, SparseMatrix& K) const {
   std::fill(values, values + K.nonZeros(), 0.0);
   const std::int32_t* place = places_.data();
   for (int e = 0; e < model_.elementCount(); ++e) {
-    const Eigen::Matrix<double, 12, 12> element = model_.elementTangent(e, nodal);
-    for (int i = 0; i < 144; ++i, ++place)
+    const FeModel::ElementMatrix element = model_.elementTangent(e, nodal);
+    for (Eigen::Index i = 0; i < element.size(); ++i, ++place)
       if (*place >= 0) values[*place] += element.data()[i];
   }
 }

@@ -65,7 +65,7 @@ class BodyProblem final : public ParametricProblem {
   SparseMatrix loads_;
   Eigen::VectorXd weights_;
   SparseMatrix stiffness_;
-  std::vector<std::int32_t> places_;  ///< 144 per element: where each entry of its tangent goes, -1: nowhere
+  std::vector<std::int32_t> places_;  ///< where each entry of each element's tangent goes, -1: nowhere
 };
 
 /// Loads f_j on each patch: column (s, j) = G_s f_j, position-major.                  docs/design.md, Symbols

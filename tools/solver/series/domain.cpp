@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -92,7 +93,7 @@ LaneVector laneMonomials(const MonomialBasis& basis, const Vec3& direction, cons
   return monomials;
 }
 
-/// The elements in which some lane could pass below the limit: det F >= (1 - |H|)^3.
+/// The integration points in which some lane could pass below the limit: det F >= (1 - |H|)^3.
 std::vector<int> suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
                           const Lanes& radius) {
   LaneVector powers(static_cast<std::size_t>(basis.size()));
@@ -104,15 +105,15 @@ std::vector<int> suspects(const MonomialBasis& basis, const KernelInput& input, 
       powers[static_cast<std::size_t>(k)] = power;
     }
   }
-  LaneVector bounds(static_cast<std::size_t>(input.element_count));
+  LaneVector bounds(static_cast<std::size_t>(input.point_count));
   gradientBounds(input, powers.data(), bounds.data());
   const double harmless = 1.0 - std::cbrt(min_det_f);
   std::vector<int> found;
-  for (int e = 0; e < input.element_count; ++e) {
+  for (int n = 0; n < input.point_count; ++n) {
     double largest = 0.0;
     for (int lane = 0; lane < kLanes; ++lane)
-      largest = std::max(largest, bounds[static_cast<std::size_t>(e)][lane]);
-    if (!(largest < harmless)) found.push_back(e);
+      largest = std::max(largest, bounds[static_cast<std::size_t>(n)][lane]);
+    if (!(largest < harmless)) found.push_back(n);
   }
   return found;
 }
@@ -156,7 +157,7 @@ void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double mi
                  std::span<double> radii) {
   Lanes radius{};
   for (std::size_t lane = 0; lane < radii.size(); ++lane) radius[static_cast<int>(lane)] = radii[lane];
-  for (const int element : suspects(basis, input, min_det_f, radius)) {
+  for (const int point : suspects(basis, input, min_det_f, radius)) {
     for (const Vec3& direction : sampledDirections()) {
       // A radius that is too large is halved up to ten times, to a thousandth.
       Lanes good{};
@@ -165,7 +166,7 @@ void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double mi
       const Lanes offered = radius;
       for (int halving = 0; halving < 11; ++halving) {
         Lanes det;
-        detF(input, element, laneMonomials(basis, direction, tried).data(), &det);
+        detF(input, point, laneMonomials(basis, direction, tried).data(), &det);
         bool all_good = true;
         for (int lane = 0; lane < kLanes; ++lane) {
           const bool fine = det[lane] >= min_det_f;

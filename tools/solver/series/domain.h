@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "tools/solver/series/series.h"
+#include "core/base/multi_index.h"
 #include "tools/solver/series/series_kernel.h"
 
 namespace palpate::solver {
@@ -21,7 +20,7 @@ namespace palpate::solver {
 [[nodiscard]] double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept,
                                   double cap, double tolerance);
 
-/// Shrinks each lane's radius until det F >= min_det_f in every element and sampled direction.
+/// Shrinks each lane's radius until det F >= min_det_f in every integration point and sampled direction.
 void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
                  std::span<double> radii);
 

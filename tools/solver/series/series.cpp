@@ -15,22 +15,14 @@ namespace palpate::solver {
 
 namespace {
 
-std::vector<KernelElement> kernelElements(const FeModel& model) {
-  std::vector<KernelElement> elements(static_cast<std::size_t>(model.elementCount()));
-  for (int e = 0; e < model.elementCount(); ++e) {
-    KernelElement& out = elements[static_cast<std::size_t>(e)];
-    out.nodes = model.tetrahedra()[static_cast<std::size_t>(e)];
-    out.volume = model.volume(e);
-    for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t J = 0; J < 3; ++J)
-        out.gradients[a][J] = model.gradients(e)(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(J));
-  }
-  // Neighbours in memory are neighbours in the mesh: each field is read once, not once per element.
-  std::sort(elements.begin(), elements.end(), [](const KernelElement& l, const KernelElement& r) {
+/// Neighbours in memory are neighbours in the mesh: each field is read once, not once per element.
+std::vector<FeModel::Point> sorted(std::span<const FeModel::Point> of_the_mesh) {
+  std::vector<FeModel::Point> points(of_the_mesh.begin(), of_the_mesh.end());
+  std::sort(points.begin(), points.end(), [](const FeModel::Point& l, const FeModel::Point& r) {
     return *std::min_element(l.nodes.begin(), l.nodes.end()) <
            *std::min_element(r.nodes.begin(), r.nodes.end());
   });
-  return elements;
+  return points;
 }
 
 }  // namespace
@@ -45,7 +37,7 @@ struct SeriesSolver::State {
         product(basis, order),
         strain_product(answer_basis, order),
         energy_product(energy_basis, answerOrder(order)),
-        elements(kernelElements(fe)),
+        points(sorted(fe.points())),
         solver(factor) {
     U.resize(static_cast<std::size_t>(model.nodeCount()) * coefficients() * 3);
     answer.resize(static_cast<std::size_t>(answer_basis.size()) * 3);
@@ -53,8 +45,7 @@ struct SeriesSolver::State {
 
   [[nodiscard]] std::size_t coefficients() const { return static_cast<std::size_t>(basis.size()); }
   [[nodiscard]] KernelInput input() const {
-    return {elements.data(), static_cast<int>(elements.size()), basis.size(),
-            U.data(),        model.material().lambda(),         model.material().mu()};
+    return {points.data(), static_cast<int>(points.size()), basis.size(), U.data(), model.material().law};
   }
   Lanes* at(int node, int k) {
     return U.data() + (static_cast<std::size_t>(node) * coefficients() + static_cast<std::size_t>(k)) * 3;
@@ -76,7 +67,7 @@ struct SeriesSolver::State {
   CauchyProduct product;         // of fields, for fields
   CauchyProduct strain_product;  // of fields, for strains to the degree of the force
   CauchyProduct energy_product;  // of strains, for the energy
-  std::vector<KernelElement> elements;
+  std::vector<FeModel::Point> points;
   Cholesky::Solver solver;
   std::span<const Patch> patches;
   LaneVector U;                                 // [node][k][3]

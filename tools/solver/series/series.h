@@ -23,7 +23,7 @@ enum class SeriesKind : std::uint8_t {
 /// Sampling and limits of the domain radius d_max(s), or f_max(s).                     docs/design.md, Series
 struct DomainCriteria {
   double answer_error{0.01};  ///< relative error of the force (or displacement) that the series may have
-  double min_det_f{0.3};      ///< over all elements
+  double min_det_f{0.3};      ///< over all integration points
   double cap{0.05};           ///< m, largest radius; driven by force: of the linear answer
 };
 

@@ -36,7 +36,7 @@ class SolvedBlock : public ::testing::Test {
       data.attributes.provenance = "{}";
       modelfile::writeModel(file.path(), data);
       fe = std::make_unique<FeModel>(organ.nodes, organ.tetrahedra, organ.groups.at("fixed"),
-                                     StVenantKirchhoff{c.E, c.nu});
+                                     Material{{c.E, c.nu}});
       surface = std::make_unique<PatchSurface>(SolverSetup(c, organ).surface);
     }
 

@@ -11,7 +11,7 @@ namespace {
 class Beam : public ::testing::Test {
  protected:
   const Box box_{20, 8, 8, Vec3(0.4, 0.04, 0.04)};
-  const FeModel model_{box_.clamped({1e6, 0.25})};
+  const FeModel model_{box_.clamped({{1e6, 0.25}})};
   const int tip_{box_.node(20, 4, 8)};
 
   Vec3 tip(double newtons) const {

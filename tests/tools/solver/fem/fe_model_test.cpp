@@ -12,7 +12,7 @@
 namespace palpate::solver {
 namespace {
 
-const StVenantKirchhoff kLiver{160e3, 0.48};
+const Material kLiver{{160e3, 0.48}};
 
 Eigen::VectorXd randomField(const FeModel& model, double size, unsigned seed) {
   std::mt19937 random(seed);
@@ -50,7 +50,8 @@ TEST(FeModel, ForceOnAFaceIsStressTimesArea) {
   const Eigen::VectorXd f = model.internalForce(u);
   for (const int node : box.face(0, true)) total += f.segment<3>(3 * node);
   const double strain = stretch + 0.5 * stretch * stretch;
-  const double P = (1.0 + stretch) * (kLiver.lambda() + 2.0 * kLiver.mu()) * strain;
+  const double P =
+      (1.0 + stretch) * (kLiver.elasticity.lame().lambda + 2.0 * kLiver.elasticity.lame().mu) * strain;
   EXPECT_NEAR(total.x(), P * 0.03 * 0.04, 1e-10 * std::abs(P) * 0.0012);
 }
 
@@ -105,9 +106,32 @@ TEST(FeModel, RefusesAFlatTetrahedron) {
   }
 }
 
+// Elements round nodes with i < 2 are soft, those round nodes with i > 2 three times as stiff.
+TEST(FeModel, ForceIsThatOfEachElementsOwnStiffness) {
+  const Box box{4, 1, 1, Vec3(0.04, 0.01, 0.01)};
+  Material material = kLiver;
+  for (std::size_t e = 0; e < box.tetrahedra().size(); ++e)
+    material.by_element.push_back({e < box.tetrahedra().size() / 2 ? 160e3 : 480e3, 0.48});
+  const FeModel even = box.clamped(kLiver), uneven = box.clamped(material);
+  const Eigen::VectorXd u = randomField(even, 5e-4, 5);
+  const Eigen::VectorXd f = even.internalForce(u), g = uneven.internalForce(u);
+  for (int i : {0, 1, 3, 4})
+    for (int j = 0; j < 2; ++j)
+      for (int k = 0; k < 2; ++k) {
+        const int at = 3 * box.node(i, j, k);
+        EXPECT_LT((g.segment<3>(at) - (i < 2 ? 1.0 : 3.0) * f.segment<3>(at)).norm(), 1e-12 * f.norm());
+      }
+}
+
+TEST(FeModel, RefusesAnotherNumberOfStiffnessesThanElements) {
+  Material material = kLiver;
+  material.by_element.resize(5);
+  EXPECT_THROW((void)(Box{1, 1, 1, Vec3(1, 1, 1)}.clamped(material)), std::invalid_argument);
+}
+
 TEST(FeModel, RefusesAnIncompressibleMaterial) {
   const Box box{1, 1, 1, Vec3(1, 1, 1)};
-  EXPECT_THROW((void)box.clamped({160e3, 0.5}), std::invalid_argument);
+  EXPECT_THROW((void)box.clamped({{160e3, 0.5}}), std::invalid_argument);
 }
 
 TEST(Cholesky, SolvesWhatTheElementsAddUpTo) {

@@ -14,7 +14,7 @@ namespace {
 class TwoPatches : public ::testing::Test {
  protected:
   const Box box_{8, 4, 3, Vec3(0.16, 0.08, 0.06)};
-  const FeModel model_{box_.clamped({160e3, 0.4})};
+  const FeModel model_{box_.clamped({{160e3, 0.4}})};
   const PatchSurface surface_{box_.surface(model_)};
   NewtonSolver newton_{model_};
 

@@ -10,7 +10,7 @@
 namespace palpate::solver {
 namespace {
 
-const StVenantKirchhoff kLiver{160e3, 0.48};
+const Material kLiver{{160e3, 0.48}};
 
 class Plate : public ::testing::Test {
  protected:

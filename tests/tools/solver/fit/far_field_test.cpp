@@ -58,7 +58,7 @@ class SteepFields : public ::testing::Test {
   }
 
   const Box box_{6, 5, 4, Vec3(0.06, 0.05, 0.04)};
-  const FeModel model_{box_.clamped({160e3, 0.45})};
+  const FeModel model_{box_.clamped({{160e3, 0.45}})};
   const PatchSurface surface_{box_.surface(model_)};
   const MonomialBasis basis_{1};
   const std::vector<double> radii_ = std::vector<double>(surface_.positions.size(), 1.0);

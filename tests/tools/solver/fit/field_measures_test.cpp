@@ -14,7 +14,7 @@ namespace {
 class Block : public ::testing::Test {
  protected:
   const Box box_{2, 3, 2, Vec3(0.02, 0.03, 0.05)};
-  const FeModel model_{box_.clamped({160e3, 0.3})};
+  const FeModel model_{box_.clamped({{160e3, 0.3}})};
 
   Eigen::VectorXd field(const Mat3& H) const {
     Eigen::VectorXd u(3 * model_.nodeCount());

@@ -62,7 +62,7 @@ TEST(LoadStepping, TheRodHasOneLevelFunctionAsItsStretchIsUniform) {
 struct Beam {
   Box box;
   double newtons;
-  FeModel model{box.clamped({1e6, 0.25})};
+  FeModel model{box.clamped({{1e6, 0.25}})};
   std::vector<int> top{upperNodes()};
 
   std::vector<int> upperNodes() const {

@@ -21,7 +21,7 @@ Eigen::VectorXd randomVector(int size, double scale, unsigned seed) {
 class SmallBody : public ::testing::Test {
  protected:
   const Box box_{3, 2, 2, Vec3(0.03, 0.02, 0.02)};
-  const FeModel model_{box_.clamped({160e3, 0.48})};
+  const FeModel model_{box_.clamped({{160e3, 0.48}})};
   const Patch patch_{{box_.node(3, 0, 0), box_.node(2, 1, 2)}, {0.25, 0.75}, 1.0};
 
   BodyProblem problem() const {

@@ -16,7 +16,7 @@ class BlockSeries : public ::testing::Test {
 
   struct Case {
     explicit Case(const Box& box, double E)
-        : model(box.clamped({E, 0.45})), surface(box.surface(model)), factor(model) {
+        : model(box.clamped({{E, 0.45}})), surface(box.surface(model)), factor(model) {
       factor.factorize(Eigen::VectorXd::Zero(3 * model.nodeCount()));
       for (const int node : {box.node(4, 2, 4), box.node(6, 3, 2), box.node(3, 5, 2)}) {
         const auto at = std::find(surface.nodes.begin(), surface.nodes.end(), node) - surface.nodes.begin();

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/base/multi_index.h"
+
+namespace palpate::solver {
+
+/// The unordered pairs {b, c}, b + c = alpha, both of degree 1 to factor_order, that make up each coefficient
+/// of a basis.
+struct CauchyProduct {
+  struct Pair {
+    int b;
+    int c;
+  };
+  CauchyProduct(const MonomialBasis& basis, int factor_order);
+  std::vector<Pair> pairs;
+  std::vector<int> begin;  ///< coefficients + 1, offsets into pairs
+};
+
+}  // namespace palpate::solver
