@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Links of Markdown files; size and paths of READMEs."""
+"""Links of Markdown files, and the paths in their backticks; size of READMEs."""
+import functools
 import posixpath
 import re
 import urllib.parse
@@ -11,15 +12,17 @@ MOST_README_LINES = 120
 
 ELSEWHERE = re.compile(r"^[a-z][a-z0-9+.-]*:|^//", re.IGNORECASE)
 PATH = re.compile(r"^[\w.\-/*?]+$")
+SOURCE = re.compile(r"\.(?:h|hpp|c|cc|cpp|py|ts|idl|cmake)$")
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<](?:[^">]*/)?([^">/]+)[">]', re.MULTILINE)
 
 
 def findings(tree):
     for file in tree.files:
         if file.endswith(".md"):
             yield from broken_links(tree, file)
+            yield from missing_paths(tree, file)
     for file in tree.named("README.md"):
         yield from long_readme(tree, file)
-        yield from missing_paths(tree, file)
 
 
 def broken_links(tree, file):
@@ -46,16 +49,36 @@ def long_readme(tree, file):
 
 
 def missing_paths(tree, file):
-    """Words in backticks that start with a folder at the top of the repository.
+    """Words in backticks that are paths: they start with a folder at the top, with src or include, or name a source.
 
-    They are paths from the top or from the README's folder. What git ignores exists after a build only, and is skipped.
+    They lead on from the top, from the file's folder or from an include folder; a name alone is that of a file anywhere.
+    What git ignores exists after a build only, and so may a header that a source includes by its name.
     """
     here = posixpath.dirname(file)
     for line, code in markdown.spans(tree.text(file)):
         for word in code.split():
             path = word.strip("\"'(),;:")
-            if "/" not in path or path.split("/")[0] not in tree.top_folders or not PATH.match(path):
-                continue
-            there = tree.matches if re.search(r"[*?]", path) else tree.holds
-            if not there(path) and not there(posixpath.join(here, path)) and not tree.ignored(path):
+            if PATH.match(path) and is_path(tree, path) and not is_there(tree, here, path):
                 yield Finding(file, line, f"`{path}` is not in the repository")
+
+
+def is_path(tree, path):
+    if "/" not in path:
+        return SOURCE.search(path)
+    return path.split("/")[0] in {*tree.top_folders, "src", "include"} or SOURCE.search(path)
+
+
+def is_there(tree, here, path):
+    if re.search(r"[*?]", path):
+        return tree.matches(path)
+    if "/" not in path and (tree.named(path) or path in included_names(tree)):
+        return True
+    beside = posixpath.normpath(posixpath.join(here, path))
+    return (tree.holds(path) or tree.holds(beside) or tree.matches("include/" + path)
+            or tree.ignored(path) or (not beside.startswith("..") and tree.ignored(beside)))
+
+
+@functools.lru_cache(maxsize=1)
+def included_names(tree):
+    """Names of the headers that sources include, also of those that a build makes."""
+    return {name for file in tree.files if SOURCE.search(file) for name in INCLUDE.findall(tree.text(file))}

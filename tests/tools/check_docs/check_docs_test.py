@@ -32,7 +32,20 @@ server/record
 cat [no link](none.md) docs-of-others
 ```
 """
-DESIGN = "# Design\n\n## Series\n\n## Parts\n\n## Parts\n\n## Wire and latency\n"
+ROOMS = """
+<!-- rooms: tools/check_docs compares them with the tree and the includes -->
+
+| folder | what it owns | may see |
+|---|---|---|
+| core/base | numbers | nothing |
+| core | reading | nothing |
+| core/tick | one tick | core/base |
+| server | answers | core/tick |
+
+| another | table | here |
+|---|---|---|
+"""
+DESIGN = "# Design\n\n## Series\n\n## Parts\n\n## Parts\n\n## Wire and latency\n" + ROOMS
 SOURCE = f"// The series ({DOCS}design.md, Series, Parts) and its record, as {DOCS}design.md,\n// Series says. {DOCS}design.md, Wire and\n/// latency, Series.\n"
 FILES = {
     "README.md": README,
@@ -42,6 +55,12 @@ FILES = {
     "CMakeLists.txt": "add_library(options INTERFACE)\n",
     "core/CMakeLists.txt": "add_library(organ_core src/reader.cpp)\n",
     "core/src/reader.cpp": SOURCE,
+    "core/base/number.h": "#pragma once\n#include <vector>\n",
+    "core/tick/tick.h": '#pragma once\n#include "core/base/number.h"\n',
+    "core/tick/tick.cpp": '#include "core/tick/tick.h"\n\n#include "organ/made_list.h"\n',
+    "server/include/organ/answer.h": "#pragma once\n",
+    "server/src/answer.cpp": '#include "organ/answer.h"\n\n#include "core/tick/tick.h"\n#include "local.h"\n',
+    "server/src/local.h": "#pragma once\n",
     "idl/CMakeLists.txt": "add_library(organ_idl STATIC a.c)\nadd_library(organ::idl ALIAS organ_idl)\n",
     "server/CMakeLists.txt": "add_executable(organ-server main.cpp)\n"
     "target_link_libraries(organ-server # idl\n  PRIVATE organ::idl PUBLIC organ_core options)\n",
@@ -121,8 +140,22 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual(check_files({"core/README.md": "x\n" * 120, "core/LONG.md": "x\n" * 300})[0], 0)
 
     def test_finds_a_path_in_backticks_that_is_not_there(self):
-        self.expect_finding({"core/README.md": "`src/a.cpp` `organ core/src/none.cpp` `core/*/none.cpp`\n"},
+        self.expect_finding({"core/README.md": "`src/reader.cpp` `organ core/src/none.cpp` `core/*/none.cpp`\n"},
                             "core/README.md:1: `core/*/none.cpp`", "core/README.md:1: `core/src/none.cpp`")
+
+    def test_finds_a_path_beside_a_markdown_file_that_is_not_there(self):
+        self.expect_finding({"core/README.md": "`src/a.cpp` `src/reader.cpp` `fit/none.h`\n",
+                             "idl/a.md": "`src/reader.cpp`, `include/organ`, `organ/none.h`, `organ/answer.h`\n"},
+                            "core/README.md:1: `fit/none.h`", "core/README.md:1: `src/a.cpp`",
+                            "idl/a.md:1: `include/organ`", "idl/a.md:1: `organ/none.h`", "idl/a.md:1: `src/reader.cpp`")
+
+    def test_finds_the_name_of_no_source(self):
+        self.expect_finding({"idl/a.md": "`reader.cpp` `made_list.h` `writer.cpp` `organ.h5`\n"},
+                            "idl/a.md:1: `writer.cpp`")
+
+    def test_paths_that_are_no_files_of_ours_pass(self):
+        code, lines = check_files({"idl/a.md": "`organ/displacement` `dS/dt` `/dev/null` `build/x.h` `a/b.msh` `core/*/*.h`\n"})
+        self.assertEqual(code, 0, lines)
 
     def test_a_path_may_start_at_its_readme(self):
         code, lines = check_files({"tests/README.md": "`core/a_test.cpp`\n", "tests/core/a_test.cpp": ""})
@@ -178,6 +211,84 @@ endfunction()
         self.assertEqual((code, lines), (0, ["server ──► core  idl", "tools  ──► core  server/record"]))
 
 
+class Rooms(unittest.TestCase):
+    expect_finding = CheckDocs.expect_finding
+
+    @staticmethod
+    def table(old, new):
+        """docs/design.md with one row changed, and the number of that row's line."""
+        text = DESIGN.replace(old, new)
+        assert text != DESIGN
+        return {"docs/design.md": text}
+
+    @staticmethod
+    def line(row):
+        return f"docs/design.md:{DESIGN[:DESIGN.index(row)].count(chr(10)) + 1}: "
+
+    def test_finds_a_missing_table(self):
+        self.expect_finding({"docs/design.md": DESIGN.replace("<!-- rooms", "<!-- ")}, "docs/design.md:1: has no table of rooms")
+
+    def test_finds_an_include_of_a_higher_room(self):
+        self.expect_finding({"core/base/low.h": '#pragma once\n#include "core/tick/tick.h"\n'},
+                            "core/base/low.h:2: includes core/tick/tick.h: the table in docs/design.md does not let core/base "
+                            "see core/tick")
+
+    def test_finds_an_include_beside_the_table_however_it_is_written(self):
+        for include in ('"core/base/number.h"', '"../base/number.h"', "<core/base/number.h>"):
+            self.expect_finding({"core/src/reader.cpp": f"{SOURCE}  # include {include}  // numbers\n"},
+                                f"core/src/reader.cpp:4: includes {include[1:-1]}: the table in docs/design.md does not let "
+                                "core see core/base")
+        self.expect_finding({"core/base/low.h": '#include "organ/answer.h"\n'},
+                            "core/base/low.h:1: includes organ/answer.h: the table in docs/design.md does not let core/base "
+                            "see server")
+
+    def test_finds_a_row_that_sees_a_row_below_it(self):
+        self.expect_finding({**self.table("| numbers | nothing |", "| numbers | core/tick |"),
+                             "core/base/low.h": '#include "core/tick/tick.h"\n'},
+                            self.line("| core/base") + "the table lets core/base see core/tick, which is no room above it")
+
+    def test_finds_a_row_that_sees_no_room(self):
+        self.expect_finding(self.table("| answers | core/tick |", "| answers | core/tick, clock |"),
+                            self.line("| server") + "the table lets server see clock, which is no room above it",
+                            self.line("| server") + "the table lets server see clock: no file")
+
+    def test_finds_a_room_that_is_seen_by_the_table_only(self):
+        self.expect_finding({"core/tick/tick.h": "#pragma once\n"},
+                            self.line("| core/tick") + "the table lets core/tick see core/base: no file of core/tick includes")
+
+    def test_finds_sources_without_a_room(self):
+        self.expect_finding({"tools/fit/a.cpp": "", "tools/fit/b.cpp": "", "tools/fit/fit.py": ""},
+                            "tools/fit/a.cpp:1: lies in no room: the table in docs/design.md has no row for tools/fit")
+
+    def test_finds_a_room_that_is_not_there(self):
+        self.expect_finding(self.table("| server |", "| core/none | x | nothing |\n| server |"),
+                            self.line("| server") + "the table has a room core/none: git tracks no such folder")
+
+    def test_finds_an_include_of_ours_that_leads_nowhere(self):
+        self.expect_finding({"core/tick/tick.cpp": FILES["core/tick/tick.cpp"] + '#include "core/tick/none.h"\n'},
+                            "core/tick/tick.cpp:4: includes core/tick/none.h: git tracks no such file")
+
+    def test_finds_a_cycle_of_units(self):
+        self.expect_finding({"core/tick/a.h": '#include "core/tick/b.h"\n', "core/tick/b.h": "",
+                             "core/tick/b.cpp": '#include "core/tick/b.h"\n#include "core/tick/a.h"\n'},
+                            "core/tick/a.h:1: a cycle of includes: core/tick/a.h includes core/tick/b.h, "
+                            "core/tick/b.cpp includes core/tick/a.h")
+
+    def test_a_header_below_include_and_its_source_are_one_unit(self):
+        self.expect_finding({"server/src/local.h": '#include "organ/answer.h"\n'},
+                            "server/src/answer.cpp:4: a cycle of includes: server/src/answer.cpp includes server/src/local.h, "
+                            "server/src/local.h includes server/include/organ/answer.h")
+
+    def test_tests_may_include_everything(self):
+        code, lines = check_files({"tests/t.cpp": '#include "core/tick/tick.h"\n#include "organ/answer.h"\n'})
+        self.assertEqual(code, 0, lines)
+
+    def test_prints_what_rooms_include(self):
+        code, lines = check_files({"core/base/low.h": '#include "core/tick/tick.h"\n'}, "--rooms")
+        self.assertEqual((code, lines), (0, ["core/base: core/tick", "core: nothing", "core/tick: core/base",
+                                             "server: core/tick"]))
+
+
 class Program(unittest.TestCase):
     def test_refuses_a_folder_that_is_no_repository(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -188,7 +299,7 @@ class Program(unittest.TestCase):
 
     def test_help_names_the_checks(self):
         result = subprocess.run([sys.executable, "-B", str(PROGRAM), "--help"], capture_output=True, text=True, check=True)
-        for word in ("links", "citations", "READMEs", "link lines"):
+        for word in ("links", "citations", "READMEs", "link lines", "rooms"):
             self.assertIn(word, result.stdout)
 
 
