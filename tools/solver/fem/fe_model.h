@@ -41,7 +41,7 @@ class FeModel {
   [[nodiscard]] std::span<const Point> points() const noexcept { return points_; }
   /// The nodes that have a part in an element.
   [[nodiscard]] std::span<const std::int32_t> elementNodes(int element) const noexcept {
-    return pointsOf(element).front().nodes;
+    return points_[index(element) * kPoints].nodes;
   }
   [[nodiscard]] double volume(int element) const noexcept;
   /// First unknown of a node (its x; y and z follow), -1 for a clamped node.
