@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of rooms in docs/design.md, held against the tree and its includes.
 
-core and tools share the top of the repository as include folder, so that any header compiles anywhere there. The table
-after MARK says who may include whom: a row `| folder | what it owns | may see |` for each room. A file belongs to the
-innermost room that its folder lies in. A room sees rooms above it in the table only, so rooms cannot form a cycle.
+Most targets have the top of the repository as include folder, so that any header compiles there. The table after MARK
+says who may include whom: a row `| folder | what it owns | may see |` for each room. A file belongs to the innermost
+room that its folder lies in. A room sees rooms above it in the table only, so rooms cannot form a cycle.
 """
 import posixpath
 import re
@@ -14,13 +14,26 @@ from docs_checks.tree import Finding
 MARK = "<!-- rooms: tools/check_docs compares them with the tree and the includes -->"
 TABLE = "docs/design.md"
 FOLDERS = ("core", "tools", "server", "rt", "idl", "clients")  # tests may include everything
-SOURCES = (".h", ".hpp", ".c", ".cc", ".cpp")
+SOURCES = (".h", ".hh", ".hpp", ".hxx", ".h.in", ".inc", ".inl", ".ipp", ".tpp",
+           ".c", ".cc", ".cpp", ".cxx", ".cppm", ".ixx")
+# What a build makes, by the name in includes: the room that it counts to, or None where every room may include it.
+MADE = {
+    "palpate.h": "idl",
+    "palpate/idl/status_flag_list.h": "idl",
+    "palpate/core/status_flag_list.h": "core/base",
+    "palpate/live_parameter_list.h": None,
+    "palpate_haptic_flags.h": "clients/haptic",
+}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+# What may hold a comment's beginning without being one, then the comment; only raw strings and comments are blanked.
+TOKEN = re.compile(r'(?P<blank>R"(?P<end>[^()\s]*)\(.*?\)(?P=end)"|/\*.*?\*/)|"(?:\\.|[^"\\\n])*"'
+                   r"|(?<![0-9A-Fa-f])'(?:\\.[^'\n]*|[^'\\\n])'|//[^\n]*", re.DOTALL)
 NOTHING = "nothing"
 
 
-class Room(NamedTuple):
+class Row(NamedTuple):
     line: int
+    folder: str
     sees: list
 
 
@@ -28,29 +41,28 @@ class Include(NamedTuple):
     file: str
     line: int
     name: str   # as written
-    found: str  # the tracked file that it means, or None
+    found: str  # the tracked file that it means, or where one that a build makes would lie; None: neither
 
 
 def findings(tree):
-    rooms = read_table(tree)
-    if rooms is None:
+    rows = read_table(tree)
+    if not rows:
         yield Finding(TABLE, 1, f"has no table of rooms: rows `| folder | what it owns | may see |` after {MARK}")
         return
+    rooms = by_folder(rows)
     includes = includes_of(tree)
-    yield from unfit_rows(tree, rooms)
+    yield from unfit_rows(tree, rows)
     yield from homeless(tree, rooms)
-    yield from unresolved(includes)
+    yield from astray(tree, includes, rooms)
     yield from wrong_includes(includes, rooms)
     yield from unused(includes, rooms)
     yield from cycles(includes)
 
 
 def read_table(tree):
-    """{folder: Room} in the order of the rows; None without a table. The first of two rows of a folder counts."""
-    if TABLE not in tree.files or MARK not in tree.text(TABLE):
-        return None
-    rooms, inside = {}, None
-    for number, line in enumerate(tree.text(TABLE).splitlines(), 1):
+    """The rows in their order; none without a table."""
+    rows, inside = [], None
+    for number, line in enumerate(tree.text(TABLE).splitlines() if TABLE in tree.files else [], 1):
         if line.strip() == MARK:
             inside = -2  # the table's head and the line below it
         elif inside is not None and line.startswith("|"):
@@ -58,9 +70,17 @@ def read_table(tree):
             cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
             if inside > 0 and len(cells) == 3:
                 sees = [name.strip(" `") for name in cells[2].split(",")]
-                rooms.setdefault(cells[0].strip("`"), Room(number, [name for name in sees if name not in ("", NOTHING)]))
+                rows.append(Row(number, cells[0].strip("`"), [name for name in sees if name not in ("", NOTHING)]))
         elif inside is not None and inside > -2:
             break
+    return rows
+
+
+def by_folder(rows):
+    """{folder: row}; the first of two rows of a folder counts."""
+    rooms = {}
+    for row in rows:
+        rooms.setdefault(row.folder, row)
     return rooms
 
 
@@ -76,33 +96,53 @@ def sources(tree):
     return [file for file in tree.files if file.split("/")[0] in FOLDERS and file.endswith(SOURCES)]
 
 
+def without_comments(text):
+    """Without /* comments */ and raw strings; lines keep their numbers."""
+    return TOKEN.sub(lambda match: "\n" * match[0].count("\n") if match["blank"] else match[0], text)
+
+
 def includes_of(tree):
-    """All #include lines of the sources; what is neither tracked nor under one of FOLDERS is left out."""
+    """All #include lines of the sources but those of the system, of other libraries and of what is made for all rooms."""
     files = set(tree.files)
     exported = {file.split("/include/", 1)[1]: file for file in tree.files if "/include/" in file}
+    ours = {*FOLDERS, *(name.split("/")[0] for name in exported)}
     result = []
     for file in sources(tree):
-        for number, line in enumerate(tree.text(file).splitlines(), 1):
+        for number, line in enumerate(without_comments(tree.text(file)).splitlines(), 1):
             if not (match := INCLUDE.match(line)):
                 continue
-            name = match.group(1) or match.group(2)
-            places = (posixpath.normpath(posixpath.join(posixpath.dirname(file), name)), posixpath.normpath(name),
-                      exported.get(name))
-            found = next((place for place in places[0 if match.group(1) else 1:] if place in files), None)
-            if found or ("/" in name and name.split("/")[0] in FOLDERS):
+            quoted, name = match[1] is not None, match[1] or match[2]
+            found = next((place for place in places_of(name, file if quoted else None, exported) if place in files), None)
+            if found is None and name in MADE:
+                if MADE[name]:
+                    result.append(Include(file, number, name, f"{MADE[name]}/{posixpath.basename(name)}"))
+            elif found or quoted or ("/" in name and name.split("/")[0] in ours):
                 result.append(Include(file, number, name, found))
     return result
 
 
-def unfit_rows(tree, rooms):
-    above = set()
-    for folder, room in rooms.items():
+def places_of(name, file, exported):
+    """Where an include of this name may lead: beside the file, if it is in quotes, from the top, src of the file's target
+    or a folder include/."""
+    if file:
+        yield posixpath.normpath(posixpath.join(posixpath.dirname(file), name))
+    yield posixpath.normpath(name)
+    if file and "/src/" in file:
+        yield f"{file.split('/src/', 1)[0]}/src/{name}"
+    yield exported.get(name)
+
+
+def unfit_rows(tree, rows):
+    above = {}
+    for line, folder, sees in rows:
+        if folder in above:
+            yield Finding(TABLE, line, f"the table has a second row of {folder}, after line {above[folder]}")
         if not tree.holds(folder):
-            yield Finding(TABLE, room.line, f"the table has a room {folder}: git tracks no such folder")
-        for other in room.sees:
+            yield Finding(TABLE, line, f"the table has a room {folder}: git tracks no such folder")
+        for other in sees:
             if other not in above:
-                yield Finding(TABLE, room.line, f"the table lets {folder} see {other}, which is no room above it")
-        above.add(folder)
+                yield Finding(TABLE, line, f"the table lets {folder} see {other}, which is no room above it")
+        above.setdefault(folder, line)
 
 
 def homeless(tree, rooms):
@@ -114,10 +154,15 @@ def homeless(tree, rooms):
             yield Finding(file, 1, f"lies in no room: the table in {TABLE} has no row for {folder}")
 
 
-def unresolved(includes):
-    for include in includes:
-        if include.found is None:
-            yield Finding(include.file, include.line, f"includes {include.name}: git tracks no such file")
+def astray(tree, includes, rooms):
+    """Includes that the table cannot judge."""
+    for file, line, name, found in includes:
+        if found is None:
+            yield Finding(file, line, f"includes {name}: git tracks no such file, and no build makes it (MADE in rooms.py)")
+        elif room_of(found, rooms) is None:
+            yield Finding(file, line, f"includes {name}: {found} lies in no room of the table in {TABLE}")
+        elif tree.holds(found) and not found.endswith(SOURCES):
+            yield Finding(file, line, f"includes {name}: what {found} includes is not read; give it an ending of a source")
 
 
 def wrong_includes(includes, rooms):
@@ -198,7 +243,7 @@ def way_round(unit, edges):
 
 def drawn(tree):
     """What each room of the table includes, as lines `folder: folder, folder`."""
-    rooms = read_table(tree) or {}
+    rooms = by_folder(read_table(tree))
     used = {(room, other) for _, room, other in between_rooms(includes_of(tree), rooms)}
     for folder in rooms:
         yield f"{folder}: {', '.join(other for other in rooms if (folder, other) in used) or NOTHING}"

@@ -63,7 +63,7 @@ class CheckDocs(Case):
                             "idl/a.md:1: `include/organ`", "idl/a.md:1: `organ/none.h`", "idl/a.md:1: `src/reader.cpp`")
 
     def test_finds_the_name_of_no_source(self):
-        self.expect_finding({"idl/a.md": "`reader.cpp` `made_list.h` `writer.cpp` `organ.h5`\n"},
+        self.expect_finding({"idl/a.md": "`reader.cpp` `live_parameter_list.h` `writer.cpp` `organ.h5`\n"},
                             "idl/a.md:1: `writer.cpp`")
 
     def test_paths_that_are_no_files_of_ours_pass(self):

@@ -60,6 +60,57 @@ class Rooms(Case):
         self.expect_finding({"core/tick/tick.cpp": FILES["core/tick/tick.cpp"] + '#include "core/tick/none.h"\n'},
                             "core/tick/tick.cpp:4: includes core/tick/none.h: git tracks no such file")
 
+    def test_finds_an_include_that_leads_out_of_all_rooms(self):
+        tests = {"tests/core/plate.h": "", "tests/include/organ/plate.h": ""}
+        for include, file in (('"tests/core/plate.h"', "tests/core/plate.h"), ("<tests/core/plate.h>", "tests/core/plate.h"),
+                              ('"../../tests/core/plate.h"', "tests/core/plate.h"),
+                              ('"organ/plate.h"', "tests/include/organ/plate.h"), ('"README.md"', "README.md")):
+            self.expect_finding({**tests, "core/base/low.h": f"#include {include}\n"},
+                                f"core/base/low.h:1: includes {include[1:-1]}: {file} lies in no room of the table")
+
+    def test_finds_includes_in_quotes_that_nothing_makes(self):
+        for include in ('"none.h"', '"organ/none.h"', '"vector/none.h"', "<organ/none.h>"):
+            self.expect_finding({"core/base/low.h": f"#include {include}\n"},
+                                f"core/base/low.h:1: includes {include[1:-1]}: git tracks no such file")
+        code, lines = check_files({"core/base/low.h": "#include <vector>\n#include <vector/none.h>\n"})
+        self.assertEqual(code, 0, lines)
+
+    def test_finds_a_bare_name_from_the_src_of_another_target(self):
+        self.expect_finding({"core/base/low.h": '#include "local.h"\n'}, "core/base/low.h:1: includes local.h: git tracks no such")
+        code, lines = check_files({"server/src/part/deep.cpp": '#include "local.h"\n'})
+        self.assertEqual(code, 0, lines)
+
+    def test_what_a_build_makes_counts_to_a_room(self):
+        row = self.table("| server |", "| idl | the wire | nothing |\n| server |")
+        for name in ("palpate.h", "palpate/idl/status_flag_list.h"):
+            for include in (f'"{name}"', f"<{name}>"):
+                self.expect_finding({**row, "core/base/low.h": f"#include {include}\n"},
+                                    f"core/base/low.h:1: includes {name}: the table in docs/design.md does not let core/base see idl")
+        code, lines = check_files({"core/base/low.h": '#include "palpate/core/status_flag_list.h"\n'})
+        self.assertEqual(code, 0, lines)
+
+    def test_finds_a_second_row_of_a_folder(self):
+        row = "| core/tick | one tick | core/base |\n"
+        self.expect_finding(self.table(row, row + "| core/tick | again | core/base, server |\n"),
+                            f"docs/design.md:{int(self.line(row).split(':')[1]) + 1}: the table has a second row of core/tick",
+                            f"docs/design.md:{int(self.line(row).split(':')[1]) + 1}: the table lets core/tick see server")
+
+    def test_reads_sources_of_all_endings(self):
+        files = sorted(f"core/base/low.{ending}" for ending in
+                       ("c", "cc", "cppm", "cxx", "h.in", "hh", "hpp", "hxx", "inc", "inl", "ipp", "ixx", "tpp"))
+        self.expect_finding({file: '#include "core/tick/tick.h"\n' for file in files},
+                            *(f"{file}:1: includes core/tick/tick.h: the table" for file in files))
+        self.expect_finding({"core/base/low.h": '#include "core/base/low.txt"\n', "core/base/low.txt": ""},
+                            "core/base/low.h:1: includes core/base/low.txt: what core/base/low.txt includes is not read")
+
+    def test_includes_in_comments_and_raw_strings_are_none(self):
+        text = '/* as in\n#include "core/tick/tick.h"\n*/\nauto s = R"x(\n#include "core/tick/tick.h"\n)x";\n'
+        code, lines = check_files({"core/base/low.h": text})
+        self.assertEqual(code, 0, lines)
+        for before in ('auto s = "/*";', "// as in tick/*.h", "auto c = '\"'; auto s = \"/*\";", "auto n = 1'000; // /*"):
+            self.expect_finding({"core/base/low.h": f'{before}\n/**/ #include "core/tick/tick.h" /* */\n'},
+                                "core/base/low.h:2: includes core/tick/tick.h: the table")
+
     def test_finds_a_cycle_of_units(self):
         self.expect_finding({"core/tick/a.h": '#include "core/tick/b.h"\n', "core/tick/b.h": "",
                              "core/tick/b.cpp": '#include "core/tick/b.h"\n#include "core/tick/a.h"\n'},

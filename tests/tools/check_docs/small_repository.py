@@ -57,7 +57,7 @@ FILES = {
     "core/src/reader.cpp": SOURCE,
     "core/base/number.h": "#pragma once\n#include <vector>\n",
     "core/tick/tick.h": '#pragma once\n#include "core/base/number.h"\n',
-    "core/tick/tick.cpp": '#include "core/tick/tick.h"\n\n#include "organ/made_list.h"\n',
+    "core/tick/tick.cpp": '#include "core/tick/tick.h"\n\n#include "palpate/live_parameter_list.h"\n',
     "server/include/organ/answer.h": "#pragma once\n",
     "server/src/answer.cpp": '#include "organ/answer.h"\n\n#include "core/tick/tick.h"\n#include "local.h"\n',
     "server/src/local.h": "#pragma once\n",
