@@ -45,6 +45,9 @@ class Deck {
   }
   void material() {
     const solver::Material& material = organ_.body.material();
+    if (!material.by_element.empty())
+      throw QueryError("a CalculiX deck has one stiffness, but the organ has one in each of its " +
+                       std::to_string(material.by_element.size()) + " elements");
     const solver::CcxMaterial of_deck =
         std::visit([&](auto law) { return law.ccx(material.elasticity); }, material.law);
     out_ << "*MATERIAL,NAME=ORGAN\n" << of_deck.keyword << '\n';
