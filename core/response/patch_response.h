@@ -61,7 +61,7 @@ class PatchResponse {
 [[nodiscard]] ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, const Vec3& load,
                                            Response& out) noexcept PALPATE_NONBLOCKING;
 
-/// The same for one tool that imposes d: the field of respond()'s parameter. @param d  W, m
+/// evaluateField() of one tool that imposes d: the field of respond()'s parameter. @param d  W, m
 void evaluateField(const MetaModel& model, const ContactPoint& s, const Vec3& d, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;
 

@@ -39,7 +39,7 @@ struct PackedModesData {
 /// attributes.parameters chooses the kind; what belongs to the other kinds stays empty. Stored coefficient =
 /// true coefficient * d_ref^|alpha|, or f_ref^|alpha|. Indices are 0-based.
 struct ModelData {
-  ModelAttributes attributes;  ///< law "stvk"; provenance is the text of a JSON object
+  ModelAttributes attributes;  ///< law: one of kLaws; provenance is the text of a JSON object
 
   std::vector<double> surface_positions;         ///< [Ns][3] m
   std::vector<std::int32_t> surface_triangles;   ///< [T][3] counter-clockwise from outside
