@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/record/crc32.h"
-#include "core/record/fields.h"
 #include "core/record/layout.h"
+#include "core/record/recorded_fields.h"
 #include "core/record/tick_codec.h"
 
 namespace palpate::record {

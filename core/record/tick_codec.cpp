@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/record/fields.h"
+#include "core/record/recorded_fields.h"
 
 namespace palpate::record {
 namespace {

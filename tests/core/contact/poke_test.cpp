@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "../round_organ.h"
-#include "core/tick/device_preset.h"
+#include "core/tick/apply_preset.h"
 
 namespace palpate::testing {
 

@@ -10,9 +10,9 @@
 #include <random>
 #include <vector>
 
-#include "core/record/fields.h"
 #include "core/record/record_reader.h"
 #include "core/record/record_writer.h"
+#include "core/record/recorded_fields.h"
 #include "palpate/testing/files.h"
 
 namespace palpate::record {

@@ -7,7 +7,7 @@
 #include "core/devices/sim/held_device.h"
 #include "core/devices/sim/verdict.h"
 #include "core/model/meta_model.h"
-#include "core/tick/device_preset.h"
+#include "core/tick/apply_preset.h"
 
 namespace palpate::feel {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/record/fields.h"
+#include "core/record/recorded_fields.h"
 
 namespace palpate::replay {
 namespace {

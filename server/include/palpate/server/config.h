@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/tick/device_preset.h"
+#include "core/tick/apply_preset.h"
 #include "core/tick/step_config.h"
 #include "palpate/rt/scheduling.h"
 

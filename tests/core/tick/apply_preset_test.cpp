@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/tick/device_preset.h"
+#include "core/tick/apply_preset.h"
 
 #include <gtest/gtest.h>
 
