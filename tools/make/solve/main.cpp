@@ -58,11 +58,11 @@ mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fi
   return organ;
 }
 
-void run(solve::Options options) {
+void run(solve_program::Options options) {
   const auto start = Clock::now();
   // 1. What to solve, and where to.
   checkOutput(options.output);
-  solver::Case c = solve::readCase(options);
+  solver::Case c = solve_program::readCase(options);
   // 2. The organ.
   const mesh::TetMesh organ = readOrgan(c.mesh, c.fixed);
   adoptGroups(c, organ);
@@ -72,17 +72,17 @@ void run(solve::Options options) {
   modelfile::ModelData data =
       solver::buildModel(c, organ, {options.threads, options.scratch, options.quiet}, report);
   const modelfile::StorageReport storage =
-      modelfile::storeMixed(data, options.storage == "mixed" ? solve::ownError(report) : 0.0);
+      modelfile::storeMixed(data, options.storage == "mixed" ? solve_program::ownError(report) : 0.0);
   // 4. Where it came from, and the file.
-  solve::addProvenance(data, c, report, storage);
+  solve_program::addProvenance(data, c, report, storage);
   const auto write_start = Clock::now();
   modelfile::writeModel(options.output, data);
   modelfile::writeXdmf(options.output);
   const double write_seconds = secondsSince(write_start);
   // 5. What came out.
   const program::Json s =
-      solve::summarize(options.output, c, data, report, storage, write_seconds, secondsSince(start));
-  solve::print(s);
+      solve_program::summarize(options.output, c, data, report, storage, write_seconds, secondsSince(start));
+  solve_program::print(s);
   if (options.json) std::cout << s.dump(2) << '\n';
 }
 
@@ -90,8 +90,8 @@ int body(int argc, char** argv) {
   program::CommandLine line(
       "palpate-solve",
       "Computes the meta-model of an organ: its answer to a tool at any position and in any direction.");
-  solve::Options options;
-  solve::describe(line.options(), options);
+  solve_program::Options options;
+  solve_program::describe(line.options(), options);
   if (!line.read(argc, argv)) return 0;
   try {
     run(options);

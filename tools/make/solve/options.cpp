@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-namespace palpate::solve {
+namespace palpate::solve_program {
 
 namespace {
 
@@ -72,4 +72,4 @@ solver::Case readCase(const Options& options) {
   return c;
 }
 
-}  // namespace palpate::solve
+}  // namespace palpate::solve_program

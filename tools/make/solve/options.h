@@ -9,7 +9,7 @@
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/build/case_file.h"
 
-namespace palpate::solve {
+namespace palpate::solve_program {
 
 /// The command line. What it gives of the case overrides the case file.
 struct Options {
@@ -34,4 +34,4 @@ void describe(program::Options line, Options& options);
 /// @throw CaseError also where keys do not fit the method
 [[nodiscard]] solver::Case readCase(const Options& options);
 
-}  // namespace palpate::solve
+}  // namespace palpate::solve_program

@@ -9,7 +9,7 @@
 #include "core/data/sha256.h"
 #include "tools/make/solve/summary.h"
 
-namespace palpate::solve {
+namespace palpate::solve_program {
 
 namespace {
 
@@ -58,4 +58,4 @@ void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solv
   data.attributes.provenance = provenance.dump();
 }
 
-}  // namespace palpate::solve
+}  // namespace palpate::solve_program

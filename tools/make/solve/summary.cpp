@@ -10,7 +10,7 @@
 
 #include "tools/modelfile/quantile.h"
 
-namespace palpate::solve {
+namespace palpate::solve_program {
 
 namespace {
 
@@ -195,4 +195,4 @@ void print(const Json& s) {
                1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());
 }
 
-}  // namespace palpate::solve
+}  // namespace palpate::solve_program

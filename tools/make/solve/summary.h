@@ -9,7 +9,7 @@
 #include "tools/solver/build/build_options.h"
 #include "tools/solver/build/case_file.h"
 
-namespace palpate::solve {
+namespace palpate::solve_program {
 
 /// What the model's fields are off by, over the displacement: the fit's RMS error, or what the pairs leave.
 [[nodiscard]] double ownError(const solver::BuildReport& report);
@@ -32,4 +32,4 @@ namespace palpate::solve {
 /// The same in five lines on standard error.
 void print(const program::Json& summary);
 
-}  // namespace palpate::solve
+}  // namespace palpate::solve_program
