@@ -28,7 +28,7 @@ StepConfig unlimited() {
 
 // Down by 6 mm and up again in 0.1 s: 0.23 m/s at most, at the top of the round organ and somewhat sideways.
 Point pressAt(double t) {
-  const double down = t < 0.05 ? client::minimumJerk(t / 0.05) : client::minimumJerk((0.1 - t) / 0.05);
+  const double down = t < 0.05 ? device::minimumJerk(t / 0.05) : device::minimumJerk((0.1 - t) / 0.05);
   return {0.0015 * down, 0.0, 0.0555 - 0.006 * down};
 }
 

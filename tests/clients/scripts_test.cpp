@@ -13,7 +13,7 @@ namespace {
 
 const Spot kSpot{3, 4, {0.1, 0.2, 0.3}, {0.6, 0.0, 0.8}};
 
-double heightAt(const Path& path, double t, const ScriptOptions& options) {
+double heightAt(const device::Path& path, double t, const ScriptOptions& options) {
   return dot(path.at(t) - kSpot.position, kSpot.normal) - options.tip_radius;
 }
 
@@ -23,12 +23,12 @@ struct Extent {
   int dives{0};        // how often the tip passes half the depth on its way in
 };
 
-Extent extentOf(const Path& path, const ScriptOptions& options) {
+Extent extentOf(const device::Path& path, const ScriptOptions& options) {
   Extent extent;
   double before = 1.0;
   for (double t = 0.0; t <= path.seconds(); t += 1e-3) {
     const double height = heightAt(path, t, options);
-    const Point off = path.at(t) - kSpot.position;
+    const device::Point off = path.at(t) - kSpot.position;
     extent.lowest = std::min(extent.lowest, height);
     extent.widest = std::max(extent.widest, length(off - dot(off, kSpot.normal) * kSpot.normal));
     if (before > -options.depth / 2 && height <= -options.depth / 2) ++extent.dives;
@@ -48,7 +48,7 @@ std::string refusal(const std::string& script, const ScriptOptions& options) {
 
 TEST(Script, PressGoesToTheDepthAlongTheNormalAndComesBack) {
   const ScriptOptions options{.tip_radius = 0.004, .depth = 0.002};
-  const Path path = scriptedPath("press", kSpot, options);
+  const device::Path path = scriptedPath("press", kSpot, options);
   const Extent extent = extentOf(path, options);
   EXPECT_NEAR(extent.lowest, -0.002, 1e-9);
   EXPECT_NEAR(extent.widest, 0.0, 1e-12);

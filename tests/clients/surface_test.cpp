@@ -28,7 +28,7 @@ TEST(Surface, IsCopiedUnchanged) {
   const Surface surface = checkedSurface(source.message());
   ASSERT_EQ(surface.positions.size(), 5U);
   ASSERT_EQ(surface.triangles.size(), 6U);
-  EXPECT_EQ(surface.positions[2], (Point{0.1, 0.1, 0}));
+  EXPECT_EQ(surface.positions[2], (device::Point{0.1, 0.1, 0}));
   EXPECT_EQ(surface.triangles[5], (std::array<std::uint32_t, 3>{3, 0, 4}));
   EXPECT_EQ(surface.mesh_tags[4], 15);
   EXPECT_EQ(surface.model_id, source.model_id);
@@ -63,15 +63,15 @@ TEST(Spot, DefaultIsTheHighestNodeWithItsOutwardNormal) {
   const Spot spot = chooseSpot(checkedSurface(source.message()), std::nullopt);
   EXPECT_EQ(spot.node, 4U);
   EXPECT_EQ(spot.mesh_tag, 15);
-  EXPECT_NEAR(length(spot.normal - Point{0, 0, 1}), 0.0, 1e-12);
+  EXPECT_NEAR(length(spot.normal - device::Point{0, 0, 1}), 0.0, 1e-12);
 }
 
 TEST(Spot, IsTheNearestAccessibleNode) {
   SmallSurface source;
   const Surface surface = checkedSurface(source.message());
-  EXPECT_EQ(chooseSpot(surface, Point{0.2, 0.2, 0.0}).node, 2U);
+  EXPECT_EQ(chooseSpot(surface, device::Point{0.2, 0.2, 0.0}).node, 2U);
   // Node 0 lies there but is not accessible, and its neighbours touch it: those come last.
-  EXPECT_NE(chooseSpot(surface, Point{0, 0, 0}).node, 0U);
+  EXPECT_NE(chooseSpot(surface, device::Point{0, 0, 0}).node, 0U);
 }
 
 TEST(Spot, RejectsASurfaceThatNobodyMayTouch) {

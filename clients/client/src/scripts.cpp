@@ -27,33 +27,33 @@ void check(const ScriptOptions& options) {
   inRange("number of pokes", options.pokes, 0, 10000);
 }
 
-Path scriptedPath(const std::string& script, const Spot& spot, const ScriptOptions& options) {
+device::Path scriptedPath(const std::string& script, const Spot& spot, const ScriptOptions& options) {
   check(options);
   const auto above = [&](double height) {
     return spot.position + (options.tip_radius + height) * spot.normal;
   };
-  const Point start = above(options.clearance);
-  const Point touch = above(0.0);
-  const Point deep = above(-options.depth);
+  const device::Point start = above(options.clearance);
+  const device::Point touch = above(0.0);
+  const device::Point deep = above(-options.depth);
   if (script == "press")
-    return Path(
+    return device::Path(
         start,
         {{touch, 0.8, "approach"}, {deep, 1.0, "press"}, {deep, 0.6, "hold"}, {start, 0.6, "retreat"}});
   if (script == "slide") {
-    const Point along = options.slide_distance * tangentOf(spot.normal);
-    return Path(start, {{touch, 0.8, "approach"},
-                        {deep, 0.7, "press"},
-                        {deep + along, 1.4, "slide"},
-                        {start + along, 0.6, "retreat"}});
+    const device::Point along = options.slide_distance * device::tangentOf(spot.normal);
+    return device::Path(start, {{touch, 0.8, "approach"},
+                                {deep, 0.7, "press"},
+                                {deep + along, 1.4, "slide"},
+                                {start + along, 0.6, "retreat"}});
   }
   if (script == "poke") {
-    std::vector<Leg> legs{{touch, 0.8, "approach"}};
+    std::vector<device::Leg> legs{{touch, 0.8, "approach"}};
     for (int i = 0; i < options.pokes; ++i) {
       legs.push_back({deep, 0.15, "in"});
       legs.push_back({touch, 0.15, "out"});
     }
     legs.push_back({start, 0.7, "retreat"});
-    return Path(start, std::move(legs));
+    return device::Path(start, std::move(legs));
   }
   throw ClientError("unknown script '" + script + "', expected press, slide or poke");
 }

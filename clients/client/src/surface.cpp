@@ -22,7 +22,7 @@ void copyPositions(const dds::SurfaceMesh& message, Surface& surface) {
     throw ClientError("surface from the server: positions has " + std::to_string(from._length) +
                       " entries, expected 3 for each node");
   for (std::uint32_t i = 0; i < from._length; i += 3) {
-    const Point X{from._buffer[i], from._buffer[i + 1], from._buffer[i + 2]};
+    const device::Point X{from._buffer[i], from._buffer[i + 1], from._buffer[i + 2]};
     if (!std::isfinite(dot(X, X)))
       throw ClientError("surface from the server: position of node " + std::to_string(i / 3) +
                         " is not finite");
@@ -44,14 +44,15 @@ void copyTriangles(const dds::SurfaceMesh& message, Surface& surface) {
 }
 
 // Sum of the triangles' normals around a node, each weighted by its angle there.
-Point normalAt(const Surface& surface, std::uint32_t node) {
-  Point sum{};
+device::Point normalAt(const Surface& surface, std::uint32_t node) {
+  device::Point sum{};
   for (const auto& triangle : surface.triangles) {
     const auto corner = std::find(triangle.begin(), triangle.end(), node) - triangle.begin();
     if (corner == 3) continue;
-    const Point a = surface.positions[triangle[(corner + 1) % 3]] - surface.positions[node];
-    const Point b = surface.positions[triangle[(corner + 2) % 3]] - surface.positions[node];
-    const Point cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const device::Point a = surface.positions[triangle[(corner + 1) % 3]] - surface.positions[node];
+    const device::Point b = surface.positions[triangle[(corner + 2) % 3]] - surface.positions[node];
+    const device::Point cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                              a[0] * b[1] - a[1] * b[0]};
     const double area = length(cross);
     if (area > 0.0) sum = sum + (std::atan2(area, dot(a, b)) / area) * cross;
   }
@@ -100,16 +101,16 @@ Surface checkedSurface(const dds::SurfaceMesh& message) {
   return surface;
 }
 
-Spot chooseSpot(const Surface& surface, const std::optional<Point>& at) {
+Spot chooseSpot(const Surface& surface, const std::optional<device::Point>& at) {
   const auto cost = [&](std::uint32_t node) {
-    const Point& X = surface.positions[node];
+    const device::Point& X = surface.positions[node];
     return at ? length(X - *at) : -X[2];
   };
   const auto nodes = candidates(surface);
   if (nodes.empty()) throw ClientError("no node of the organ's surface is accessible");
   const std::uint32_t node =
       *std::min_element(nodes.begin(), nodes.end(), [&](auto a, auto b) { return cost(a) < cost(b); });
-  const Point sum = normalAt(surface, node);
+  const device::Point sum = normalAt(surface, node);
   const double size = length(sum);
   if (!(size > std::numeric_limits<double>::min()))
     throw ClientError("the surface has no normal at node " + std::to_string(node));

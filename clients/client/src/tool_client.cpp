@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kTools = 4;  // palpate.idl: tool_id 0 .. 3
 
 std::uint32_t checkedId(std::uint32_t tool_id) {
-  inRange<ClientError>("tool id", tool_id, 0, kTools - 1);
+  device::inRange<ClientError>("tool id", tool_id, 0, kTools - 1);
   return tool_id;
 }
 
@@ -33,7 +33,7 @@ ToolClient::ToolClient(const dds::Participant& participant, std::uint32_t tool_i
   pose_.seq = first_seq_ - 1;
 }
 
-std::uint64_t ToolClient::publish(const Point& position, const std::array<double, 4>& orientation,
+std::uint64_t ToolClient::publish(const device::Point& position, const std::array<double, 4>& orientation,
                                   std::uint32_t buttons) noexcept {
   ++pose_.seq;
   std::copy(position.begin(), position.end(), pose_.position);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/devices/path/path.h"
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
 #include "palpate/report/text_chart.h"

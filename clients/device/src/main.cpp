@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include "core/devices/path/path.h"
 #include "core/devices/sim/closed_loop.h"
 #include "device_report.h"
 #include "palpate/client/error.h"

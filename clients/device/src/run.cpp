@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "core/devices/path/path.h"
 #include "palpate/client/error.h"
 #include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"

@@ -9,7 +9,7 @@
 
 namespace palpate::haptic {
 
-using client::Point;
+using device::Point;
 
 /// The parts of a ToolForce that are rendered. Plain data: it crosses threads.
 struct Answer {

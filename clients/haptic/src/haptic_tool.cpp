@@ -17,7 +17,7 @@ namespace palpate::haptic {
 namespace {
 
 const Options& checked(const Options& options) {
-  using client::inRange;
+  using device::inRange;
   inRange<HapticError>("domain", options.domain, 0, dds::kMaxDomain);
   inRange<HapticError>("tool id", options.tool_id, 0, 3);
   if (options.force_limit == 0.0)

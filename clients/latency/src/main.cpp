@@ -3,6 +3,7 @@
 #include <iostream>
 #include <optional>
 
+#include "core/devices/path/path.h"
 #include "latency_report.h"
 #include "palpate/client/error.h"
 #include "palpate/client/sending.h"
@@ -48,8 +49,8 @@ int body(int argc, char** argv) {
   Options options;
   addOptions(line.options(), options);
   if (!line.read(argc, argv)) return 0;
-  std::optional<client::Point> at;
-  if (!options.at.empty()) at = client::Point{program::parseVector("--at", options.at)};
+  std::optional<device::Point> at;
+  if (!options.at.empty()) at = device::Point{program::parseVector("--at", options.at)};
   client::catchStopSignals();
 
   // 2. Find the server and a place to press.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/devices/path/path.h"
 #include "palpate/client/error.h"
 #include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
@@ -15,20 +16,20 @@ namespace {
 constexpr double kApproachSeconds = 1.0;
 
 // Moves between 1 and 2 mm deep, one second per cycle, so that the force keeps changing.
-client::Path gentlePress(const client::Spot& spot, const MeasureOptions& options) {
+device::Path gentlePress(const client::Spot& spot, const MeasureOptions& options) {
   const auto above = [&](double height) {
     return spot.position + (options.tip_radius + height) * spot.normal;
   };
-  std::vector<client::Leg> legs{{above(-0.001), kApproachSeconds, "approach"}};
+  std::vector<device::Leg> legs{{above(-0.001), kApproachSeconds, "approach"}};
   for (double t = 0.0; t < options.seconds; t += 1.0) {
     legs.push_back({above(-0.002), 0.5, "in"});
     legs.push_back({above(-0.001), 0.5, "out"});
   }
-  return client::Path(above(0.010), std::move(legs));
+  return device::Path(above(0.010), std::move(legs));
 }
 
 // Sends the path from time `from` to time `to`; the pacer's grid continues over the calls.
-void send(client::ToolClient& tool, const client::Path& path, double from, double to, rt::Pacer& pacer,
+void send(client::ToolClient& tool, const device::Path& path, double from, double to, rt::Pacer& pacer,
           SenderStats& stats) {
   const std::int64_t start_ns = rt::monotonicNow();
   const double direction = from <= to ? 1.0 : -1.0;
@@ -50,7 +51,7 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   };
   const client::StatusBoard statuses(participant);
   client::ToolClient tool(participant, options.tool_id, on_force, &log, options.server);
-  const client::Path path = gentlePress(spot, options);
+  const device::Path path = gentlePress(spot, options);
   SenderStats unmeasured;
   SenderStats stats;
   stats.realtime = client::prepareToSend(tool);

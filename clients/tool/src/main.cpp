@@ -53,10 +53,10 @@ Played prepare(const Options& options, const client::ServerInfo& server) {
   if (path_options.tip_radius != server.status.tip_radius[options.tool_id])
     std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
               << server.status.tip_radius[options.tool_id] << " m\n";
-  std::optional<client::Point> at;
-  if (!options.at.empty()) at = client::Point{program::parseVector("--at", options.at)};
+  std::optional<device::Point> at;
+  if (!options.at.empty()) at = device::Point{program::parseVector("--at", options.at)};
   const client::Spot spot = client::chooseSpot(server.surface, at);
-  client::Path path = client::scriptedPath(options.script, spot, path_options);
+  device::Path path = client::scriptedPath(options.script, spot, path_options);
   if (options.seconds) path = path.stretchedTo(*options.seconds);
   return {options.script, path_options, spot, std::move(path), server};
 }

@@ -43,7 +43,7 @@ struct AnswerLog {
 struct SentPose {
   std::uint64_t seq;
   double t_s;
-  client::Point position;
+  device::Point position;
 };
 
 std::vector<Sample> join(const std::vector<SentPose>& sent, const std::vector<dds::ToolForce>& answers) {
@@ -57,14 +57,14 @@ std::vector<Sample> join(const std::vector<SentPose>& sent, const std::vector<dd
   return samples;
 }
 
-void sendAlong(const client::Path& path, client::ToolClient& tool, const AnswerLog& log,
+void sendAlong(const device::Path& path, client::ToolClient& tool, const AnswerLog& log,
                std::vector<SentPose>& sent, Recording& recording) {
   const std::int64_t start_ns = rt::monotonicNow();
   rt::Pacer pacer(kPeriodNs);
   for (double t = 0.0; t <= path.seconds() && !client::stopRequested(); pacer.wait()) {
     if (log.server_left.load(std::memory_order_relaxed)) break;
     t = static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9;
-    const client::Point position = path.at(t);
+    const device::Point position = path.at(t);
     const std::uint64_t seq = tool.publish(position);
     if (seq > 0) sent.push_back({seq, t, position});
   }
@@ -73,7 +73,7 @@ void sendAlong(const client::Path& path, client::ToolClient& tool, const AnswerL
 
 }  // namespace
 
-Recording play(const dds::Participant& participant, std::uint32_t tool_id, const client::Path& path,
+Recording play(const dds::Participant& participant, std::uint32_t tool_id, const device::Path& path,
                const client::ServerRun& server) {
   Recording recording;
   const auto capacity = static_cast<std::size_t>(path.seconds() * 1e3) + 1000;

@@ -16,7 +16,7 @@ namespace palpate::tool {
 /// The first answer to one pose.
 struct Sample {
   double t_s;          ///< when the pose was sent, s since the start
-  client::Point pose;  ///< p_WT, m
+  device::Point pose;  ///< p_WT, m
   dds::ToolForce force;
 };
 
@@ -41,6 +41,6 @@ struct Recording {
 /// server leaves.
 /// @throw client::ClientError  no server takes poses, or none answers
 [[nodiscard]] Recording play(const dds::Participant& participant, std::uint32_t tool_id,
-                             const client::Path& path, const client::ServerRun& server);
+                             const device::Path& path, const client::ServerRun& server);
 
 }  // namespace palpate::tool

@@ -12,7 +12,7 @@
 namespace palpate::tool {
 namespace {
 
-using client::Point;
+using device::Point;
 using program::printed;
 
 Point forceOf(const Sample& sample) {

@@ -15,7 +15,7 @@ struct Played {
   std::string script;
   client::ScriptOptions options;
   client::Spot spot;
-  client::Path path;
+  device::Path path;
   const client::ServerInfo& server;
 };
 

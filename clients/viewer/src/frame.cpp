@@ -80,7 +80,7 @@ void encodeMesh(const client::Surface& surface, std::uint32_t revision, Bytes& o
   put(out, static_cast<std::uint32_t>(surface.positions.size()));
   put(out, static_cast<std::uint32_t>(surface.triangles.size()));
   put(out, revision);
-  for (const client::Point& X : surface.positions)
+  for (const device::Point& X : surface.positions)
     for (const double x : X) put(out, static_cast<float>(x));
   for (const auto& triangle : surface.triangles) put(out, triangle.data(), 3);
   put(out, surface.accessible.data(), surface.accessible.size());

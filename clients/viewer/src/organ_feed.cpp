@@ -15,12 +15,12 @@ double sizeOf(const double (&v)[3]) {
   return std::hypot(v[0], v[1], v[2]);
 }
 
-client::Point pointOf(const double (&v)[3]) {
+device::Point pointOf(const double (&v)[3]) {
   return {{v[0], v[1], v[2]}};
 }
 
 // -n.K n: rise of the organ's push per metre along the normal.
-double normalStiffness(const dds::ToolForce& force, const client::Point& n) {
+double normalStiffness(const dds::ToolForce& force, const device::Point& n) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) sum -= n[i] * force.stiffness[3 * i + j] * n[j];

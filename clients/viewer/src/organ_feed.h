@@ -31,8 +31,8 @@ class OrganFeed {
   struct ToolView {
     dds::ToolForce force{};
     std::int64_t received_ns{0};  ///< 0: never
-    client::Point normal{};       ///< outward, at the anchor
-    client::Point tip{};          ///< newest pose on the wire
+    device::Point normal{};       ///< outward, at the anchor
+    device::Point tip{};          ///< newest pose on the wire
     bool tip_known{false};
   };
 

@@ -14,11 +14,11 @@ class Outward {
   explicit Outward(const client::Surface& surface);
 
   /// @return unit direction; +z where there is no surface or it has no normal. Cost O(Ns). Threads: const, any.
-  [[nodiscard]] client::Point at(const client::Point& p_W) const noexcept;
+  [[nodiscard]] device::Point at(const device::Point& p_W) const noexcept;
 
  private:
-  std::vector<client::Point> positions_;
-  std::vector<client::Point> normals_;  // unit, or zero
+  std::vector<device::Point> positions_;
+  std::vector<device::Point> normals_;  // unit, or zero
 };
 
 }  // namespace palpate::viewer

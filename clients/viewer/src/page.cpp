@@ -12,7 +12,7 @@ std::array<float, 3> narrow(const double (&v)[3]) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-std::array<float, 3> narrow(const client::Point& p) {
+std::array<float, 3> narrow(const device::Point& p) {
   return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
 }
 

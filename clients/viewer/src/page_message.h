@@ -24,7 +24,7 @@ struct Ping {
 struct Grab {};
 struct Release {};
 struct Target {
-  client::Point
+  device::Point
       position;  ///< wanted position of the tip's centre, world W, m; |x|, |y|, |z| <= kMaxCoordinate
 };
 /// Live parameters that the page wants; `youngs_modulus` is a multiple of the model's E.

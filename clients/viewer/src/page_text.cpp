@@ -76,9 +76,9 @@ std::array<double, 2> limitsOf(const dds::ServerParameters& parameters, double d
 }
 
 Json boxOf(const client::Surface& surface) {
-  client::Point low = surface.positions.front();
-  client::Point high = low;
-  for (const client::Point& X : surface.positions)
+  device::Point low = surface.positions.front();
+  device::Point high = low;
+  for (const device::Point& X : surface.positions)
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], X[i]);
       high[i] = std::max(high[i], X[i]);

@@ -12,7 +12,7 @@ namespace palpate::viewer {
 namespace {
 
 dds::ToolPose poseAt(std::uint32_t server_id, std::uint32_t tool_id, std::uint64_t seq, std::int64_t now_ns,
-                     const client::Point& p_WT) {
+                     const device::Point& p_WT) {
   dds::ToolPose pose{};
   pose.server_id = server_id;
   pose.tool_id = tool_id;
@@ -82,7 +82,7 @@ ToolGrant ToolDesk::grab(std::uint64_t page_id) {
   return {false, 0, "all tools are in use: try again when one is free"};
 }
 
-bool ToolDesk::target(std::uint64_t page_id, const client::Point& p_WT) {
+bool ToolDesk::target(std::uint64_t page_id, const device::Point& p_WT) {
   const std::lock_guard lock(mutex_);
   Tool* tool = find(page_id);
   if (tool == nullptr) return false;
@@ -94,7 +94,7 @@ void ToolDesk::release(std::uint64_t page_id) {
   std::optional<std::uint32_t> id = toolOf(page_id);
   if (!id) return;
   const auto tip = tipOf(*id);
-  const client::Point outward = outward_.at(tip.value_or(client::Point{}));
+  const device::Point outward = outward_.at(tip.value_or(device::Point{}));
   const std::lock_guard lock(mutex_);
   if (Tool* tool = find(page_id)) tool->driven->follower.release(outward);
 }
@@ -116,7 +116,7 @@ std::optional<std::uint32_t> ToolDesk::toolOf(std::uint64_t page_id) const {
   return std::nullopt;
 }
 
-std::optional<client::Point> ToolDesk::tipOf(std::uint32_t tool_id) const {
+std::optional<device::Point> ToolDesk::tipOf(std::uint32_t tool_id) const {
   const std::lock_guard lock(mutex_);
   if (tool_id >= kTools || !tools_[tool_id].driven) return std::nullopt;
   const PoseFollower& follower = tools_[tool_id].driven->follower;

@@ -59,7 +59,7 @@ class ToolDesk {
   /// Drops the page's pending endings: this answer is newer.
   [[nodiscard]] ToolGrant grab(std::uint64_t page_id);
   /// @return false when the page has no tool
-  bool target(std::uint64_t page_id, const client::Point& p_WT);
+  bool target(std::uint64_t page_id, const device::Point& p_WT);
   /// The tool lifts off the organ; its id is free afterwards.
   void release(std::uint64_t page_id);
   /// The page is gone: its tool stops where it is, and the server fades the force to zero.
@@ -70,7 +70,7 @@ class ToolDesk {
 
   [[nodiscard]] std::optional<std::uint32_t> toolOf(std::uint64_t page_id) const;
   /// The newest published position of a tool that a page drives.
-  [[nodiscard]] std::optional<client::Point> tipOf(std::uint32_t tool_id) const;
+  [[nodiscard]] std::optional<device::Point> tipOf(std::uint32_t tool_id) const;
   /// The writer of this program's poses on the wire.
   [[nodiscard]] dds_instance_handle_t writerId() const noexcept;
 

@@ -13,7 +13,7 @@ NodeDisplacement largestOf(const dds::SurfaceDisplacement& field) noexcept {
   NodeDisplacement largest;
   const float* u = field.displacement._buffer;
   for (std::size_t i = 0; i < field.displacement._length / 3; ++i) {
-    const client::Point here{u[3 * i], u[3 * i + 1], u[3 * i + 2]};
+    const device::Point here{u[3 * i], u[3 * i + 1], u[3 * i + 2]};
     if (const double size = length(here); size > largest.size) largest = {i, here, size};
   }
   return largest;

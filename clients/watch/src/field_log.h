@@ -17,7 +17,7 @@ namespace palpate::watch {
 /// The displacement of one node.
 struct NodeDisplacement {
   std::size_t node{0};
-  client::Point u{};  ///< m
+  device::Point u{};  ///< m
   double size{0.0};   ///< m
 };
 

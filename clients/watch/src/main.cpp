@@ -49,7 +49,7 @@ void addOptions(program::Options line, Options& options) {
 
 void printLine(std::ostream& out, double t, double rate, const client::Surface& surface,
                const NodeDisplacement& largest) {
-  const client::Point& X = surface.positions[largest.node];
+  const device::Point& X = surface.positions[largest.node];
   out << program::printed("%7.1f s  %7.1f fields/s  largest %8.4f mm at node %lld (%.4f, %.4f, %.4f) m\n", t,
                           rate, largest.size * 1e3, static_cast<long long>(surface.mesh_tags[largest.node]),
                           X[0], X[1], X[2])

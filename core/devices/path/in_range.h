@@ -4,7 +4,7 @@
 #include <sstream>
 #include <type_traits>
 
-namespace palpate::client {
+namespace palpate::device {
 
 /// @throw Error  "NAME is 7, expected 0 to 3" when the value is outside [low, high] or not a number
 template <class Error, class Number>
@@ -16,4 +16,4 @@ void inRange(const char* name, Number value, std::type_identity_t<Number> low,
   throw Error(line.str());
 }
 
-}  // namespace palpate::client
+}  // namespace palpate::device

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace palpate::client {
+namespace palpate::device {
 
 Point operator+(const Point& a, const Point& b) noexcept {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -67,4 +67,4 @@ Path Path::stretchedTo(double seconds) const {
   return Path(start_, std::move(legs));
 }
 
-}  // namespace palpate::client
+}  // namespace palpate::device

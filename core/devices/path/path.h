@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace palpate::client {
+namespace palpate::device {
 
 /// x, y, z in world frame W, m; or a direction, 1. A type of its own, so that lookup finds the operators below.
 struct Point : std::array<double, 3> {};
@@ -55,4 +55,4 @@ class Path {
   std::vector<double> ends_;  // s, when each leg ends
 };
 
-}  // namespace palpate::client
+}  // namespace palpate::device

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/devices/path/path.h"
 #include "core/devices/sim/held_device.h"
 #include "core/devices/sim/verdict.h"
 

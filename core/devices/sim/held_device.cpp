@@ -12,7 +12,7 @@ constexpr int kFewestSubsteps = 10;
 
 }  // namespace
 
-HeldDevice::HeldDevice(const Mechanics& device, const Hand& hand, client::Path path)
+HeldDevice::HeldDevice(const Mechanics& device, const Hand& hand, Path path)
     : device_(device), hand_(hand), path_(std::move(path)), x_(path_.at(0.0)) {
   check(device);
   check(hand);

@@ -6,8 +6,6 @@
 
 namespace palpate::device {
 
-using client::Point;
-
 /// A haptic device in a hand that follows a path, pushed by the organ:
 ///   (m + M) x'' = F - b x' - c x'/|x'| + B (y' - x') + K (y - x)
 /// x is the tip, y the path, F the organ's force on the tool, c the Coulomb friction. The integrator is the implicit
@@ -18,7 +16,7 @@ class HeldDevice {
  public:
   /// Starts at rest where the path starts.
   /// @throw std::invalid_argument  a field of device or hand is out of range; it names the field
-  HeldDevice(const Mechanics& device, const Hand& hand, client::Path path);
+  HeldDevice(const Mechanics& device, const Hand& hand, Path path);
 
   /// Advances by dt. @param[in] force_on_tool  F, W, N, finite; held during dt. @param[in] dt  s, above 0
   /// Cost: one evaluation of the path per 50 us, at least 10. Real-time: yes. Threads: one.
@@ -30,7 +28,7 @@ class HeldDevice {
   [[nodiscard]] double time() const noexcept { return time_; }         ///< s since the start
   [[nodiscard]] const Point& position() const noexcept { return x_; }  ///< p_WT, m
   [[nodiscard]] const Point& velocity() const noexcept { return v_; }  ///< m/s
-  [[nodiscard]] const client::Path& path() const noexcept { return path_; }
+  [[nodiscard]] const Path& path() const noexcept { return path_; }
   /// Work that the force has done on the tool so far: the integral of F . dx, J. Below 0: the organ took energy.
   [[nodiscard]] double workOfForce() const noexcept { return work_of_force_; }
   /// Kinetic energy plus the energy of the hand's spring, J.
@@ -41,7 +39,7 @@ class HeldDevice {
 
   Mechanics device_;
   Hand hand_;
-  client::Path path_;
+  Path path_;
   Point x_;
   Point v_{};
   double time_{0.0};

@@ -8,20 +8,20 @@
 namespace palpate::device {
 namespace {
 
-constexpr auto& inRange = client::inRange<std::invalid_argument, double>;
+constexpr auto& requireRange = inRange<std::invalid_argument, double>;
 
 }  // namespace
 
 void check(const Mechanics& device) {
-  inRange("device mass (kg)", device.mass, 0.001, 10.0);
-  inRange("device damping (N s/m)", device.damping, 0.0, 100.0);
-  inRange("device friction (N)", device.friction, 0.0, 10.0);
+  requireRange("device mass (kg)", device.mass, 0.001, 10.0);
+  requireRange("device damping (N s/m)", device.damping, 0.0, 100.0);
+  requireRange("device friction (N)", device.friction, 0.0, 10.0);
 }
 
 void check(const Hand& hand) {
-  inRange("hand mass (kg)", hand.mass, 0.0, 10.0);
-  inRange("hand damping (N s/m)", hand.damping, 0.0, 1000.0);
-  inRange("hand stiffness (N/m)", hand.stiffness, 1.0, 1e5);
+  requireRange("hand mass (kg)", hand.mass, 0.0, 10.0);
+  requireRange("hand damping (N s/m)", hand.damping, 0.0, 1000.0);
+  requireRange("hand stiffness (N/m)", hand.stiffness, 1.0, 1e5);
 }
 
 Mechanics mechanicsOf(const DevicePreset& preset) noexcept {

@@ -8,8 +8,6 @@
 
 namespace palpate::device {
 
-using client::Point;
-
 /// How the hand moves.
 struct MotionOptions {
   double depth{0.003};  ///< wanted depth of the tip below the rest surface, m, in (0, 0.05]
@@ -25,7 +23,7 @@ struct MotionOptions {
 
 /// The hand's path, and the part of it in which the hand rests in the organ.
 struct Motion {
-  client::Path path;
+  Path path;
   double hold_start;  ///< s; the last rest in contact begins
   double hold_end;    ///< s; and ends
   Point surface;      ///< X, the spot on the rest surface, m

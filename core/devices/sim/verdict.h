@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/devices/path/path.h"
 #include "core/devices/sim/motion.h"
 
 namespace palpate::device {

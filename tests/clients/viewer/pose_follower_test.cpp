@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000;
 constexpr double kSpeed = 0.5;
 
-using client::Point;
+using device::Point;
 
 TEST(PoseFollower, SaysNothingBeforeTheFirstTargetAndStartsThere) {
   PoseFollower follower(0, kSpeed);

@@ -174,7 +174,7 @@ TEST(PageText, AToolThatIsNotGrantedHasNoNumber) {
 TEST(Outward, PointsOffTheNearestPartOfTheSurface) {
   testing::SmallSurface small;
   const Outward outward(client::checkedSurface(small.message()));
-  const client::Point above = outward.at({{0.05, 0.05, 0.2}});
+  const device::Point above = outward.at({{0.05, 0.05, 0.2}});
   EXPECT_NEAR(above[2], 1.0, 1e-9) << "the apex of a pyramid, by symmetry";
   EXPECT_LT(outward.at({{-1.0, -1.0, -1.0}})[2], 0.0);
   EXPECT_EQ(Outward().at({{1.0, 0.0, 0.0}})[2], 1.0) << "no surface yet";

@@ -113,7 +113,7 @@ TEST_F(ViewerEndToEnd, AToolThatAnotherProgramSendsIsNotGivenAway) {
   const dds::Participant participant(static_cast<std::uint32_t>(std::stoul(domain_)));
   client::ToolClient device(participant, 3);
   ASSERT_TRUE(device.waitForServer(seconds(10)));
-  const client::Point away{{0.0, 0.0, 0.3}};
+  const device::Point away{{0.0, 0.0, 0.3}};
   for (int i = 0; i < 300; ++i) {
     device.publish(away);
     page->listen(milliseconds(2));

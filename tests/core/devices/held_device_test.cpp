@@ -10,8 +10,8 @@
 namespace palpate::device {
 namespace {
 
-client::Path resting() {
-  return client::Path({0, 0, 0}, {{{0, 0, 0}, 1.0, "rest"}});
+Path resting() {
+  return Path({0, 0, 0}, {{{0, 0, 0}, 1.0, "rest"}});
 }
 
 TEST(HeldDevice, SwingsAndDecaysLikeTheClosedForm) {

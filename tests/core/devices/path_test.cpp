@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace palpate::client {
+namespace palpate::device {
 namespace {
 
 const Path& sample() {
@@ -64,4 +64,4 @@ TEST(Path, RejectsALegWithoutTime) {
 }
 
 }  // namespace
-}  // namespace palpate::client
+}  // namespace palpate::device

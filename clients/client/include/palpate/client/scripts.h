@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/devices/path/path.h"
 #include "palpate/client/surface.h"
 
 namespace palpate::client {
@@ -24,6 +25,7 @@ void check(const ScriptOptions& options);
 ///   slide  approach, press, move tangentially, retreat                       3.5 s
 ///   poke   approach, then quickly in and out several times, retreat          1.5 s + 0.3 s each
 /// @throw ClientError for another name
-[[nodiscard]] Path scriptedPath(const std::string& script, const Spot& spot, const ScriptOptions& options);
+[[nodiscard]] device::Path scriptedPath(const std::string& script, const Spot& spot,
+                                        const ScriptOptions& options);
 
 }  // namespace palpate::client

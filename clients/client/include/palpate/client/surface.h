@@ -18,7 +18,7 @@ struct Surface {
   std::uint64_t session{0};  ///< of its server
   std::string model_id;
   std::uint32_t topology_revision{0};
-  std::vector<Point> positions;                         ///< Ns rest positions X, m
+  std::vector<device::Point> positions;                 ///< Ns rest positions X, m
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< T, 0-based, counter-clockwise from outside
   std::vector<std::uint8_t> accessible;                 ///< Ns, 1 = may be touched
   std::vector<std::int64_t> mesh_tags;                  ///< Ns node numbers in the mesh file
@@ -33,13 +33,13 @@ struct Surface {
 struct Spot {
   std::uint32_t node{0};  ///< 0-based surface node
   std::int64_t mesh_tag{0};
-  Point position{};  ///< X, m
-  Point normal{};    ///< outward unit normal there, angle-weighted over the triangles around
+  device::Point position{};  ///< X, m
+  device::Point normal{};    ///< outward unit normal there, angle-weighted over the triangles around
 };
 
 /// The accessible node nearest to `at`, or the highest one (+z) when `at` is absent. Nodes whose neighbours are
 /// all accessible come first.
 /// @throw ClientError  no node is accessible, or the surface has no normal there
-[[nodiscard]] Spot chooseSpot(const Surface& surface, const std::optional<Point>& at);
+[[nodiscard]] Spot chooseSpot(const Surface& surface, const std::optional<device::Point>& at);
 
 }  // namespace palpate::client

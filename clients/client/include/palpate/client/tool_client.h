@@ -39,7 +39,8 @@ class ToolClient {
   /// @return its seq, which starts at the clock, so that a restarted client stays ahead of its old poses; 0 when
   ///         DDS refused the pose
   /// No allocation of ours (Cyclone's own: docs/design.md, Threads). Threads: one.
-  std::uint64_t publish(const Point& position, const std::array<double, 4>& orientation = {0, 0, 0, 1},
+  std::uint64_t publish(const device::Point& position,
+                        const std::array<double, 4>& orientation = {0, 0, 0, 1},
                         std::uint32_t buttons = 0) noexcept;
 
   /// The newest answer, unless an earlier call gave it: then false, and `force` is unchanged. Real-time: yes. Threads: one, any.
