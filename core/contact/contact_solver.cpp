@@ -2,7 +2,6 @@
 #include "core/contact/contact_solver.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/contact/equilibrium.h"
 #include "core/contact/tip_sweep.h"

@@ -6,6 +6,7 @@
 #include "core/base/budget.h"
 #include "core/base/types.h"
 #include "core/contact/contact.h"
+#include "core/contact/coupling.h"
 #include "core/model/meta_model.h"
 
 namespace palpate {

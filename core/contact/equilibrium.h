@@ -8,6 +8,7 @@
 #include "core/contact/coupling.h"
 #include "core/contact/friction_flow.h"
 #include "core/model/meta_model.h"
+#include "core/response/patch_response.h"
 #include "core/surface/surface_mesh.h"
 
 namespace palpate {

@@ -7,6 +7,7 @@
 #include "core/base/contact_point.h"
 #include "core/base/types.h"
 #include "core/model/meta_model.h"
+#include "core/model/mode_selection.h"
 
 namespace palpate {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/record/byte_stream.h"
+#include "core/record/recording.h"
 
 namespace palpate::record {
 

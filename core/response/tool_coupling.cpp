@@ -8,6 +8,7 @@
 #include "core/base/index.h"
 #include "core/model/clamp_to_domain.h"
 #include "core/response/small_square.h"
+#include "core/surface/surface_mesh.h"
 
 namespace palpate {
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/base/types.h"
+#include "core/contact/contact.h"
 #include "core/contact/contact_solver.h"
 #include "core/tick/step_config.h"
 #include "core/tick/step_io.h"

@@ -3,9 +3,13 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
+#include "core/base/max_tools.h"
+#include "core/contact/contact_solver.h"
+#include "core/contact/coupling.h"
+#include "core/model/meta_model.h"
+#include "core/tick/continuity.h"
 #include "core/tick/step_io.h"
 #include "core/tick/tool_surface.h"
 #include "core/tick/workspace.h"

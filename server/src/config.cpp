@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/devices/device_preset.h"
 #include "palpate/rt/process_threads.h"
 
 namespace palpate::server {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "command_line.h"
+#include "core/data/model_view.h"
 #include "log_sink.h"
 #include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/devices/device_preset.h"
 #include "palpate/idl/printable.h"
 
 namespace palpate::server {

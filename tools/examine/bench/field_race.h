@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/field_evaluation.h"
+#include "core/model/meta_model.h"
 #include "tools/examine/bench/samples.h"
 #include "tools/examine/bench/synthetic_model.h"
 #include "tools/modelfile/model_data.h"

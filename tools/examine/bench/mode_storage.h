@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/data/model_view.h"
+#include "core/data/packed_modes.h"
 #include "core/model/meta_model.h"
 
 namespace palpate::bench {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/base/multi_index.h"
+#include "core/data/model_view.h"
 
 namespace palpate::bench {
 

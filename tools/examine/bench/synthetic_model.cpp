@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/multi_index.h"
+#include "core/data/model_view.h"
 #include "tools/examine/bench/ellipsoid.h"
 #include "tools/examine/bench/synthetic_fields.h"
 #include "tools/modelfile/mixed_precision.h"

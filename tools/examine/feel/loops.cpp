@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/contact_point.h"
 #include "tools/examine/feel/player.h"
 #include "tools/examine/feel/surface_path.h"
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/model/meta_model.h"
 #include "core/tick/step.h"
+#include "core/tick/step_config.h"
+#include "core/tick/step_io.h"
+#include "core/tick/workspace.h"
 
 namespace palpate::feel {
 

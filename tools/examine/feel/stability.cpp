@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/devices/path/path.h"
 #include "core/devices/sim/closed_loop.h"
 #include "core/devices/sim/motion.h"
 #include "tools/examine/feel/player.h"

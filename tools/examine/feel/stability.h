@@ -4,7 +4,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/contact_point.h"
+#include "core/devices/device_preset.h"
 #include "core/devices/sim/held_device.h"
+#include "core/devices/sim/mechanics.h"
 #include "core/devices/sim/verdict.h"
 #include "core/model/meta_model.h"
 #include "core/tick/apply_preset.h"

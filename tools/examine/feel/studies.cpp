@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <iostream>
 
+#include "core/base/contact_point.h"
+#include "core/devices/device_preset.h"
 #include "tools/examine/feel/loops.h"
 #include "tools/examine/feel/slides.h"
 #include "tools/examine/feel/stability.h"

@@ -7,6 +7,8 @@
 
 #include "core/response/patch_response.h"
 #include "core/response/response.h"
+#include "core/surface/contact_surface.h"
+#include "core/surface/surface_mesh.h"
 
 namespace palpate::feel {
 

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "core/base/contact_point.h"
 #include "core/model/meta_model.h"
 
 namespace palpate::feel {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/data/model_view.h"
 #include "tools/modelfile/quantile.h"
 
 namespace palpate::inspect {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/response/patch_response.h"
+#include "core/surface/surface_mesh.h"
 #include "tools/examine/query/query_error.h"
 
 namespace palpate::query {

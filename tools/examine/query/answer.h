@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/contact_point.h"
+#include "core/data/model_view.h"
 #include "core/model/meta_model.h"
 #include "core/response/response.h"
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/data/model_view.h"
 #include "tools/program/vtu.h"
 
 namespace palpate::query {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/data/model_view.h"
 #include "tools/examine/query/query_error.h"
 
 namespace palpate::query {

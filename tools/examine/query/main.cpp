@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 
+#include "core/data/model_view.h"
 #include "tools/examine/query/arguments.h"
 #include "tools/examine/query/ccx_deck.h"
 #include "tools/examine/query/field_file.h"

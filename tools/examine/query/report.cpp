@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/examine/query/report.h"
 
+#include "core/data/model_view.h"
 #include "tools/examine/query/report_lines.h"
 
 namespace palpate::query {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/model/meta_model.h"
 #include "tools/examine/query/answer.h"
 #include "tools/examine/query/full_solution.h"
 #include "tools/program/json.h"

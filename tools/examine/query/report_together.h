@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "core/model/meta_model.h"
+#include "tools/examine/query/full_solution.h"
 #include "tools/examine/query/together.h"
 #include "tools/program/json.h"
 

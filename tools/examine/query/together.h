@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/model/meta_model.h"
 #include "tools/examine/query/answer.h"
 #include "tools/examine/query/full_solution.h"
 

@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "core/record/recorded_fields.h"
+#include "core/tick/step_io.h"
+#include "core/tick/workspace.h"
 
 namespace palpate::replay {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "tools/examine/reproduce/beam_problem.h"
 #include "tools/examine/reproduce/output.h"
+#include "tools/program/json.h"
 #include "tools/solver/pgd/level_solution.h"
 
 namespace palpate::reproduce {

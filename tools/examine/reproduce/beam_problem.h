@@ -5,6 +5,8 @@
 
 #include "tools/examine/reproduce/beam_options.h"
 #include "tools/mesh/tet_mesh.h"
+#include "tools/solver/fem/fe_model.h"
+#include "tools/solver/fem/patch.h"
 #include "tools/solver/pgd/parametric_problem.h"
 
 namespace palpate::reproduce {

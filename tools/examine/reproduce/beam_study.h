@@ -3,6 +3,7 @@
 
 #include "tools/examine/reproduce/beam_options.h"
 #include "tools/examine/reproduce/output.h"
+#include "tools/program/json.h"
 
 namespace palpate::reproduce {
 

@@ -6,6 +6,7 @@
 #include "tools/examine/reproduce/liver_options.h"
 #include "tools/examine/reproduce/output.h"
 #include "tools/examine/reproduce/touches.h"
+#include "tools/program/json.h"
 #include "tools/solver/build/solver_setup.h"
 #include "tools/solver/pgd/parametric_problem.h"
 #include "tools/solver/pgd/separated_solution.h"

@@ -7,6 +7,8 @@
 #include "tools/examine/reproduce/output.h"
 #include "tools/examine/reproduce/touches.h"
 #include "tools/mesh/tet_mesh.h"
+#include "tools/program/json.h"
+#include "tools/solver/build/case_file.h"
 #include "tools/solver/build/solver_setup.h"
 
 namespace palpate::reproduce {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "tools/solver/build/case_file.h"
 #include "tools/solver/build/solver_setup.h"
 #include "tools/solver/pgd/parametric_problem.h"
 

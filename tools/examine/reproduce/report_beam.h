@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tools/examine/reproduce/output.h"
+#include "tools/program/json.h"
 
 namespace palpate::reproduce {
 

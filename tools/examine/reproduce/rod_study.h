@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/examine/reproduce/output.h"
+#include "tools/program/json.h"
 
 namespace palpate::reproduce {
 

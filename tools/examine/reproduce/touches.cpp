@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "core/data/model_view.h"
 #include "core/model/field_evaluation.h"
 #include "core/response/patch_response.h"
 #include "core/response/response.h"

@@ -4,9 +4,12 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/base/contact_point.h"
 #include "core/model/meta_model.h"
 #include "tools/solver/build/solver_setup.h"
 #include "tools/solver/fem/cholesky.h"
+#include "tools/solver/fem/fe_model.h"
+#include "tools/solver/fem/patch.h"
 
 namespace palpate::reproduce {
 

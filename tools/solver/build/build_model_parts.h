@@ -5,7 +5,10 @@
 #include <chrono>
 #include <functional>
 
+#include "core/data/model_view.h"
+#include "tools/mesh/tet_mesh.h"
 #include "tools/solver/build/build_options.h"
+#include "tools/solver/build/case_file.h"
 #include "tools/solver/build/solver_setup.h"
 #include "tools/solver/fem/cholesky.h"
 #include "tools/solver/fit/field_table.h"

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 
+#include "core/data/model_view.h"
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/store_modes.h"

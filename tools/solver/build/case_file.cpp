@@ -3,9 +3,7 @@
 
 #include <toml++/toml.h>
 
-#include <cmath>
 #include <fstream>
-#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>

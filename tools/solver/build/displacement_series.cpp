@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/multi_index.h"
+#include "core/data/model_view.h"
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/fit/far_field.h"

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/multi_index.h"
+#include "core/data/model_view.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/store_modes.h"
 #include "tools/solver/fit/far_field.h"

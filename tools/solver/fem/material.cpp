@@ -2,8 +2,8 @@
 #include "tools/solver/fem/material.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "core/data/model_view.h"

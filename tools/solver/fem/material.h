@@ -4,11 +4,12 @@
 #include <Eigen/Core>
 #include <concepts>
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "tools/solver/base/cauchy_product.h"
+#include "tools/solver/base/part_tensors.h"
 #include "tools/solver/fem/elasticity.h"
 #include "tools/solver/fem/st_venant_kirchhoff.h"
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/data/model_view.h"
 #include "core/model/meta_model.h"
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/writer.h"
