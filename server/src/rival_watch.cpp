@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kSayEvery = 100 * kMs;
+constexpr std::int64_t kForAName = 1500 * kMs;  // a server says its status once a second
 
 void heardStatus(const dds::ServerStatus& said, dds::WriterId writer, void* book) noexcept {
   static_cast<RivalBook*>(book)->heardStatus(said, writer, rt::monotonicNow());
@@ -41,15 +42,25 @@ void RivalWatch::takePlace(StatusPublisher& status, double seconds) const {
   const std::int64_t begin_ns = rt::monotonicNow();
   const std::int64_t end_ns = begin_ns + static_cast<std::int64_t>(1e9 * seconds);
   std::int64_t say_ns = begin_ns;
-  for (std::int64_t now_ns = begin_ns; now_ns < end_ns; now_ns = rt::monotonicNow()) {
+  const auto listens = [&](std::int64_t now_ns) {
+    return now_ns < end_ns || (now_ns < end_ns + kForAName && hearsNameless(now_ns));
+  };
+  for (std::int64_t now_ns = begin_ns; listens(now_ns); now_ns = rt::monotonicNow()) {
     if (now_ns >= say_ns) {
       status.publish({}, dds::server_state::kStarting);
       say_ns += kSayEvery;
     }
-    refuseToJoin(now_ns, RivalBook::kGraceNs);
+    if (!hearsNameless(now_ns)) refuseToJoin(now_ns, RivalBook::kGraceNs);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   refuseToJoin(rt::monotonicNow(), 0);
+}
+
+/// Forces may come before the status that says whose they are.
+bool RivalWatch::hearsNameless(std::int64_t now_ns) const {
+  const std::vector<OtherServer> rivals = book_.rivals(now_ns, 0);
+  return std::any_of(rivals.begin(), rivals.end(),
+                     [](const OtherServer& other) { return other.answers() && !other.hasStatus(); });
 }
 
 void RivalWatch::refuseToJoin(std::int64_t now_ns, std::int64_t grace_ns) const {

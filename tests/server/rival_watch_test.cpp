@@ -76,6 +76,27 @@ TEST(RivalWatch, ForcesAloneKeepAServerFromBeginning) {
   EXPECT_EQ(refusalBeside(5, false), "") << "this one answers only poses that name it";
 }
 
+TEST(RivalWatch, WhoseForcesItHearsIsWaitedFor) {
+  const dds::Participant somebody(palpate::testing::exclusiveDomain());
+  dds::Writer<dds::ToolForce> forces(somebody);
+  dds::Writer<dds::ServerStatus> statuses(somebody);
+  Starter starter(factsOfServer(0, 1));
+  auto refusal = std::async(std::launch::async, [&] { return starter.start(0.1); });
+  dds::ToolForce force{};
+  force.session = 9;
+  dds::ServerStatus status{};
+  status.session = 9;
+  status.answers_any = true;
+  status.state = dds::server_state::kRunning;
+  status.pid = 77;
+  for (int i = 0; refusal.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready; ++i) {
+    (void)forces.write(force);
+    if (i == 200) (void)statuses.write(status);  // after the listening
+  }
+  const std::string text = refusal.get();
+  EXPECT_NE(text.find("pid 77"), std::string::npos) << text;
+}
+
 TEST(RivalWatch, AServerThatIsOnlyAddressedDisturbsNobody) {
   Facts addressed = factsOfServer(1, 1);
   addressed.answers_any = false;

@@ -31,7 +31,8 @@ struct RivalNews {
 /// Threads: one. Real-time: no.
 class RivalWatch {
  public:
-  /// Says each 100 ms that this server starts, and listens for `seconds`. Goes on hearing other servers afterwards. `facts` must
+  /// Says each 100 ms that this server starts, and listens for `seconds`; up to 1.5 s longer where it hears forces and not yet
+  /// whose they are. Goes on hearing other servers afterwards. `facts` must
   /// outlive the watch.
   /// @throw RivalError (this server is not to begin), dds::DdsError
   RivalWatch(const dds::Participant& participant, const Facts& facts, StatusPublisher& status,
@@ -41,6 +42,7 @@ class RivalWatch {
 
  private:
   void takePlace(StatusPublisher& status, double seconds) const;
+  [[nodiscard]] bool hearsNameless(std::int64_t now_ns) const;
   void refuseToJoin(std::int64_t now_ns, std::int64_t grace_ns) const;
   [[nodiscard]] bool goesFirst(const OtherServer& other) const;
   [[nodiscard]] std::string guidOf(const OtherServer& other) const;
