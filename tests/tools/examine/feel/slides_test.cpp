@@ -75,14 +75,13 @@ INSTANTIATE_TEST_SUITE_P(Friction, SlidesWithFriction, ::testing::Values(0.0, 0.
 /// A real, coarse mesh with thin lobes: 432 surface nodes.
 class SlidesOnACoarseLiver : public ::testing::TestWithParam<double> {
  protected:
+  static std::string mesh() { return dataDir() + "/sofa-liver/liver2.msh"; }
   static const MetaModel* model() {
     static const std::unique_ptr<const MetaModel> model = [] {
-      const std::string mesh = dataDir() + "/sofa-liver/liver2.msh";
       const TemporaryFile organ("coarse.msh"), solved("coarse.h5");
       const bool made =
-          std::filesystem::exists(mesh) &&
-          runProgram("palpate-organ", {"import", mesh, "--scale", "0.0933", "--fixed", "lowest-z:0.08", "-o",
-                                       organ.path().string()})
+          runProgram("palpate-organ", {"import", mesh(), "--scale", "0.0933", "--fixed", "lowest-z:0.08",
+                                       "-o", organ.path().string()})
                   .exit_code == 0 &&
           runProgram("palpate-solve", {organ.path().string(), "-o", solved.path().string(), "-q"})
                   .exit_code == 0;
@@ -93,7 +92,7 @@ class SlidesOnACoarseLiver : public ::testing::TestWithParam<double> {
 };
 
 TEST_P(SlidesOnACoarseLiver, HardlyEverClickOnceTheySlideAndNeverJump) {
-  if (!std::filesystem::exists(dataDir() + "/sofa-liver/liver2.msh")) GTEST_SKIP() << "no mesh";
+  if (!std::filesystem::exists(mesh())) GTEST_SKIP() << mesh() << " is not there";
   ASSERT_NE(model(), nullptr);
   feel::SlideOptions options;
   options.friction = GetParam();
