@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint8_t kPeriod = 1;    // period_ns: it changed
 constexpr std::uint8_t kShutting = 2;  // shutting_down: it changed
 constexpr std::uint8_t kSettings = 4;  // has_settings, and the settings of all tools
-constexpr std::uint8_t kSkip = 8;      // skip_surface is 1
+constexpr std::uint8_t kOverflow = 8;  // field_overflowed is 1
 constexpr std::uint8_t kTickBits = 15;
 // and for a tool of it.
 constexpr std::uint8_t kInput = 1;   // there is a tool: present, age_ns, flags; without, ToolInput{}
@@ -49,7 +49,7 @@ void TickCodec::encode(const RecordedTick& tick, Bytes& out) {
   if (input.period_ns != last_.input.period_ns) bits |= kPeriod;
   if (input.shutting_down != last_.input.shutting_down) bits |= kShutting;
   if (input.has_settings != 0) bits |= kSettings;
-  if (input.skip_surface != 0) bits |= kSkip;
+  if (input.field_overflowed != 0) bits |= kOverflow;
   put(out, tick.index);
   put(out, input.dt_ns);
   put(out, bits);
@@ -96,7 +96,7 @@ void TickCodec::decode(ByteSource& in, RecordedTick& tick) {
   refuseUnknown(bits, kTickBits, "tick");
   if ((bits & kPeriod) != 0) in.get(input.period_ns);
   if ((bits & kShutting) != 0) in.get(input.shutting_down);
-  input.skip_surface = (bits & kSkip) != 0 ? 1 : 0;
+  input.field_overflowed = (bits & kOverflow) != 0 ? 1 : 0;
   input.has_settings = 0;
   if ((bits & kSettings) != 0) {
     in.get(input.has_settings);

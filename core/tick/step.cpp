@@ -5,20 +5,9 @@
 
 namespace palpate {
 
-StepStatus stepForces(const MetaModel& model, Workspace& work, const StepInput& input,
-                      StepResult& result) noexcept PALPATE_NONBLOCKING {
-  return Stepper(model, work, input).run(result);
-}
-
 StepStatus step(const MetaModel& model, Workspace& work, const StepInput& input,
                 StepResult& result) noexcept PALPATE_NONBLOCKING {
-  const StepStatus status = stepForces(model, work, input, result);
-  if (input.skip_surface == 0) (void)stepSurface(model, work);
-  return status;
-}
-
-bool stepSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING {
-  return Stepper::showSurface(model, work);
+  return Stepper(model, work, input).run(result);
 }
 
 }  // namespace palpate

@@ -33,10 +33,8 @@ struct StepInput {
   /// not 0: blend to `settings` within LiveBlend::kSeconds; a tip radius changes when its tool touches nothing. 0: they stay as
   /// they are (at first StepConfig's)
   std::uint32_t has_settings{0};
-  /// not 0: skip the surface in this tick; Workspace::displacement() stays the last one evaluated. Forces, anchors and
-  /// proxies are the same, with one exception: for ramp_time after a jump, proxies blend from the last surface evaluated, if
-  /// that is not older than ramp_time
-  std::uint32_t skip_surface{0};
+  /// not 0: the last field that was evaluated was not finite (ShownSurface::overflowed()); flagged, and nothing else
+  std::uint32_t field_overflowed{0};
   AllToolSettings settings{};  ///< checked by the caller: firstComplaint() finds nothing
 };
 
@@ -54,7 +52,7 @@ struct ToolResult {
   double penetration{0.0};               ///< -d . n as imposed (before clamping), m, >= 0; zero when free
 };
 
-/// Output of one tick; the surface displacement, where it was not skipped, is Workspace::displacement(). Plain: it crosses threads.
+/// Output of one tick; what the surface is made of is Workspace::surface(). Plain: it crosses threads.
 struct StepResult {
   std::array<ToolResult, kMaxTools> tools{};
 };

@@ -2,6 +2,7 @@
 #include "core/tick/stepper.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/contact/tool_group.h"
 
@@ -108,7 +109,7 @@ void Stepper::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_N
   if (contact.s.triangle < 0) return;
   out.state = static_cast<std::uint32_t>(contact.state);
   store(contact.anchor, out.anchor);
-  store(Vec3(contact.anchor + shown_[tool]), out.proxy);
+  store(Vec3(contact.anchor + work_.tools_[tool].shown.u), out.proxy);
   store(contact.coupled.response.displacement, out.displacement);
   out.domain_radius = contact.coupled.response.domain_radius;
   out.penetration = std::max(0.0, -contact.imposed.dot(contact.normal));

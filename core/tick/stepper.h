@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -11,7 +10,6 @@
 #include "core/model/meta_model.h"
 #include "core/tick/continuity.h"
 #include "core/tick/step_io.h"
-#include "core/tick/tool_surface.h"
 #include "core/tick/workspace.h"
 
 namespace palpate {
@@ -27,7 +25,6 @@ class Stepper {
         shaken_(std::exchange(work.shaken_, false)) {}
 
   [[nodiscard]] StepStatus run(StepResult& result) noexcept PALPATE_NONBLOCKING;
-  static bool showSurface(const MetaModel& model, Workspace& work) noexcept PALPATE_NONBLOCKING;
 
  private:
   [[nodiscard]] std::size_t numberOf(const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING {
@@ -40,16 +37,15 @@ class Stepper {
                             ToolResult& out) noexcept PALPATE_NONBLOCKING;
   void render(ToolMemory& memory, bool held, bool jumped, ToolResult& out) noexcept PALPATE_NONBLOCKING;
   void deform(StepResult& result) noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] bool showAnchors(const ToolSurface& surface) noexcept PALPATE_NONBLOCKING;
+  void showAnchor(const Vec3& u, ToolMemory& memory) const noexcept PALPATE_NONBLOCKING;
   void report(std::size_t tool, ToolResult& out) const noexcept PALPATE_NONBLOCKING;
 
   const MetaModel& model_;
   Workspace& work_;
   const StepInput& input_;
   const TickTime time_;
-  const bool shaken_;                  // kOthersJumped
-  bool jumped_{false};                 // some force has a discontinuity in this tick
-  std::array<Vec3, kMaxTools> shown_;  // u at each tool's anchor, m
+  const bool shaken_;   // kOthersJumped
+  bool jumped_{false};  // some force has a discontinuity in this tick
 };
 
 }  // namespace palpate

@@ -27,8 +27,6 @@ Workspace::Workspace(const MetaModel& model, const StepConfig& config)
       solver_(ofEach(config, [](const ToolSettings& own) { return ContactSolver(own.tip_radius); })),
       tip_radius_(ofEach(config, [](const ToolSettings& own) { return own.tip_radius; })),
       limiter_(config),
-      scratch_(model),
-      displacement_(3 * static_cast<std::size_t>(model.surface().nodes())),
-      displacement_from_(displacement_.size()) {}
+      scratch_(model) {}
 
 }  // namespace palpate

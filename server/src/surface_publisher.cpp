@@ -8,20 +8,29 @@ void SurfacePublisher::run() noexcept {
   while (true) {
     (void)channels_.surface_ready.waitFor(kLook);
     if (channels_.stopping.load(std::memory_order_acquire)) return;  // SYNC STOP
-    channels_.field_readers.store(displacement_.readers(), std::memory_order_relaxed);
+    const std::uint32_t readers = displacement_.readers();
+    channels_.field_readers.store(readers, std::memory_order_relaxed);
+    if (readers == 0) surface_.forget();
     if (channels_.surface.update()) publish(channels_.surface.front());
   }
 }
 
-void SurfacePublisher::publish(const SurfaceSample& frame) noexcept {
-  dds::SurfaceDisplacement sample{};
-  sample.organ_id = facts_.organ_id;
-  sample.session = facts_.session;
-  dds::assignText(sample.model_id, facts_.model_id);
-  sample.seq = frame.seq;
-  sample.stamp_ns = frame.stamp_ns;
-  dds::lend(sample.displacement, frame.displacement.data(), frame.displacement.size());
-  if (!displacement_.write(sample)) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
+void SurfacePublisher::publish(const SurfaceSample& sample) noexcept {
+  (void)surface_.show(sample.state);
+  channels_.field_overflowed.store(surface_.overflowed(), std::memory_order_relaxed);
+  dds::SurfaceDisplacement field{};
+  field.organ_id = facts_.organ_id;
+  field.session = facts_.session;
+  dds::assignText(field.model_id, facts_.model_id);
+  field.seq = sample.seq;
+  field.stamp_ns = sample.stamp_ns;
+  const std::span<const float> u = surface_.displacement();
+  dds::lend(field.displacement, u.data(), u.size());
+  for (std::size_t tool = 0; tool < sample.poses.size(); ++tool) {
+    field.pose_seq[tool] = sample.poses[tool].seq;
+    field.pose_stamp_ns[tool] = sample.poses[tool].stamp_ns;
+  }
+  if (!displacement_.write(field)) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
 }
 
 }  // namespace palpate::server

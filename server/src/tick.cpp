@@ -22,12 +22,12 @@ std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   // 1. What the tools want: the newest pose of each, and its age by our clock.
   readPoses(cycle);
   // 2. What the tools feel.
-  (void)stepForces(model_, work_, input_, result_);
+  (void)step(model_, work_, input_, result_);
   countRejectedPoses();
   // 3. One force for each tool seen so far; wake the thread that sends them.
   writeForces(cycle);
   channels_.force_ready.post();
-  // 4. The surface, if somebody sees it; where it changed, wake the thread that sends it.
+  // 4. What the surface is made of, if somebody sees it and it changed; wake the thread that evaluates it.
   writeSurface(cycle);
   // 5. What went in and came out, for a session that is recorded.
   writeRecording(cycle);
@@ -48,7 +48,7 @@ void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   input_.has_settings =
       channels_.parameters.read(input_.settings) ? 1 : 0;  // passed once; the engine blends over
   input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
-  input_.skip_surface = surfaceIsDue(cycle) ? 0 : 1;
+  input_.field_overflowed = channels_.field_overflowed.load(std::memory_order_relaxed) ? 1 : 0;
   last_woke_ns_ = cycle.woke_ns;
 }
 
@@ -133,10 +133,8 @@ void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NO
   if (!channels_.forces.push(record)) ++dropped_;
 }
 
-// The tick nearest to the surface's own grid, so that any rate holds on average; none where nobody reads it.
+// The tick nearest to the surface's own grid, so that any rate holds on average.
 bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
-  field_readers_ = channels_.field_readers.load(std::memory_order_relaxed);
-  if (field_readers_ == 0) return false;
   if (plan_.surface_period_ns <= plan_.period_ns) return true;
   if (next_surface_ns_ == 0) next_surface_ns_ = cycle.deadline_ns;
   const std::int64_t here_ns = cycle.deadline_ns + plan_.period_ns / 2;
@@ -146,14 +144,17 @@ bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 }
 
 void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
-  if (input_.skip_surface != 0) return;
-  const bool changed = stepSurface(model_, work_);
-  if (!field_pace_.admits(changed, field_readers_, cycle.woke_ns)) return;
-  SurfaceSample& frame = channels_.surface.back();
-  frame.seq = ++surface_seq_;
-  frame.stamp_ns = cycle.woke_ns;
-  const std::span<const float> field = work_.displacement();
-  std::copy(field.begin(), field.end(), frame.displacement.begin());
+  const std::uint32_t readers = channels_.field_readers.load(std::memory_order_relaxed);
+  if (readers == 0 || !surfaceIsDue(cycle)) return;
+  const bool changed = !(work_.surface() == handed_over_);
+  if (!field_pace_.admits(changed, readers, cycle.woke_ns)) return;
+  handed_over_ = work_.surface();
+  SurfaceSample& sample = channels_.surface.back();
+  sample.seq = ++surface_seq_;
+  sample.stamp_ns = cycle.woke_ns;
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool)
+    sample.poses[tool] = {ledgers_[tool].pose.seq, ledgers_[tool].pose.stamp_ns};
+  sample.state = handed_over_;
   channels_.surface.publish();
   channels_.surface_ready.post();
 }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
+
+#include "core/tick/shown_surface.h"
 #include "core/tick/step.h"
 #include "palpate/testing/synthetic_model.h"
 
@@ -16,7 +20,7 @@ inline MetaModel loadSynthetic(const SyntheticOptions& options = {}) {
 class Driver {
  public:
   explicit Driver(const MetaModel& model, const StepConfig& config = {})
-      : model_(model), work_(model, config) {}
+      : model_(model), work_(model, config), surface_(model) {}
 
   const ToolResult& at(const Vec3& c, std::int64_t age_ns = 0) {
     input_.tools[0].present = 1;
@@ -26,6 +30,8 @@ class Driver {
   }
   const ToolResult& tick() {
     status_ = step(model_, work_, input_, result_);
+    if (shows_) (void)surface_.show(work_.surface());
+    input_.field_overflowed = surface_.overflowed() ? 1 : 0;
     return result_.tools[0];
   }
   /// Stays at c until what follows a jump has faded.
@@ -36,11 +42,18 @@ class Driver {
   StepInput& input() { return input_; }
   const StepResult& result() const { return result_; }
   const Workspace& work() const { return work_; }
+  /// The surface as the last tick that was shown left it, [Ns][3] m.
+  std::span<const float> field() const { return surface_.displacement(); }
+  ShownSurface& surface() { return surface_; }
+  /// Whether ticks are shown.
+  void show(bool shows) { shows_ = shows; }
   StepStatus status() const { return status_; }
 
  private:
   const MetaModel& model_;
   Workspace work_;
+  ShownSurface surface_;
+  bool shows_{true};
   StepInput input_;
   StepResult result_;
   StepStatus status_{StepStatus::kOk};

@@ -100,10 +100,14 @@ TEST(RoundTrip, DisplacementArrivesFromTheCallersMemory) {
   sent.stamp_ns = 12;
   const auto size = static_cast<std::uint32_t>(field.size());
   sent.displacement = {size, size, field.data(), false};
+  sent.pose_seq[3] = 13;
+  sent.pose_stamp_ns[3] = -14;
   ASSERT_TRUE(link.writer.write(sent));
   ASSERT_TRUE(eventually([&] {
     const auto got = link.reader.takeLoaned();
     if (got.empty()) return false;
+    EXPECT_EQ(got[0].pose_seq[3], 13U);
+    EXPECT_EQ(got[0].pose_stamp_ns[3], -14);
     EXPECT_STREQ(got[0].model_id, "0123abcd");
     EXPECT_EQ(got[0].organ_id, 2U);
     EXPECT_EQ(got[0].seq, 11U);

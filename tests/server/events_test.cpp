@@ -35,7 +35,7 @@ class EventsTest : public ::testing::Test {
   }
 
   std::ostringstream log_;
-  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3);
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>();
   Facts facts_;
   dds::Participant participant_{palpate::testing::exclusiveDomain()};
   StatusPublisher status_{participant_, facts_};

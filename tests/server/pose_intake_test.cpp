@@ -38,7 +38,7 @@ class PoseIntakeTest : public ::testing::Test {
     return sample;
   }
 
-  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3);
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>();
   PoseIntake intake_{*channels_, StepConfig{}};
   PoseIntake three_{*channels_, threeTools()};
 

@@ -23,7 +23,7 @@ class RecorderTest : public ::testing::Test {
 
   palpate::testing::TemporaryFile file_{"recorder.rec"};
   const std::filesystem::path path_ = file_.path();
-  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3);
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>();
 };
 
 TEST_F(RecorderTest, WritesWhatLiesInTheRingBeforeItReturns) {

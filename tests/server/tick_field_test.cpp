@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which fields a tick makes and hands over. The test keeps the time.
+// Which fields a tick hands over, and what is said of them. The test keeps the time.
 #include <gtest/gtest.h>
-
-#include <algorithm>
 
 #include "tick_fixture.h"
 
@@ -24,10 +22,9 @@ class TickFieldTest : public TickTest {
   static constexpr double kAbove = -0.01;
 };
 
-TEST_F(TickFieldTest, NobodyReadsSoNoneIsEvaluated) {
+TEST_F(TickFieldTest, NobodyReadsSoNoneIsHandedOver) {
   channels_->field_readers = 0;
   EXPECT_EQ(fieldsIn(200, 0.0, 1e-5), 0);
-  EXPECT_TRUE(std::ranges::all_of(work_.displacement(), [](float u) { return u == 0.0F; }));
   EXPECT_NE(takeFlags() & kInContact, 0U);
 }
 
@@ -55,9 +52,34 @@ TEST_F(TickFieldTest, AReaderThatComesGetsAWholeFieldInTheNextTick) {
   EXPECT_EQ(fieldsIn(50, kAbove), 0);
 }
 
+TEST_F(TickFieldTest, NamesThePosesThatItBelongsTo) {
+  send(poseAtDepth(2, 0.001));
+  send(poseAtDepth(0, kAbove));
+  const std::int64_t sent_ns = now_ns_;
+  runOneTick();
+  ASSERT_TRUE(channels_->surface.update());
+  const SurfaceSample& sample = channels_->surface.front();
+  EXPECT_EQ(sample.stamp_ns, now_ns_ + 7);
+  EXPECT_EQ(sample.poses[2].seq, pose_seq_ - 1);
+  EXPECT_EQ(sample.poses[0].seq, pose_seq_);
+  EXPECT_EQ(sample.poses[0].stamp_ns, sent_ns);
+  EXPECT_EQ(sample.poses[1].seq, 0U);
+  EXPECT_EQ(sample.poses[1].stamp_ns, 0) << "it sent none";
+}
+
+TEST_F(TickFieldTest, OneThatOverflowedFlagsTheToolsInContact) {
+  (void)fieldsIn(200, 0.0001, 1e-5);
+  EXPECT_EQ(takeFlags() & kNonFiniteForce, 0U);
+  channels_->field_overflowed = true;
+  (void)fieldsIn(1, 0.002);
+  EXPECT_NE(takeFlags() & kNonFiniteForce, 0U);
+  (void)fieldsIn(1, kAbove);
+  EXPECT_EQ(takeFlags() & kNonFiniteForce, 0U) << "it touches nothing";
+}
+
 TEST_F(TickFieldTest, ForcesAreTheSameWhoeverReads) {
   Workspace unseen(model_, StepConfig{});
-  Channels nobody(3 * model_.view().surfaceNodes());
+  Channels nobody;
   PoseIntake intake(nobody, StepConfig{});
   Tick tick(model_, unseen, nobody, {kPeriod});
   for (int i = 0; i < 300; ++i) {

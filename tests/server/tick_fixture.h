@@ -86,7 +86,7 @@ class TickTest : public ::testing::Test {
 
   MetaModel model_ = loadSynthetic();
   Workspace work_{model_, StepConfig{}};
-  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>(3 * model_.view().surfaceNodes());
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>();
   PoseIntake intake_{*channels_, StepConfig{}};
   Tick tick_{model_, work_, *channels_, {kPeriod}};
   rt::Cycle cycle_;

@@ -39,7 +39,7 @@ std::vector<RecordedTick> someTicks(std::size_t count) {
     if (i % 50 == 49) tick.input.period_ns += 1;
     tick.input.shutting_down = i > count - 10 ? 1 : 0;
     tick.input.has_settings = i % 30 == 29 ? 1 : 0;
-    tick.input.skip_surface = i % 5 == 0 ? 0 : 1;
+    tick.input.field_overflowed = i % 5 == 0 ? 1 : 0;
     if (tick.input.has_settings != 0) tick.input.settings[i % 4].live.friction = number(random);
     for (std::size_t t = 0; t < tick.input.tools.size(); ++t) {
       ToolInput& input = tick.input.tools[t];
@@ -67,7 +67,7 @@ void expectSame(const RecordedTick& a, const RecordedTick& b) {
   EXPECT_EQ(a.input.period_ns, b.input.period_ns);
   EXPECT_EQ(a.input.shutting_down, b.input.shutting_down);
   EXPECT_EQ(a.input.has_settings, b.input.has_settings);
-  EXPECT_EQ(a.input.skip_surface, b.input.skip_surface);
+  EXPECT_EQ(a.input.field_overflowed, b.input.field_overflowed);
   if (a.input.has_settings != 0) {
     EXPECT_EQ(a.input.settings[2].live.friction, b.input.settings[2].live.friction);
   }
@@ -184,7 +184,7 @@ TEST_F(Recording, RefusesWhatItIsNot) {
   EXPECT_EQ(refusal(), "is no recording of palpate-server");
   write(someTicks(3));
   std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out).seekp(8).put(9);
-  EXPECT_NE(refusal().find("version is 9, expected 3"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("version is 9, expected 4"), std::string::npos) << refusal();
   write(someTicks(3));
   std::ofstream(path_, std::ios::app) << "more";
   EXPECT_NE(refusal().find("something follows the end"), std::string::npos) << refusal();

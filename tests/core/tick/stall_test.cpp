@@ -24,13 +24,13 @@ double steepestAfter(Driver& driver, std::int64_t stall_ns, const Vec3& c, float
   Vec3 last = vec(driver.result().tools[0].force);
   double most = 0.0;
   field_step = 0.0F;
-  std::vector<float> before(driver.work().displacement().begin(), driver.work().displacement().end());
+  std::vector<float> before(driver.field().begin(), driver.field().end());
   driver.input().dt_ns = stall_ns;
   for (int ms = 0; ms < 60; ++ms) {
     const Vec3 now = vec(driver.at(c).force);
     most = std::max(most, (now - last).norm());
     last = now;
-    const auto field = driver.work().displacement();
+    const auto field = driver.field();
     for (std::size_t i = 0; i < field.size(); ++i)
       field_step = std::max(field_step, std::abs(field[i] - before[i]));
     before.assign(field.begin(), field.end());

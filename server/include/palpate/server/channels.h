@@ -19,10 +19,6 @@ namespace palpate::server {
 /// writer and one reader. Two more things never change while threads run: the model and the configuration. Outside of the
 /// tick, RivalBook has a lock of its own.
 struct Channels {
-  /// Allocates; before the loop.
-  explicit Channels(std::size_t surface_floats)
-      : surface(SurfaceSample{0, 0, std::vector<float>(surface_floats, 0.0F)}) {}
-
   // Subscriber -> events: the writer of each tool's poses; 0: none yet. Relaxed, it orders nothing.
   std::array<std::atomic<std::uint64_t>, kMaxTools> owners{};
 
@@ -38,9 +34,12 @@ struct Channels {
   rt::SpscQueue<ForceRecord, 512> forces;
   rt::Semaphore force_ready;
 
-  // Surface-out -> tick: 0 where nobody reads fields, and the tick evaluates none; else another number with each reader that
+  // Surface-out -> tick: 0 where nobody reads fields, and the tick hands over none; else another number with each reader that
   // comes (dds::Writer::readers()). Relaxed: it orders nothing.
   std::atomic<std::uint32_t> field_readers{0};
+
+  // Surface-out -> tick: the last field was not finite. A flag, relaxed: it orders nothing.
+  std::atomic<bool> field_overflowed{false};
 
   // Tick -> surface-out: latest wins.
   rt::TripleBuffer<SurfaceSample> surface;

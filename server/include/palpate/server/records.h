@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <type_traits>
-#include <vector>
 
 #include "core/tick/step.h"
 
@@ -55,11 +54,18 @@ struct ForceRecord {
   ToolResult result;             ///< force on the tool
 };
 
-/// Tick to surface-out: a large slot, filled in place.
+/// A pose that something belongs to.
+struct PoseEcho {
+  std::uint64_t seq{0};      ///< sender's counter
+  std::int64_t stamp_ns{0};  ///< sender's clock; 0: the tool has sent none
+};
+
+/// Tick to surface-out: what a field is evaluated from.
 struct SurfaceSample {
   std::uint64_t seq{0};
-  std::int64_t stamp_ns{0};         ///< when the tick woke
-  std::vector<float> displacement;  ///< [Ns][3] m, sized before the loop
+  std::int64_t stamp_ns{0};                 ///< when the tick woke
+  std::array<PoseEcho, kMaxTools> poses{};  ///< newest that the tick knew
+  SurfaceState state;
 };
 
 /// Tick to events: how one tick went. Counters are totals since the start.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/tick/shown_surface.h"
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/writer.h"
 #include "palpate/server/channels.h"
@@ -8,12 +9,14 @@
 
 namespace palpate::server {
 
-/// Sends each displacement that the tick publishes. Tells the tick whether anybody reads them.
+/// Evaluates and sends the surface's displacement where the tick hands over what it is made of. Tells the tick whether
+/// anybody reads it, and whether it overflowed.
 class SurfacePublisher {
  public:
-  /// Channels and facts must outlive the publisher. @throw dds::DdsError
-  SurfacePublisher(const dds::Participant& participant, Channels& channels, const Facts& facts)
-      : channels_(channels), facts_(facts), displacement_(participant) {}
+  /// Model, channels and facts must outlive the publisher. Allocates the field's memory. @throw dds::DdsError
+  SurfacePublisher(const dds::Participant& participant, const MetaModel& model, Channels& channels,
+                   const Facts& facts)
+      : channels_(channels), facts_(facts), surface_(model), displacement_(participant) {}
 
   /// Body of the surface-out thread. Returns once the server stops.
   void run() noexcept;
@@ -22,10 +25,11 @@ class SurfacePublisher {
   void show(dds::EndpointWatch& watch) const { watch.add(displacement_); }
 
  private:
-  void publish(const SurfaceSample& frame) noexcept;
+  void publish(const SurfaceSample& sample) noexcept;
 
   Channels& channels_;
   const Facts& facts_;
+  ShownSurface surface_;
   dds::Writer<dds::SurfaceDisplacement> displacement_;
 };
 

@@ -17,11 +17,11 @@ namespace palpate::server {
 struct TickPlan {
   std::int64_t period_ns{1'000'000};  ///< of the loop
   std::int64_t surface_period_ns{
-      0};                  ///< from one surface field to the next; up to period_ns: every tick has one
+      0};                  ///< from one surface field to the next; up to period_ns: with every tick
   bool phase_lock{false};  ///< ticks follow the poses' arrival
 };
 
-/// One tick: newest poses in, one step of the engine, forces and surface out (docs/design.md, Contact, Threads).
+/// One tick: newest poses in, one step of the engine, forces and what the surface is made of out (docs/design.md, Contact, Threads).
 /// Takes no lock, allocates nothing, logs nothing, knows no DDS. What it keeps from tick to tick is
 /// bookkeeping only; the state of the contact lives in the Workspace. Threads: one, the tick thread.
 /// Real-time: yes.
@@ -89,7 +89,7 @@ class Tick {
   std::int64_t shift_ns_{0};
   std::uint64_t surface_seq_{0};
   std::int64_t next_surface_ns_{0};
-  std::uint32_t field_readers_{0};
+  SurfaceState handed_over_;
   FieldPace field_pace_;
   std::uint64_t rejected_{0};
   std::uint64_t dropped_{0};
