@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/examine/bench/cadence_bench.h"
 #include "tools/examine/bench/contact_force.h"
 #include "tools/examine/bench/eigen_product.h"
 #include "tools/examine/bench/field.h"
@@ -27,6 +28,7 @@ struct Options {
   bool realtime{false};
   bool scale{false};
   int modes{100};
+  double rate_hz{1000.0};
 };
 
 /// Google Benchmark's own option, which has no getter: how long each benchmark runs, s.
@@ -58,17 +60,19 @@ int run(const Options& options, double seconds) {
   if (options.scale) return printScale(options.modes) ? 0 : 1;
   // 2. The benchmarks.
   registerFields(seconds);
+  registerGrowth(options.rate_hz);
   std::optional<MetaModel> model;
   if (const auto path = chooseModel(options)) {
     model.emplace(MetaModel::load(*path));
     benchmark::AddCustomContext("model", path->string());
     registerSteps(*model);
+    registerCadence(*model, options.rate_hz);
     registerLoad(*path);
     registerContactForce(*model);
   } else {
     std::cerr << "palpate-bench: no model given and no build/demo/liver.h5 (tools/demo makes it): without "
-                 "step/*, load/* and "
-                 "contact_force/*\n";
+                 "step/*, cadence/*, "
+                 "load/* and contact_force/*\n";
   }
   // 3. Measure.
   benchmark::RunSpecifiedBenchmarks();
@@ -82,14 +86,15 @@ int body(int argc, char** argv) {
       "--benchmark_format=json, --benchmark_filter=field/2009x167.");
   Options options;
   program::Options add = line.options();
-  add.add(
-      "model", &options.model,
-      "model file (.h5) of step/default, load/default and contact_force; default: build/demo/liver.h5, if "
-      "there is one");
+  add.add("model", &options.model,
+          "model file (.h5) of step/default, cadence/default, load/default and contact_force; default: "
+          "build/demo/liver.h5, if "
+          "there is one");
   add.add("--cpu", &options.cpu, "processor to run on; -1: the last one that may be used");
   add.flag("--realtime", &options.realtime,
            "run with the priority of the tick, SCHED_FIFO 80: other work on that processor waits");
-  add.flag("--scale", &options.scale, "instead print the largest synthetic model whose step() fits 1 kHz");
+  add.flag("--scale", &options.scale, "instead print the largest synthetic model whose field fits 1 kHz");
+  add.add("--rate", &options.rate_hz, "ticks a second of cadence and growth").range(100.0, 10000.0);
   add.add("--modes", &options.modes, "modes of these models").range(20, 1000);
   const double seconds = leastSeconds(argc, argv);
   benchmark::Initialize(&argc, argv);  // takes its own options out

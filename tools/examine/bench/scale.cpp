@@ -16,7 +16,7 @@ constexpr double kPeriod = 1000.0;  // us
 constexpr int kStart = 20000, kMost = 100000, kFewest = 500;
 constexpr int kPositions = 1000;
 
-/// Prints one line. @return whether its ticks fit
+/// Prints one line. @return whether its fields fit
 bool fits(int nodes, int modes) {
   constexpr int kWays = 6;
   constexpr double kLength = 0.01;  // m
@@ -24,11 +24,11 @@ bool fits(int nodes, int modes) {
   const StepTimes times = timeSteps(model, 1, kWays, kLength);
   double bytes = 0.0;
   for (const std::span<const std::byte> part : modeStorage(model)) bytes += static_cast<double>(part.size());
-  const bool good = times.samples.quantile(0.99) < kPeriod;
+  const bool good = times.fields.quantile(0.99) < kPeriod;
   const double near_nodes =
       static_cast<double>(model.view().near_node.size()) / static_cast<double>(model.view().positions());
   std::printf("%9d %6d %11.1f %11.0f %9.1f %9.1f %11.2f  %s\n", nodes, modes, 1e-6 * bytes, near_nodes,
-              times.samples.quantile(0.5), times.samples.quantile(0.99), times.in_contact,
+              times.fields.quantile(0.5), times.fields.quantile(0.99), times.in_contact,
               good ? "fits" : "too slow");
   std::fflush(stdout);
   return good;
@@ -37,7 +37,7 @@ bool fits(int nodes, int modes) {
 }  // namespace
 
 bool printScale(int modes) {
-  std::printf("whole step(), one tool, on one core; a period at 1 kHz is %.0f us\n", kPeriod);
+  std::printf("the field of one tool, far and near, on one core; a period at 1 kHz is %.0f us\n", kPeriod);
   std::printf("    nodes  modes  modes / MB  near nodes  p50 / us  p99 / us  in contact\n");
   int nodes = kStart, largest = 0;
   if (fits(nodes, modes)) {

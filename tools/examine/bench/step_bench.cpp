@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/tick/shown_surface.h"
 #include "core/tick/step.h"
 #include "tools/examine/bench/mode_storage.h"
 #include "tools/examine/bench/ways.h"
@@ -22,6 +23,7 @@ using Ways = std::vector<std::vector<Vec3>>;
 void play(const MetaModel& model, const StepConfig& config, const Ways& ways, std::size_t first, int tools,
           StepTimes& out) {
   Workspace work(model, config);
+  ShownSurface surface(model);
   StepInput input;
   StepResult result;
   std::size_t ticks = ways[first].size(), touched = 0;
@@ -34,6 +36,7 @@ void play(const MetaModel& model, const StepConfig& config, const Ways& ways, st
       input.tools[static_cast<std::size_t>(k)].position = {c.x(), c.y(), c.z()};
     }
     out.samples.time([&] { benchmark::DoNotOptimize(step(model, work, input, result)); });
+    out.fields.time([&] { benchmark::DoNotOptimize(surface.show(work.surface())); });
     const bool all = std::all_of(result.tools.begin(), result.tools.begin() + tools,
                                  [](const ToolResult& tool) { return (tool.flags & kInContact) != 0; });
     touched += all ? 1 : 0;
@@ -46,11 +49,14 @@ void stepDefault(benchmark::State& state, const MetaModel& model, int tools) {
   for (auto _ : state) {
     StepTimes pass = timeSteps(model, tools, kWays, kLength);
     all.samples.add(pass.samples);
+    all.fields.add(pass.fields);
     all.in_contact = pass.in_contact;
   }
   all.samples.report(state);
   state.SetItemsProcessed(static_cast<std::int64_t>(all.samples.count()));
   state.counters["in_contact"] = all.in_contact;
+  state.counters["field_p50_us"] = all.fields.quantile(0.5);
+  state.counters["field_p99_us"] = all.fields.quantile(0.99);
   double bytes = 0.0;
   for (const std::span<const std::byte> part : modeStorage(model)) bytes += static_cast<double>(part.size());
   state.counters["bytes"] = bytes;

@@ -6,11 +6,12 @@
 
 namespace palpate::bench {
 
-/// Times of whole ticks of step(), contact, force, near and far field, while tools press and slide over
-/// random paths, 1 to 3 mm deep, with mu = 0.3. There is no virtual coupling, since it would take a part of
+/// Times of ticks of step(), and of the surface that each hands over, while tools press and slide over random
+/// paths, 1 to 3 mm deep, with mu = 0.3. There is no virtual coupling, since it would take a part of
 /// the depth.
 struct StepTimes {
   Samples samples;
+  Samples fields;          ///< ShownSurface::show(): near and far field
   double in_contact{0.0};  ///< share of the ticks in which every tool touched the organ
 };
 

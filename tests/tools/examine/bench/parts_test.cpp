@@ -2,9 +2,11 @@
 // What palpate-bench measures on, and what it holds the results against.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <map>
 
+#include "tools/examine/bench/cadence_bench.h"
 #include "tools/examine/bench/eigen_product.h"
 #include "tools/examine/bench/ellipsoid.h"
 #include "tools/examine/bench/mode_storage.h"
@@ -112,7 +114,19 @@ TEST(BenchStep, ToolsTouchTheOrganWhileTheyAreMeasured) {
     const bench::StepTimes times = bench::timeSteps(model, tools, 3, 0.005);
     EXPECT_GT(times.in_contact, 0.8);
     EXPECT_GT(times.samples.count(), 300U);
+    EXPECT_EQ(times.fields.count(), times.samples.count());
   }
+}
+
+TEST(BenchCadence, TicksOfAToolInContactComeAtTheRate) {
+  const MetaModel model = bench::throughFile(syntheticModel({600, 20, 400}));
+  const auto begin = std::chrono::steady_clock::now();
+  const bench::StepTimes times = bench::timeAtCadence(model, {.rate_hz = 2000.0, .ways = 3, .length = 0.005});
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  const double ticks = static_cast<double>(times.samples.count()) / times.in_contact;
+  EXPECT_NEAR(ticks, 2.0 * 3.0 * (100.0 + 50.0), 10.0) << "each way at 50 mm/s";
+  EXPECT_GE(seconds.count(), 0.99 * ticks / 2000.0) << "it waits for each";
+  EXPECT_GT(times.in_contact, 0.8);
 }
 
 TEST(BenchEigen, ProductIsTheSumOfTheModes) {

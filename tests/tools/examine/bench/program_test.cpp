@@ -71,6 +71,19 @@ TEST(Bench, StepAndLoadUseTheModelGiven) {
   }
   EXPECT_EQ(found["load/default"]["bytes"], std::filesystem::file_size(file.path()));
   EXPECT_GT(found["step/default/one_tool"]["in_contact"], 0.8);
+  EXPECT_GT(found["step/default/one_tool"]["field_p50_us"], 0.0);
+}
+
+TEST(Bench, CadenceTicksAtTheRateAskedFor) {
+  const TemporaryFile file("bench.h5");
+  writeSyntheticModel(file.path(), {.subdivisions = 3, .modes = 8});
+  auto found = measured({file.path().string(), "--rate", "10000", "--benchmark_filter=cadence"});
+  ASSERT_EQ(found.size(), 2U);
+  for (const auto& [name, one] : found) {
+    EXPECT_GT(one["p50_us"], 0.0) << name;
+    EXPECT_GE(one["p99_us"], one["p50_us"]) << name;
+    EXPECT_GT(one["in_contact"], 0.8) << name;
+  }
 }
 
 TEST(Bench, ScaleNamesTheLargestModelThatFits) {

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/examine/bench/cadence_bench.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/tick/step.h"
+#include "tools/examine/bench/scratch_model.h"
+#include "tools/examine/bench/synthetic_model.h"
+#include "tools/examine/bench/ways.h"
+
+namespace palpate::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Way = std::vector<Vec3>;
+
+constexpr double kDepth = 0.002, kPress = 0.001;  // m
+constexpr double kFriction = 0.3;
+constexpr double kWayRate = 1000.0;  // Hz, of the points of a way
+
+/// Fills first and second level cache with something else, as the threads do that send.
+class OtherWork {
+ public:
+  void run() noexcept {
+    for (std::size_t i = 0; i < bytes_.size(); i += kLine) ++bytes_[i];
+    benchmark::ClobberMemory();
+  }
+
+ private:
+  static constexpr std::size_t kBytes = 4U << 20U, kLine = 64;
+  std::vector<unsigned char> bytes_ = std::vector<unsigned char>(kBytes);
+};
+
+Vec3 pointAt(const Way& way, double place) {
+  const auto i = std::min(static_cast<std::size_t>(place), way.size() - 2);
+  const double share = place - static_cast<double>(i);
+  return (1.0 - share) * way[i] + share * way[i + 1];
+}
+
+void play(const MetaModel& model, const StepConfig& config, const Way& way, double rate_hz, OtherWork& other,
+          StepTimes& out, std::size_t& ticks) {
+  Workspace work(model, config);
+  StepInput input;
+  StepResult result;
+  input.tools[0].present = 1;
+  input.dt_ns = input.period_ns = std::llround(1e9 / rate_hz);
+  const std::chrono::nanoseconds period(input.period_ns);
+  Clock::time_point next = Clock::now();
+  for (double place = 0.0; place < static_cast<double>(way.size() - 1); place += kWayRate / rate_hz) {
+    const Vec3 c = pointAt(way, place);
+    input.tools[0].position = {c.x(), c.y(), c.z()};
+    other.run();
+    next = std::max(next + period, Clock::now());
+    std::this_thread::sleep_until(next);
+    Samples one;
+    one.time([&] { benchmark::DoNotOptimize(step(model, work, input, result)); });
+    ++ticks;
+    if ((result.tools[0].flags & kInContact) != 0) out.samples.add(one);
+  }
+}
+
+void atCadence(benchmark::State& state, const MetaModel& model, const Cadence& cadence) {
+  StepTimes times;
+  for (auto _ : state) times = timeAtCadence(model, cadence);
+  times.samples.report(state);
+  state.SetItemsProcessed(static_cast<std::int64_t>(times.samples.count()));
+  state.counters["in_contact"] = times.in_contact;
+}
+
+double medianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+void growth(benchmark::State& state, double rate_hz) {
+  constexpr int kAlternations = 5, kModes = 100, kPositions = 1000;
+  constexpr std::array kNodes{2000, 20000};
+  const std::array models{throughFile(storedModel({kNodes[0], kModes, kPositions})),
+                          throughFile(storedModel({kNodes[1], kModes, kPositions}))};
+  std::array<std::vector<double>, 2> p50, p99;
+  for (auto _ : state)
+    for (int turn = 0; turn < kAlternations; ++turn)
+      for (std::size_t size = 0; size < models.size(); ++size) {
+        const StepTimes times = timeAtCadence(models[size], {rate_hz, Cadence{}.coupling, 6, 0.02});
+        p50[size].push_back(times.samples.quantile(0.5));
+        p99[size].push_back(times.samples.quantile(0.99));
+      }
+  for (std::size_t size = 0; size < models.size(); ++size) {
+    const std::string name = std::to_string(kNodes[size]);
+    state.counters["p50_us_" + name] = medianOf(p50[size]);
+    state.counters["p99_us_" + name] = medianOf(p99[size]);
+  }
+  state.counters["p50_ratio"] = medianOf(p50[1]) / medianOf(p50[0]);
+  state.counters["p99_ratio"] = medianOf(p99[1]) / medianOf(p99[0]);
+}
+
+}  // namespace
+
+StepTimes timeAtCadence(const MetaModel& model, const Cadence& cadence) {
+  StepConfig config;
+  config.friction = kFriction;
+  config.coupling_stiffness = cadence.coupling;
+  OtherWork other;
+  StepTimes out;
+  std::size_t ticks = 0;
+  for (const Way& way : waysOver(model, {kDepth, kPress, config.tip_radius, cadence.ways, cadence.length}))
+    play(model, config, way, cadence.rate_hz, other, out, ticks);
+  out.in_contact = static_cast<double>(out.samples.count()) / static_cast<double>(ticks);
+  return out;
+}
+
+void registerCadence(const MetaModel& model, double rate_hz) {
+  constexpr double kCoupling = 300.0;  // N/m, a Touch
+  const auto add = [&](const char* name, double coupling) {
+    benchmark::RegisterBenchmark(name,
+                                 [&model, rate_hz, coupling](benchmark::State& state) {
+                                   atCadence(state, model, {rate_hz, coupling});
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(1);
+  };
+  add("cadence/default/friction", Cadence{}.coupling);
+  add("cadence/default/friction_coupled", kCoupling);
+}
+
+void registerGrowth(double rate_hz) {
+  benchmark::RegisterBenchmark("growth/20000_over_2000",
+                               [rate_hz](benchmark::State& state) { growth(state, rate_hz); })
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(1);
+}
+
+}  // namespace palpate::bench
