@@ -91,13 +91,14 @@ void Builder::storePosition(const SeriesSolver& series, int lane, std::size_t po
 }
 
 void Builder::fit(const FieldTable& table) {
-  std::vector<FitWeights> weights;
-  for (const std::int32_t node : setup_.positions.nodes)
-    weights.push_back(
-        fitWeights(setup_.surface, setup_.surface.positions[at(node)], case_.nearRadiusOrDefault()));
-  std::vector<double> ball;  // large travel is rare and must not cost accuracy at small travel
-  for (const double radius : data_.contact_domain_radius) ball.push_back(std::min(d_ref_, radius));
-  const FitProblem problem{table, basis_, setup_.surface.areas, weights, ball, d_ref_};
+  std::vector<FitSource> sources;
+  for (std::size_t s = 0; s < near_.size(); ++s) {
+    const Vec3& place = setup_.surface.positions[at(setup_.positions.nodes[s])];
+    // Large travel is rare and must not cost accuracy at small travel.
+    sources.push_back({place, fitWeights(setup_.surface, place, case_.nearRadiusOrDefault()),
+                       std::min(d_ref_, data_.contact_domain_radius[s]), d_ref_});
+  }
+  const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
   FitOptions options;
   options.modes = case_.modesOrDefault();
   options.sweeps = case_.sweepsOrDefault();
@@ -120,8 +121,8 @@ void Builder::storeNearField(const FieldTable& table, const FarField& far) {
   const std::size_t coefficients = at(basis_.size());
   data_.near_field.resize(3 * coefficients * static_cast<std::size_t>(data_.near_offset.back()));
   parallelFor(options_.workers, near_.size(), [&](int, std::size_t position) {
-    std::vector<float> fields;
-    table.read(position, 1, fields);
+    std::vector<float> fields(coefficients * table.rows());
+    table.read(position, fields);
     const NearNodes& near = near_[position];
     float* out =
         data_.near_field.data() + 3 * coefficients * static_cast<std::size_t>(data_.near_offset[position]);

@@ -75,10 +75,13 @@ void ForceBuilder::solveSeries(FieldTable& table) {
 ///                                                                               docs/design.md, Reproduction
 void ForceBuilder::fit(const FieldTable& table, const FitSize& fit_size) {
   const Stopwatch watch;
-  const std::vector<FitWeights> weights(setup_.positions.nodes.size());
-  std::vector<double> size;
-  for (const double compliance : compliance_) size.push_back(f_ref_ * compliance);
-  const FitProblem problem{table, basis_, setup_.surface.areas, weights, radius_, f_ref_, size};
+  std::vector<FitSource> sources;
+  for (std::size_t s = 0; s < radius_.size(); ++s)
+    sources.push_back({setup_.surface.positions[static_cast<std::size_t>(setup_.positions.nodes[s])],
+                       {},
+                       radius_[s],
+                       f_ref_ * compliance_[s]});
+  const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, f_ref_};
   FitOptions options;
   options.modes = fit_size.modes;
   options.sweeps = fit_size.sweeps;

@@ -5,95 +5,117 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 #include "tools/solver/base/dense_decompositions.h"
-#include "tools/solver/base/parallel.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/fit/ball_moments.h"
 #include "tools/solver/fit/far_field_fit.h"
+#include "tools/solver/fit/normal_equations.h"
+#include "tools/solver/fit/spatial_order.h"
 
 namespace palpate::solver {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
 FarFieldFit::FarFieldFit(const FitProblem& problem, const FitOptions& options)
     : problem_(problem),
       options_(options),
-      rows_(static_cast<Eigen::Index>(problem.table.rows())),
+      rows_(static_cast<Index>(problem.table.rows())),
       coefficients_(problem.basis.size()),
       modes_(options.modes),
-      positions_(problem.table.positions()),
       moment_factor_(momentFactor(problem.basis)),
       row_area_(rows_),
+      node_order_(spatialOrder(problem.places)),
+      energies_(problem.sources.size(), -1.0),
       workers_(static_cast<std::size_t>(std::max(1, options.workers))) {
-  modes_ = std::min({modes_, rows_, static_cast<Eigen::Index>(positions_) * coefficients_});
+  const Index columns = static_cast<Index>(problem.sources.size()) * coefficients_;
+  modes_ = std::min({modes_, rows_, columns});
   double total = 0.0;
   for (const double area : problem.areas) total += area;
-  for (Eigen::Index row = 0; row < rows_; ++row)
+  for (Index row = 0; row < rows_; ++row)
     row_area_[row] = problem.areas[static_cast<std::size_t>(row / 3)] / total;
-  positions_near_.resize(problem.areas.size());
-  for (std::size_t s = 0; s < positions_; ++s)
-    for (std::size_t j = 0; j < problem.weights[s].nodes.size(); ++j)
-      positions_near_[static_cast<std::size_t>(problem.weights[s].nodes[j])].emplace_back(
-          static_cast<std::int32_t>(s), problem.weights[s].change[j]);
-  result_.Y = MatrixXf::Zero(modes_, static_cast<Eigen::Index>(positions_) * coefficients_);
+  std::vector<Vec3> places;
+  for (const FitSource& one : problem.sources) places.push_back(one.place);
+  source_order_ = spatialOrder(places);
+  collectNeighbours();
+  result_.Y = MatrixXf::Zero(modes_, columns);
 }
 
-/// Columns position * C + k, scaled by reference^|alpha|: metres.
-Eigen::Map<MatrixXf> FarFieldFit::readChunk(Worker& worker, std::size_t first, std::size_t count) const {
-  problem_.table.read(first, count, worker.fields);
-  Eigen::Map<MatrixXf> A(worker.fields.data(), rows_, static_cast<Eigen::Index>(count) * coefficients_);
-  for (Eigen::Index column = 0; column < A.cols(); ++column) {
-    const MultiIndex& a = problem_.basis[static_cast<int>(column % coefficients_)];
-    A.col(column) *= static_cast<float>(std::pow(problem_.reference, a[0] + a[1] + a[2]));
+/// The weights by node.
+void FarFieldFit::collectNeighbours() {
+  neighbours_.assign(problem_.areas.size(), {});
+  for (std::size_t s = 0; s < problem_.sources.size(); ++s) {
+    const FitWeights& weights = problem_.sources[s].weights;
+    for (std::size_t j = 0; j < weights.nodes.size(); ++j) {
+      Neighbours& near = neighbours_[static_cast<std::size_t>(weights.nodes[j])];
+      near.sources.push_back(static_cast<std::int32_t>(s));
+      near.change.push_back(weights.change[j]);
+    }
   }
-  return A;
 }
 
-/// C x C: times this, the columns of one position are orthonormal in the mean over its ball,
+/// The fields of some sources, columns i * C + k, scaled by reference^|alpha|: metres; and the same times the weights.
+void FarFieldFit::read(Sources chunk, Worker& worker) const {
+  const auto block = static_cast<std::size_t>(rows_ * coefficients_);
+  worker.fields.resize(chunk.size() * block);
+  worker.weighted.resize(rows_, static_cast<Index>(chunk.size()) * coefficients_);
+  Eigen::VectorXf weight(rows_);
+  for (std::size_t i = 0; i < chunk.size(); ++i) {
+    float* const own = worker.fields.data() + i * block;
+    problem_.table.read(static_cast<std::size_t>(chunk[i]), std::span(own, block));
+    Eigen::Map<MatrixXf> A(own, rows_, coefficients_);
+    weight.setOnes();
+    const FitWeights& weights = source(chunk[i]).weights;
+    for (std::size_t j = 0; j < weights.nodes.size(); ++j)
+      weight.segment<3>(3 * weights.nodes[j]).array() += weights.change[j];
+    for (Index k = 0; k < coefficients_; ++k) {
+      const MultiIndex& a = problem_.basis[static_cast<int>(k)];
+      A.col(k) *= static_cast<float>(std::pow(problem_.reference, a[0] + a[1] + a[2]));
+      worker.weighted.col(static_cast<Index>(i) * coefficients_ + k) = A.col(k).cwiseProduct(weight);
+    }
+  }
+}
+
+/// C x C: times this, the columns of one source are orthonormal in the mean over its ball,
 /// relative to |d| (or to the size of its displacements times |f| / f_ref).
-MatrixXf FarFieldFit::whitening(std::size_t position) const {
-  const double travel = problem_.ball_radius[position] / problem_.reference;
-  const double size = problem_.size.empty() ? problem_.reference : problem_.size[position];
+MatrixXf FarFieldFit::whitening(std::int32_t s) const {
+  const double travel = source(s).ball_radius / problem_.reference;
   MatrixXd D = moment_factor_;
-  for (Eigen::Index k = 0; k < coefficients_; ++k) {
+  for (Index k = 0; k < coefficients_; ++k) {
     const MultiIndex& a = problem_.basis[static_cast<int>(k)];
-    D.row(k) *= std::pow(std::max(travel, 1e-3), a[0] + a[1] + a[2] - 1) / size;
+    D.row(k) *= std::pow(std::max(travel, 1e-3), a[0] + a[1] + a[2] - 1) / source(s).size;
   }
   return D.cast<float>();
 }
 
-/// The Y of all positions, each times its whitening.
-MatrixXf FarFieldFit::whitenedY() const {
+/// The Y of all sources, each times its whitening.
+MatrixXf FarFieldFit::whitenedY() {
   MatrixXf Z(result_.Y.rows(), result_.Y.cols());
-  for (std::size_t s = 0; s < positions_; ++s) {
-    const Eigen::Index column = static_cast<Eigen::Index>(s) * coefficients_;
-    Z.middleCols(column, coefficients_) = result_.Y.middleCols(column, coefficients_) * whitening(s);
-  }
+  for (const std::int32_t s : source_order_) columnsOf(Z, s) = columnsOf(result_.Y, s) * whitening(s);
   return Z;
 }
 
 /// A first basis: the table times random numbers (a randomized range finder, one pass).
 void FarFieldFit::sketch() {
   for (Worker& worker : workers_) worker.row_rhs = MatrixXd::Zero(rows_, modes_);
-  parallelFor(options_.workers, chunks(), [&](int w, std::size_t chunk) {
-    Worker& worker = workers_[static_cast<std::size_t>(w)];
-    const std::size_t first = chunk * kChunk;
-    const std::size_t count = std::min(kChunk, positions_ - first);
-    const Eigen::Map<MatrixXf> A = readChunk(worker, first, count);
-    std::mt19937 random(static_cast<std::mt19937::result_type>(chunk));
-    std::normal_distribution<float> normal;
-    for (std::size_t i = 0; i < count; ++i) {
-      const MatrixXf noise = MatrixXf::NullaryExpr(coefficients_, modes_, [&] { return normal(random); });
-      const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
-      worker.row_rhs += (A.middleCols(column, coefficients_) * (whitening(first + i) * noise)).cast<double>();
+  forBlocks(source_order_, kChunk, [&](Worker& worker, Sources chunk) {
+    read(chunk, worker);
+    const Eigen::Map<const MatrixXf> A(worker.fields.data(), rows_, worker.weighted.cols());
+    MatrixXf noise(worker.weighted.cols(), modes_);
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      if (!A.middleCols(static_cast<Index>(i) * coefficients_, coefficients_).allFinite())
+        throw FitError("the fields of source " + std::to_string(chunk[i]) + " are not finite");
+      std::mt19937 random(static_cast<std::mt19937::result_type>(chunk[i]));
+      std::normal_distribution<float> normal;
+      noise.middleRows(static_cast<Index>(i) * coefficients_, coefficients_) =
+          whitening(chunk[i]) * MatrixXf::NullaryExpr(coefficients_, modes_, [&] { return normal(random); });
     }
+    const MatrixXf product = A * noise;
+    worker.row_rhs += product.cast<double>();
   });
-  MatrixXd X = workers_[0].row_rhs;
-  for (std::size_t w = 1; w < workers_.size(); ++w) X += workers_[w].row_rhs;
-  orthonormalize(X);
+  orthonormalize(sumOfRhs());
 }
 
 /// X <- X R^-1 with X^T diag(area) X = R^T R; twice, since the first basis may be nearly dependent.
@@ -102,35 +124,11 @@ void FarFieldFit::orthonormalize(MatrixXd X) {
     MatrixXd gram = X.transpose() * row_area_.asDiagonal() * X;
     gram.diagonal().array() += 1e-14 * gram.trace();
     const Eigen::LLT<MatrixXd> llt(gram);
+    if (llt.info() != Eigen::Success || !gram.allFinite())
+      throw FitError("the fit of the modes broke down: the fields are all zero");
     X = llt.matrixL().solve(X.transpose()).transpose().eval();
   }
-  if (!X.allFinite()) throw std::runtime_error("the fit of the modes broke down: the fields are not finite");
   result_.X = X.cast<float>();
-}
-
-void FarFieldFit::sweep(bool last) {
-  for (Worker& worker : workers_) {
-    worker.row_rhs = MatrixXd::Zero(rows_, modes_);
-    worker.error = worker.energy = 0.0;
-  }
-  parallelFor(options_.workers, chunks(), [&](int w, std::size_t chunk) {
-    Worker& worker = workers_[static_cast<std::size_t>(w)];
-    const std::size_t first = chunk * kChunk;
-    const std::size_t count = std::min(kChunk, positions_ - first);
-    const Eigen::Map<MatrixXf> A = readChunk(worker, first, count);
-    solveY(A, first, count, worker);
-    if (!last) feedX(A, first, count, worker);
-  });
-  double error = 0.0, energy = 0.0;
-  for (const Worker& worker : workers_) {
-    error += worker.error;
-    energy += worker.energy;
-  }
-  result_.errors.push_back(std::sqrt(error / std::max(energy, 1e-300)));
-  if (last) return;
-  MatrixXd rhs = workers_[0].row_rhs;
-  for (std::size_t w = 1; w < workers_.size(); ++w) rhs += workers_[w].row_rhs;
-  solveX(rhs);
 }
 
 /// Rotates the modes so that Y's mean square is diagonal and falls.
@@ -157,8 +155,8 @@ FarField FarFieldFit::run() {
 }
 
 FarField fitFarField(const FitProblem& problem, const FitOptions& options) {
-  if (problem.table.positions() == 0 || options.modes < 1)
-    throw std::runtime_error("nothing to fit: no contact positions or no modes");
+  if (problem.sources.empty() || options.modes < 1)
+    throw FitError("nothing to fit: no contact positions or no modes");
   return FarFieldFit(problem, options).run();
 }
 

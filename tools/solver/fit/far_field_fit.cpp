@@ -6,114 +6,143 @@
 #include <algorithm>
 
 #include "tools/solver/base/parallel.h"
+#include "tools/solver/fit/normal_equations.h"
 
 namespace palpate::solver {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
-/// Y-step: n x n normal equations per position: those of the areas, corrected at nodes with another weight.
-void FarFieldFit::solveY(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count,
-                         Worker& worker) {
-  const MatrixXf weighted = row_area_.cast<float>().asDiagonal() * result_.X;
-  const MatrixXf rhs = weighted.transpose() * A;
-  MatrixXd gram = (weighted.transpose() * result_.X).cast<double>();
-  gram.diagonal().array() += 1e-6;             // X is orthonormal; for modes that only free entries see
-  const Eigen::LLT<MatrixXd> unchanged(gram);  // of the positions whose weights are the areas
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
-    const Listed listed = listedRows(A.middleCols(column, coefficients_), problem_.weights[first + i]);
-    const MatrixXf near_rhs = listed.weighted_X.transpose() * listed.A;
-    const MatrixXd b = (rhs.middleCols(column, coefficients_) + near_rhs).cast<double>();
-    MatrixXd Y;
-    if (listed.weight.size() == 0) {
-      Y = unchanged.solve(b);
-    } else {
-      const MatrixXf near_gram = listed.X.transpose() * listed.weighted_X;
-      Y = (gram + near_gram.cast<double>()).llt().solve(b);
+/// Work on blocks of a list, by all workers.
+void FarFieldFit::forBlocks(Sources order, std::size_t block,
+                            const std::function<void(Worker&, Sources)>& work) {
+  parallelFor(options_.workers, (order.size() + block - 1) / block, [&](int w, std::size_t k) {
+    work(workers_[static_cast<std::size_t>(w)],
+         order.subspan(k * block, std::min(block, order.size() - k * block)));
+  });
+}
+
+MatrixXd FarFieldFit::sumOfRhs() const {
+  MatrixXd sum = workers_[0].row_rhs;
+  for (std::size_t w = 1; w < workers_.size(); ++w) sum += workers_[w].row_rhs;
+  return sum;
+}
+
+void FarFieldFit::sweep(bool last) {
+  for (Worker& worker : workers_) {
+    worker.row_rhs = MatrixXd::Zero(rows_, modes_);
+    worker.error = worker.energy = 0.0;
+  }
+  area_X_ = row_area_.cast<float>().asDiagonal() * result_.X;
+  const MatrixXf scaled = result_.X.transpose() * row_area_.cwiseSqrt().cast<float>().asDiagonal();
+  area_gram_ = (scaled * scaled.transpose()).cast<double>();
+  const GramSums grams(scaled, 3);
+  forBlocks(source_order_, GramSums::blockSize(modes_, options_.workers, source_order_.size()),
+            [&](Worker& worker, Sources block) { solveY(block, grams, !last, worker); });
+  double error = 0.0, energy = 0.0;
+  for (const Worker& worker : workers_) {
+    error += worker.error;
+    energy += worker.energy;
+  }
+  result_.errors.push_back(std::sqrt(error / std::max(energy, 1e-300)));
+  if (!last) solveX(sumOfRhs());
+}
+
+/// Y-step: n x n normal equations per source: those of the areas, changed at nodes with another weight.
+void FarFieldFit::solveY(Sources block, const GramSums& grams, bool feed, Worker& worker) {
+  std::vector<GramTerms> terms;
+  for (const std::int32_t s : block) terms.push_back({source(s).weights.nodes, source(s).weights.change});
+  grams.sum(terms, worker.grams);
+  const double scale = area_gram_.diagonal().mean();
+  MatrixXd N;
+  for (std::size_t first = 0; first < block.size(); first += kChunk) {
+    const Sources chunk = block.subspan(first, std::min(kChunk, block.size() - first));
+    read(chunk, worker);
+    const MatrixXf rhs = area_X_.transpose() * worker.weighted;
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      const auto column = static_cast<Index>(i) * coefficients_;
+      const MatrixXd b = rhs.middleCols(column, coefficients_).cast<double>();
+      addPacked(worker.grams.sums.col(static_cast<Index>(first + i)).data(), area_gram_, N);
+      columnsOf(result_.Y, chunk[i]) =
+          NormalEquations(N, scale, "source " + std::to_string(chunk[i])).solve(b).cast<float>();
+      addError(chunk[i], column, b, worker);
     }
-    result_.Y.middleCols(static_cast<Eigen::Index>(first) * coefficients_ + column, coefficients_) =
-        Y.cast<float>();
-    // |A - X Y|^2 in the weights, from the normal equations: |A|^2 - Y : b.
-    const MatrixXf W = whitening(first + i);
-    const MatrixXf AW =
-        row_area_.cast<float>().cwiseSqrt().asDiagonal() * (A.middleCols(column, coefficients_) * W);
-    const MatrixXf AnW = listed.A * W;
-    const MatrixXf changed = listed.weight.asDiagonal() * AnW;
-    const double energy = AW.cast<double>().squaredNorm() + changed.cwiseProduct(AnW).cast<double>().sum();
-    const MatrixXd Wd = W.cast<double>();
-    worker.energy += energy;
-    worker.error += std::max(0.0, energy - (Y * Wd).cwiseProduct(b * Wd).sum());
+    if (feed) feedX(chunk, worker);
   }
 }
 
-/// The rows of the nodes whose weight is not their area.
-FarFieldFit::Listed FarFieldFit::listedRows(const Eigen::Ref<const MatrixXf>& A,
-                                            const FitWeights& weights) const {
-  const auto K = static_cast<Eigen::Index>(weights.nodes.size());
-  Listed listed{MatrixXf(3 * K, modes_), MatrixXf(), MatrixXf(3 * K, coefficients_), Eigen::VectorXf(3 * K)};
-  for (Eigen::Index j = 0; j < K; ++j) {
-    const Eigen::Index row = 3 * weights.nodes[static_cast<std::size_t>(j)];
-    listed.X.middleRows<3>(3 * j) = result_.X.middleRows<3>(row);
-    listed.A.middleRows<3>(3 * j) = A.middleRows<3>(row);
-    listed.weight.segment<3>(3 * j).setConstant(weights.change[static_cast<std::size_t>(j)] *
-                                                static_cast<float>(row_area_[row]));
+/// |A - X Y|^2 in the weights, from the normal equations: |A|^2 - Y : b.
+void FarFieldFit::addError(std::int32_t s, Index column, const MatrixXd& b, Worker& worker) {
+  const MatrixXf W = whitening(s);
+  double& energy = energies_[static_cast<std::size_t>(s)];
+  if (energy < 0.0) {
+    const Eigen::Map<const MatrixXf> fields(worker.fields.data(), rows_, worker.weighted.cols());
+    const MatrixXf AW = fields.middleCols(column, coefficients_) * W;
+    const MatrixXf weighted_AW = worker.weighted.middleCols(column, coefficients_) * W;
+    energy = row_area_.dot(AW.cwiseProduct(weighted_AW).rowwise().sum().cast<double>());
   }
-  listed.weighted_X = listed.weight.asDiagonal() * listed.X;
-  return listed;
+  const MatrixXd Wd = W.cast<double>();
+  worker.energy += energy;
+  worker.error +=
+      std::max(0.0, energy - (columnsOf(result_.Y, s).cast<double>() * Wd).cwiseProduct(b * Wd).sum());
 }
 
-/// Right-hand side of the X-step: A W W^T Y^T, corrected at nodes with another weight.
-void FarFieldFit::feedX(const Eigen::Map<MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker) {
-  MatrixXf V(A.cols(), modes_);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Index column = static_cast<Eigen::Index>(i) * coefficients_;
-    const MatrixXf W = whitening(first + i);
-    const auto Y =
-        result_.Y.middleCols(static_cast<Eigen::Index>(first) * coefficients_ + column, coefficients_);
-    V.middleRows(column, coefficients_) = W * (W.transpose() * Y.transpose());
-    const FitWeights& weights = problem_.weights[first + i];
-    MatrixXf An(static_cast<Eigen::Index>(3 * weights.nodes.size()), coefficients_);
-    for (std::size_t j = 0; j < weights.nodes.size(); ++j)
-      An.middleRows<3>(static_cast<Eigen::Index>(3 * j)) =
-          weights.change[j] * A.block(3 * weights.nodes[j], column, 3, coefficients_);
-    const MatrixXf near_part = An * V.middleRows(column, coefficients_);
-    for (std::size_t j = 0; j < weights.nodes.size(); ++j)
-      worker.row_rhs.middleRows<3>(3 * weights.nodes[j]) +=
-          near_part.middleRows<3>(static_cast<Eigen::Index>(3 * j)).cast<double>();
+/// Right-hand side of the X-step: the weighted fields times W W^T Y^T.
+void FarFieldFit::feedX(Sources chunk, Worker& worker) {
+  MatrixXf V(worker.weighted.cols(), modes_);
+  for (std::size_t i = 0; i < chunk.size(); ++i) {
+    const MatrixXf W = whitening(chunk[i]);
+    V.middleRows(static_cast<Index>(i) * coefficients_, coefficients_) =
+        W * (W.transpose() * columnsOf(result_.Y, chunk[i]).transpose());
   }
-  const MatrixXf product = A * V;
+  const MatrixXf product = worker.weighted * V;
   worker.row_rhs += product.cast<double>();
 }
 
-/// X-step: one n x n system per node: the sum over all positions, corrected where the node's weight is not
-/// its area.
+/// X-step: one n x n system per node: the sum over all sources, changed where the node's weight is not 1. The rows of Y
+/// are made orthonormal first: float32 is then exact enough for the matrices. What a node's equations leave open stays
+/// as it was.
 void FarFieldFit::solveX(const MatrixXd& rhs) {
-  const MatrixXf Z = whitenedY();
-  const MatrixXf all_f = Z * Z.transpose();
-  MatrixXd all = all_f.cast<double>();
-  all.diagonal().array() += 1e-9 * all.trace() / static_cast<double>(modes_);
-  const Eigen::LLT<MatrixXd> unchanged(all);  // of the nodes whose weight is their area for every position
-  MatrixXd X(rows_, modes_);
-  parallelFor(options_.workers, problem_.areas.size(), [&](int, std::size_t node) {
-    const auto& near = positions_near_[node];
-    const auto row = static_cast<Eigen::Index>(3 * node);
-    if (near.empty()) {
-      X.middleRows<3>(row) = unchanged.solve(rhs.middleRows<3>(row).transpose()).transpose();
-      return;
-    }
-    MatrixXf Zn(modes_, static_cast<Eigen::Index>(near.size()) * coefficients_);
-    MatrixXf weighted(Zn.rows(), Zn.cols());
-    for (std::size_t j = 0; j < near.size(); ++j) {
-      const auto column = static_cast<Eigen::Index>(j) * coefficients_;
-      Zn.middleCols(column, coefficients_) = Z.middleCols(near[j].first * coefficients_, coefficients_);
-      weighted.middleCols(column, coefficients_) = near[j].second * Zn.middleCols(column, coefficients_);
-    }
-    const MatrixXf change = weighted * Zn.transpose();
-    const MatrixXd normal = all + change.cast<double>();
-    X.middleRows<3>(row) = normal.llt().solve(rhs.middleRows<3>(row).transpose()).transpose();
-  });
-  orthonormalize(X);
+  MatrixXf Z = whitenedY();
+  MatrixXd all = MatrixXd::Zero(modes_, modes_);
+  constexpr Index kColumns = 2048;
+  for (Index first = 0; first < Z.cols(); first += kColumns) {
+    const MatrixXd part = Z.middleCols(first, std::min(kColumns, Z.cols() - first)).cast<double>();
+    all += part * part.transpose();
+  }
+  const double scale = all.diagonal().mean();
+  if (scale == 0.0) return;  // the near field is everything
+  all.diagonal().array() += 1e-9 * scale;
+  const Eigen::LLT<MatrixXd> llt(all);
+  if (llt.info() != Eigen::Success || !std::isfinite(scale))
+    throw FitError("the fit of the modes broke down: the fields are not finite");
+  for (Index first = 0; first < Z.cols(); first += kColumns) {
+    auto part = Z.middleCols(first, std::min(kColumns, Z.cols() - first));
+    part = llt.matrixL().solve(part.cast<double>()).cast<float>();
+  }
+  const MatrixXd b = llt.matrixL().solve(rhs.transpose());
+  const MatrixXd x0 = (result_.X.cast<double>() * llt.matrixL()).transpose();
+  const GramSums grams(Z, coefficients_);
+  const MatrixXd base = MatrixXd::Identity(modes_, modes_);
+  MatrixXd X(modes_, rows_);
+  forBlocks(node_order_, GramSums::blockSize(modes_, options_.workers, node_order_.size()),
+            [&](Worker& worker, Sources nodes) {
+              std::vector<GramTerms> terms;
+              for (const std::int32_t node : nodes) {
+                const Neighbours& near = neighbours_[static_cast<std::size_t>(node)];
+                terms.push_back({near.sources, near.change});
+              }
+              grams.sum(terms, worker.grams);
+              MatrixXd N;
+              for (std::size_t i = 0; i < nodes.size(); ++i) {
+                addPacked(worker.grams.sums.col(static_cast<Index>(i)).data(), base, N);
+                X.middleCols<3>(3 * nodes[i]) =
+                    NormalEquations(N, 1.0, "surface node " + std::to_string(nodes[i]))
+                        .solve(b.middleCols<3>(3 * nodes[i]), x0.middleCols<3>(3 * nodes[i]));
+              }
+            });
+  orthonormalize(X.transpose());
 }
 
 }  // namespace palpate::solver

@@ -3,10 +3,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <utility>
+#include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "tools/solver/fit/fit_problem.h"
+#include "tools/solver/fit/gram_sums.h"
 
 namespace palpate::solver {
 
@@ -17,40 +20,52 @@ class FarFieldFit {
   FarField run();
 
  private:
-  static constexpr std::size_t kChunk = 32;  // positions per read and product
+  static constexpr std::size_t kChunk = 32;  // sources per product with the table
   struct Worker {
     std::vector<float> fields;
+    Eigen::MatrixXf weighted;  // 3 Ns x (sources of the chunk C): fields times their weights, m
+    GramSums::Work grams;
     Eigen::MatrixXd row_rhs;  // 3 Ns x n, input of the X-step
     double error{0.0};        // weighted square of the remainder
     double energy{0.0};       // weighted square of the field
   };
-  [[nodiscard]] std::size_t chunks() const { return (positions_ + kChunk - 1) / kChunk; }
-  [[nodiscard]] Eigen::Map<Eigen::MatrixXf> readChunk(Worker& worker, std::size_t first,
-                                                      std::size_t count) const;
-  [[nodiscard]] Eigen::MatrixXf whitening(std::size_t position) const;
-  [[nodiscard]] Eigen::MatrixXf whitenedY() const;
+  using Sources = std::span<const std::int32_t>;
+  [[nodiscard]] const FitSource& source(std::int32_t s) const {
+    return problem_.sources[static_cast<std::size_t>(s)];
+  }
+  [[nodiscard]] auto columnsOf(Eigen::MatrixXf& M, std::int32_t s) const {
+    return M.middleCols(s * coefficients_, coefficients_);
+  }
+  void forBlocks(Sources order, std::size_t block, const std::function<void(Worker&, Sources)>& work);
+  void read(Sources chunk, Worker& worker) const;
+  [[nodiscard]] Eigen::MatrixXf whitening(std::int32_t source) const;
+  [[nodiscard]] Eigen::MatrixXf whitenedY();
+  void collectNeighbours();
   void sketch();
-  void sweep(bool last);
-  struct Listed {
-    Eigen::MatrixXf X, weighted_X, A;
-    Eigen::VectorXf weight;  // change times area
-  };
-  [[nodiscard]] Listed listedRows(const Eigen::Ref<const Eigen::MatrixXf>& A,
-                                  const FitWeights& weights) const;
-  void solveY(const Eigen::Map<Eigen::MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker);
-  void feedX(const Eigen::Map<Eigen::MatrixXf>& A, std::size_t first, std::size_t count, Worker& worker);
-  void solveX(const Eigen::MatrixXd& rhs);
   void orthonormalize(Eigen::MatrixXd X);
+  void sweep(bool last);
+  void solveY(Sources block, const GramSums& grams, bool feed, Worker& worker);
+  void addError(std::int32_t s, Eigen::Index column, const Eigen::MatrixXd& b, Worker& worker);
+  void feedX(Sources chunk, Worker& worker);
+  void solveX(const Eigen::MatrixXd& rhs);
+  [[nodiscard]] Eigen::MatrixXd sumOfRhs() const;
   void orderByEnergy();
 
   const FitProblem& problem_;
   FitOptions options_;
   Eigen::Index rows_, coefficients_, modes_;
-  std::size_t positions_;
-  Eigen::MatrixXd moment_factor_;  // C x C
-  Eigen::VectorXd row_area_;       // 3 Ns, sums to 3
+  Eigen::MatrixXd moment_factor_;                        // C x C
+  Eigen::VectorXd row_area_;                             // 3 Ns, sums to 3
+  std::vector<std::int32_t> source_order_, node_order_;  // neighbours together
+  struct Neighbours {
+    std::vector<std::int32_t> sources;
+    std::vector<float> change;
+  };
+  std::vector<Neighbours> neighbours_;  // of each node: the sources whose weight there is not 1
+  std::vector<double> energies_;        // weighted squares of each source's field, negative: not known yet
+  Eigen::MatrixXd area_gram_;           // X^T diag(area) X, n x n
+  Eigen::MatrixXf area_X_;              // diag(area) X
   FarField result_;
-  std::vector<std::vector<std::pair<std::int32_t, float>>> positions_near_;  // node -> (position, weight - 1)
   std::vector<Worker> workers_;
 };
 

@@ -45,14 +45,12 @@ void FieldTable::write(std::size_t position, const std::vector<float>& fields) {
   }
 }
 
-void FieldTable::read(std::size_t first, std::size_t count, std::vector<float>& fields) const {
-  fields.resize(count * coefficients_ * rows_);
+void FieldTable::read(std::size_t position, std::span<float> fields) const {
   char* data = reinterpret_cast<char*>(fields.data());
-  const std::size_t bytes = count * blockBytes();
   std::size_t done = 0;
-  while (done < bytes) {
+  while (done < blockBytes()) {
     const ssize_t n =
-        pread(file_, data + done, bytes - done, static_cast<off_t>(first * blockBytes() + done));
+        pread(file_, data + done, blockBytes() - done, static_cast<off_t>(position * blockBytes() + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) throw std::runtime_error(std::string("scratch file: read failed: ") + std::strerror(errno));
     done += static_cast<std::size_t>(n);

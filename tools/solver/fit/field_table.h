@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace palpate::solver {
@@ -25,8 +26,8 @@ class FieldTable {
 
   /// @param fields  coefficients x rows numbers of one position
   void write(std::size_t position, const std::vector<float>& fields);
-  /// Fields of `count` positions from `first` on. @param[out] fields  resized to count x coefficients x rows
-  void read(std::size_t first, std::size_t count, std::vector<float>& fields) const;
+  /// @param[out] fields  coefficients x rows numbers of one position
+  void read(std::size_t position, std::span<float> fields) const;
 
  private:
   [[nodiscard]] std::size_t blockBytes() const noexcept { return coefficients_ * rows_ * sizeof(float); }

@@ -11,16 +11,23 @@
 
 namespace palpate::solver {
 
-/// Input of the fit. The table holds U_alpha unscaled, rows node-interleaved.
+/// One source of fields, a contact position: C columns of the table.
+struct FitSource {
+  Vec3 place;          ///< m; neighbours are worked on together
+  FitWeights weights;  ///< of the nodes
+  double ball_radius;  ///< m (N): the mean is over this ball of d (f)
+  double size;         ///< m: displacement at d_ref (f_ref) that errors are relative to; of d, d_ref itself
+};
+
+/// Input of the fit. The table holds U_alpha unscaled, rows node-interleaved. Lengths are relative to each other only:
+/// the same organ in another size has the same modes.
 struct FitProblem {
   const FieldTable& table;
   const MonomialBasis& basis;
-  std::span<const double> areas;        ///< Ns, m^2
-  std::span<const FitWeights> weights;  ///< M
-  std::span<const double> ball_radius;  ///< M, m (N): the mean is over this ball
-  double reference;                     ///< d_ref, m (f_ref, N): polynomials are in d / d_ref
-  /// M, m: displacement that the errors of each position are relative to; empty: d_ref for all
-  std::span<const double> size{};
+  std::span<const double> areas;       ///< Ns, m^2
+  std::span<const Vec3> places;        ///< Ns, m
+  std::span<const FitSource> sources;  ///< M
+  double reference;                    ///< d_ref, m (f_ref, N): polynomials are in d / d_ref
 };
 
 struct FitOptions {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace palpate::solver {
+
+/// Which Gram matrices one receiver sums, and with which factors.
+struct GramTerms {
+  std::span<const std::int32_t> of;  ///< indices, ascending
+  std::span<const float> factor;     ///< of each
+};
+
+/// S_r = sum_i c_ri B_i B_i^T for many receivers r at once. Each B_i B_i^T is formed once a block of receivers, as a
+/// packed lower triangle; the sums of the block are one matrix product.                    docs/design.md, Parts
+class GramSums {
+ public:
+  /// @param columns  n x (count width), kept by reference: B_i is the i-th group of `width` columns
+  GramSums(const Eigen::MatrixXf& columns, Eigen::Index width) : columns_(columns), width_(width) {}
+
+  /// Numbers in a packed lower triangle, column by column.
+  [[nodiscard]] static Eigen::Index packedSize(Eigen::Index n) { return n * (n + 1) / 2; }
+
+  /// Receivers in a block, so that the sums of all workers stay within 256 MiB and every worker gets some blocks.
+  [[nodiscard]] static std::size_t blockSize(Eigen::Index n, int workers, std::size_t receivers);
+
+  /// What sum() needs, kept from block to block.
+  struct Work {
+    Eigen::MatrixXf sums;  ///< out: packed, one column for each receiver
+    Eigen::MatrixXf grams, factors, square;
+    std::vector<std::int32_t> wanted;
+    std::vector<bool> marked;
+  };
+
+  /// Cost n (n + 1) x receivers x (matrices that any of them wants): receivers close together are cheap.
+  void sum(std::span<const GramTerms> receivers, Work& work) const;
+
+ private:
+  void formGrams(std::size_t first, std::size_t count, Work& work) const;
+
+  const Eigen::MatrixXf& columns_;
+  Eigen::Index width_;
+};
+
+}  // namespace palpate::solver
