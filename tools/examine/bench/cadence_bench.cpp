@@ -28,17 +28,22 @@ constexpr double kDepth = 0.002, kPress = 0.001;  // m
 constexpr double kFriction = 0.3;
 constexpr double kWayRate = 1000.0;  // Hz, of the points of a way
 
-/// Fills first and second level cache with something else, as the threads do that send.
+/// Fills first and second level cache with something else, as the threads do that send: 4 MB a millisecond.
 class OtherWork {
  public:
+  explicit OtherWork(double rate_hz)
+      : lines_(static_cast<std::size_t>(kLines * std::min(1.0, 1000.0 / rate_hz))) {}
+
+  /// In one period.
   void run() noexcept {
-    for (std::size_t i = 0; i < bytes_.size(); i += kLine) ++bytes_[i];
+    for (std::size_t i = 0; i < lines_; ++i, next_ = (next_ + 1) % kLines) ++bytes_[kLine * next_];
     benchmark::ClobberMemory();
   }
 
  private:
-  static constexpr std::size_t kBytes = 4U << 20U, kLine = 64;
-  std::vector<unsigned char> bytes_ = std::vector<unsigned char>(kBytes);
+  static constexpr std::size_t kLine = 64, kLines = (4U << 20U) / kLine;
+  std::size_t lines_, next_{0};
+  std::vector<unsigned char> bytes_ = std::vector<unsigned char>(kLine * kLines);
 };
 
 Vec3 pointAt(const Way& way, double place) {
@@ -110,7 +115,7 @@ StepTimes timeAtCadence(const MetaModel& model, const Cadence& cadence) {
   StepConfig config;
   config.friction = kFriction;
   config.coupling_stiffness = cadence.coupling;
-  OtherWork other;
+  OtherWork other(cadence.rate_hz);
   StepTimes out;
   std::size_t ticks = 0;
   for (const Way& way : waysOver(model, {kDepth, kPress, config.tip_radius, cadence.ways, cadence.length}))
@@ -120,11 +125,12 @@ StepTimes timeAtCadence(const MetaModel& model, const Cadence& cadence) {
 }
 
 void registerCadence(const MetaModel& model, double rate_hz) {
-  constexpr double kCoupling = 300.0;  // N/m, a Touch
+  constexpr double kCoupling = 300.0;                                                 // N/m, a Touch
+  const int ways = std::max(2, static_cast<int>(Cadence{}.ways * 1000.0 / rate_hz));  // 8 s of ticks
   const auto add = [&](const char* name, double coupling) {
     benchmark::RegisterBenchmark(name,
-                                 [&model, rate_hz, coupling](benchmark::State& state) {
-                                   atCadence(state, model, {rate_hz, coupling});
+                                 [&model, rate_hz, coupling, ways](benchmark::State& state) {
+                                   atCadence(state, model, {rate_hz, coupling, ways});
                                  })
         ->Unit(benchmark::kMillisecond)
         ->Iterations(1);
