@@ -132,5 +132,31 @@ TEST(LatencyLog, APoseWithoutAStampGivesNoRoundTrip) {
   EXPECT_EQ(log.received(), 1U);
 }
 
+dds::SurfaceDisplacement fieldOf(std::uint32_t tool, std::uint64_t pose_seq) {
+  dds::SurfaceDisplacement field{};
+  field.pose_seq[tool] = pose_seq;
+  field.pose_stamp_ns[tool] = kPoseTime + static_cast<std::int64_t>(pose_seq) * kPeriod;
+  return field;
+}
+
+TEST(LatencyLog, OfSeveralFieldsThatNameAPoseTheFirstCounts) {
+  LatencyLog log(kPeriod);
+  const auto before = fieldOf(2, 1);
+  log.addField(before, 2, kPoseTime + 9 * kPeriod);
+  EXPECT_EQ(log.poseToField().count(), 0U) << "not yet recording";
+  log.record(true);
+  log.addField(before, 2, kPoseTime + 9 * kPeriod);
+  EXPECT_EQ(log.poseToField().count(), 0U) << "known from before";
+  const auto next = fieldOf(2, 4);
+  log.addField(next, 2, next.pose_stamp_ns[2] + 700'000);
+  log.addField(next, 2, next.pose_stamp_ns[2] + 1'700'000);
+  log.addField(fieldOf(1, 5), 2, kPoseTime);
+  auto unstamped = fieldOf(2, 6);
+  unstamped.pose_stamp_ns[2] = 0;
+  log.addField(unstamped, 2, kPoseTime);
+  EXPECT_EQ(log.poseToField().count(), 1U);
+  EXPECT_EQ(log.poseToField().max(), 700'000);
+}
+
 }  // namespace
 }  // namespace palpate::latency

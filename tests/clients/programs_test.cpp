@@ -202,6 +202,7 @@ TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
   for (const char* key : {"pose_to_force_us", "wakeup_us", "tick_us"})
     for (const char* value : {"p50", "p99", "p999", "max", "count"})
       EXPECT_TRUE(report[key][value].is_number()) << key;
+  EXPECT_TRUE(report["pose_to_field_us"].is_null()) << "no fields were read";
   EXPECT_NEAR(report["wakeup_us"]["p50"].get<double>(), 50.0, 1.0);
   EXPECT_NEAR(report["tick_us"]["max"].get<double>(), 70.0, 1e-9);
   EXPECT_GT(report["pose_to_force_us"]["p50"].get<double>(), 0.0);

@@ -97,11 +97,13 @@ TEST(RealServer, LatencyAndWatchReportTheSameRun) {
   const Running server;
   json watched;
   std::thread watch([&] { watched = server.run("palpate-watch", {"--seconds", "4"}); });
-  const json report = server.run("palpate-latency", {"--seconds", "2"});
+  const json report = server.run("palpate-latency", {"--seconds", "2", "--fields"});
   watch.join();
   ASSERT_FALSE(report.is_null());
   ASSERT_FALSE(watched.is_null());
   EXPECT_GT(report["pose_to_force_us"]["count"].get<int>(), 500);
+  EXPECT_GT(report["pose_to_field_us"]["count"].get<int>(), 500);
+  EXPECT_GT(report["pose_to_field_us"]["p50"].get<double>(), report["tick_us"]["p50"].get<double>());
   EXPECT_GT(report["tick_us"]["p50"].get<double>(), 0.0);
   EXPECT_LE(report["lost"].get<double>(), 0.01 * report["received"].get<double>());
   EXPECT_GT(watched["received"].get<int>(), 500);

@@ -2,6 +2,7 @@
 // How many surface fields cross the wire: by who reads them, and by what moves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <vector>
 
@@ -22,7 +23,11 @@ struct Viewer {
     const auto end = Clock::now() + std::chrono::milliseconds(milliseconds);
     while (Clock::now() < end) {
       const auto samples = fields.takeLoaned();
-      for (std::size_t i = 0; i < samples.size(); ++i) seqs.push_back(samples[i].seq);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        seqs.push_back(samples[i].seq);
+        poses.push_back(samples[i].pose_seq[0]);
+        stamped = stamped && samples[i].pose_stamp_ns[0] > 0 && samples[i].pose_stamp_ns[1] == 0;
+      }
       pause(1);
     }
     return seqs;
@@ -30,6 +35,8 @@ struct Viewer {
 
   dds::Participant participant;
   dds::Reader<dds::SurfaceDisplacement> fields;
+  std::vector<std::uint64_t> poses;  // that the fields name of tool 0,
+  bool stamped{true};                // and whether all have its stamp, and none of tool 1
 };
 
 class FieldsEndToEnd : public ServerEndToEnd {
@@ -62,11 +69,15 @@ TEST_F(FieldsEndToEnd, APressedOrganSendsOneWithEachTick) {
   pause(20);
   Viewer viewer(domain_);
   (void)viewer.seqsFor(300);
+  viewer.poses.clear();
   std::thread hand([&] { client_->moveTo(atDepth(0.003), 400); });
   const auto seqs = viewer.seqsFor(400);
   hand.join();
   ASSERT_FALSE(seqs.empty());
   EXPECT_GT(seqs.back() - seqs.front(), 100U) << "fields made while the tool went down for 240 ms";
+  EXPECT_TRUE(std::ranges::is_sorted(viewer.poses)) << "each names the pose that it shows";
+  EXPECT_GT(viewer.poses.back() - viewer.poses.front(), 100U);
+  EXPECT_TRUE(viewer.stamped);
 }
 
 }  // namespace

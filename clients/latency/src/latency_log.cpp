@@ -35,4 +35,13 @@ void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noex
   less_wait_.add(age_ns - wait_ns);
 }
 
+void LatencyLog::addField(const dds::SurfaceDisplacement& field, std::uint32_t tool,
+                          std::int64_t received_ns) noexcept {
+  const std::uint64_t pose = field.pose_seq[tool];
+  if (pose <= newest_field_pose_) return;  // of several fields of one pose the first counts
+  newest_field_pose_ = pose;
+  if (field.pose_stamp_ns[tool] == 0 || !recording_.load(std::memory_order_relaxed)) return;
+  pose_to_field_.add(received_ns - field.pose_stamp_ns[tool]);
+}
+
 }  // namespace palpate::latency

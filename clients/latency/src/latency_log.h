@@ -24,11 +24,16 @@ class LatencyLog {
   /// Real-time: yes.
   void add(const dds::ToolForce& force, std::int64_t received_ns) noexcept;
 
+  /// @param[in] tool  whose poses are measured  @param[in] received_ns  as for a force. Threads: one, fields'. Real-time: yes.
+  void addField(const dds::SurfaceDisplacement& field, std::uint32_t tool, std::int64_t received_ns) noexcept;
+
   [[nodiscard]] const rt::CycleStats& poseToForce() const noexcept { return pose_to_force_; }
   /// From a pose's arrival at the server to the planned time of the tick that answered it, by the server's clock.
   [[nodiscard]] const rt::CycleStats& wait() const noexcept { return wait_; }
   /// Pose to force less that wait, pose by pose: the cost of wire, wake-up, tick and threads.
   [[nodiscard]] const rt::CycleStats& poseToForceLessWait() const noexcept { return less_wait_; }
+  /// Pose to the first field that names it; no count where none were read.
+  [[nodiscard]] const rt::CycleStats& poseToField() const noexcept { return pose_to_field_; }
   [[nodiscard]] const rt::CycleStats& wakeup() const noexcept { return wakeup_; }
   [[nodiscard]] const rt::CycleStats& tick() const noexcept { return tick_; }
   [[nodiscard]] std::uint64_t received() const noexcept { return answers_.received(); }
@@ -54,6 +59,8 @@ class LatencyLog {
   rt::CycleStats tick_;
   client::GapCounter answers_;
   std::uint64_t newest_pose_{0};
+  rt::CycleStats pose_to_field_;        // addField()'s,
+  std::uint64_t newest_field_pose_{0};  // and this
   std::uint64_t late_{0};
   ServerCounters first_;
   ServerCounters last_;

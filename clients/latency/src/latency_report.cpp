@@ -49,6 +49,7 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
   text += rowOf("pose to force, round trip", summaryOf(log.poseToForce()));
   text += rowOf("  of it the wait for a tick", summaryOf(log.wait()));
   text += rowOf("  less that wait", summaryOf(log.poseToForceLessWait()));
+  if (log.poseToField().count() > 0) text += rowOf("pose to field", summaryOf(log.poseToField()));
   text += rowOf("tick, compute time", summaryOf(log.tick()));
   text += rowOf("tick, woke late by", summaryOf(log.wakeup()));
   text += rowOf("sender, woke late by", summaryOf(sender.wakeup));
@@ -70,6 +71,8 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
   return {{"pose_to_force_us", report::toJson(summaryOf(log.poseToForce()))},
           {"pose_wait_us", report::toJson(summaryOf(log.wait()))},
           {"pose_to_force_less_wait_us", report::toJson(summaryOf(log.poseToForceLessWait()))},
+          {"pose_to_field_us",
+           log.poseToField().count() > 0 ? report::toJson(summaryOf(log.poseToField())) : program::Json()},
           {"wakeup_us", report::toJson(summaryOf(log.wakeup()))},
           {"tick_us", report::toJson(summaryOf(log.tick()))},
           {"phase_lock", phaseName(server)},

@@ -14,7 +14,7 @@ namespace palpate::latency {
 [[nodiscard]] std::string textOf(const LatencyLog& log, const SenderStats& sender,
                                  const dds::ServerStatus& server);
 
-/// The same for programs: `pose_to_force_us`, `pose_wait_us`, `pose_to_force_less_wait_us`, `wakeup_us`, `tick_us`, `client_wakeup_us`, each {p50, p99,
+/// The same for programs: `pose_to_force_us`, `pose_wait_us`, `pose_to_force_less_wait_us`, `pose_to_field_us` (null: no fields were read), `wakeup_us`, `tick_us`, `client_wakeup_us`, each {p50, p99,
 /// p999, max, count}; `overruns`, `lost`, `late`, `superseded`, `seconds` and more.
 [[nodiscard]] program::Json jsonOf(const LatencyLog& log, const SenderStats& sender,
                                    const dds::ServerStatus& server);

@@ -38,6 +38,8 @@ void addOptions(program::Options line, Options& options) {
   line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
   line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
   line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.flag("--fields", &options.measure.fields,
+            "read the surface too: how long a pose takes to become a field");
   line.add("--plot", &options.plot, "write the histograms to this SVG file");
 }
 

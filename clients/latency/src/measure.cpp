@@ -2,11 +2,13 @@
 #include "measure.h"
 
 #include <cmath>
+#include <optional>
 
 #include "core/devices/path/path.h"
 #include "palpate/client/error.h"
 #include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/idl/reader.h"
 #include "palpate/rt/clock.h"
 #include "palpate/rt/pacer.h"
 
@@ -42,6 +44,27 @@ void send(client::ToolClient& tool, const device::Path& path, double from, doubl
   stats.seconds = static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9;
 }
 
+// Reads the fields of one run of a server into a log.
+class FieldReader {
+ public:
+  FieldReader(const dds::Participant& participant, const MeasureOptions& options, LatencyLog& log)
+      : options_(options), log_(log), reader_(participant, &FieldReader::onFields, this) {}
+
+ private:
+  static void onFields(dds::ReaderView<dds::SurfaceDisplacement> reader, void* context) noexcept {
+    auto& self = *static_cast<FieldReader*>(context);
+    const std::int64_t now_ns = rt::monotonicNow();
+    const auto samples = reader.takeLoaned();
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (samples[i].session == self.options_.server.session)
+        self.log_.addField(samples[i], self.options_.tool_id, now_ns);
+  }
+
+  const MeasureOptions& options_;
+  LatencyLog& log_;
+  dds::Reader<dds::SurfaceDisplacement> reader_;
+};
+
 }  // namespace
 
 SenderStats measure(const dds::Participant& participant, const client::Spot& spot,
@@ -50,6 +73,8 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
     static_cast<LatencyLog*>(context)->add(force, received_ns);
   };
   const client::StatusBoard statuses(participant);
+  std::optional<FieldReader> fields;
+  if (options.fields) fields.emplace(participant, options, log);
   client::ToolClient tool(participant, options.tool_id, on_force, &log, options.server);
   const device::Path path = gentlePress(spot, options);
   SenderStats unmeasured;

@@ -16,6 +16,7 @@ struct MeasureOptions {
   double rate_hz{1000.0};    ///< of the poses, in [10, 4000]
   double tip_radius{0.005};  ///< R, m; the server's
   std::uint32_t tool_id{0};
+  bool fields{false};        ///< reads the surface too
   client::ServerRun server;  ///< to be measured
 };
 

@@ -210,10 +210,14 @@ def _name_of(task):
         return ""
 
 
-def latency(setup, rate):
-    """palpate-latency's report while a server runs. @param rate  of the poses, Hz"""
+def latency(setup, rate, fields=False):
+    """palpate-latency's report while a server runs. @param rate  of the poses, Hz. @param fields  read the surface too"""
     command = [setup.bin / "palpate-latency", "--domain", setup.domain, "--seconds", setup.seconds, "--rate", rate, "--wait", 60, "--json"]
+    if fields:
+        command.append("--fields")
     report = json.loads(processes.output_of(command, setup.log("latency"), setup.seconds + 60, setup.env))
     names = {"wakeup": "wakeup_us", "tick": "tick_us", "pose_to_force": "pose_to_force_us",
              "pose_to_force_less_wait": "pose_to_force_less_wait_us"}
+    if fields:
+        names["pose_to_field"] = "pose_to_field_us"
     return {name: {key: report[ours][key] for key in ("p50", "p99", "max")} for name, ours in names.items()}

@@ -23,7 +23,9 @@ def _force(setup, name):
 def _palpate(setup):
     with measure.Server(setup, locked=False):
         watched = {name: _force(setup, name) for name in VIEWERS}
+        seen = measure.latency(setup, measure.SWEEP_RATE, fields=True)
     found = dict(watched["0"])
+    found["pose_to_field"] = seen["pose_to_field"]
     found["force_with_viewers"] = {name: one["pose_to_force"] for name, one in watched.items()}
     found["force_less_wait_with_viewers"] = {name: one["pose_to_force_less_wait"] for name, one in watched.items()}
     return found

@@ -15,6 +15,7 @@ ROWS = (
     ("round trip: pose to force", ("pose_to_force",), None, (None, None)),
     ("  less the wait for the tick", ("pose_to_force_less_wait",), ("ddsperf_roundtrip",), (3.0, None)),
     ("  with phase lock", ("pose_to_force_phase_locked",), None, (None, None)),
+    ("pose to field", ("pose_to_field",), None, (None, None)),
     ("pose to force, 1 viewer", ("force_with_viewers", "1"), ("force_with_viewers", "0"), (None, None)),
     ("pose to force, 4 viewers", ("force_with_viewers", "4"), ("force_with_viewers", "0"), (None, None)),
     ("  1 of 4 stopped, 1 slow", ("force_with_viewers", "4_one_stopped"), ("force_with_viewers", "0"), (None, 1.2)),

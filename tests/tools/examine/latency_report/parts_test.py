@@ -19,7 +19,8 @@ def times(p50, p99, largest=0.0):
 
 def results(**changed):
     """Results in which every time is 100 us at the median and 200 us at p99, but for those named."""
-    all_keys = ("cyclictest", "wakeup", "tick", "ddsperf_roundtrip", "pose_to_force", "pose_to_force_less_wait")
+    all_keys = ("cyclictest", "wakeup", "tick", "ddsperf_roundtrip", "pose_to_force", "pose_to_force_less_wait",
+                "pose_to_field")
     found = {key: times(100.0, 200.0) for key in all_keys}
     found["pose_to_force_phase_locked"] = None
     for key in ("force_with_viewers", "force_less_wait_with_viewers"):
