@@ -17,17 +17,26 @@ namespace palpate {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// A vector of a row: as it lies, or whole numbers made floats.
+template <class D, typename Number>
+HWY_INLINE hn::Vec<D> load(D d, const Number* from) {
+  if constexpr (hwy::IsSame<Number, hn::TFromD<D>>())
+    return hn::LoadU(d, from);
+  else
+    return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<D>(), hn::LoadU(hn::Rebind<Number, D>(), from)));
+}
+
 /// y = base + sum over four rows of weight * row; base is y or zero.
-template <bool kOntoY, typename T>
-HWY_INLINE void mixFour(const T* const (&a)[4], const T (&w)[4], std::size_t length, T* y) {
+template <bool kOntoY, typename Number, typename T>
+HWY_INLINE void mixFour(const Number* const (&a)[4], const T (&w)[4], std::size_t length, T* y) {
   const hn::ScalableTag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   const auto w0 = hn::Set(d, w[0]), w1 = hn::Set(d, w[1]), w2 = hn::Set(d, w[2]), w3 = hn::Set(d, w[3]);
   std::size_t i = 0;
   for (; i + lanes <= length; i += lanes) {
     const auto base = kOntoY ? hn::LoadU(d, y + i) : hn::Zero(d);
-    const auto even = hn::MulAdd(w0, hn::LoadU(d, a[0] + i), hn::Mul(w2, hn::LoadU(d, a[2] + i)));
-    const auto odd = hn::MulAdd(w1, hn::LoadU(d, a[1] + i), hn::MulAdd(w3, hn::LoadU(d, a[3] + i), base));
+    const auto even = hn::MulAdd(w0, load(d, a[0] + i), hn::Mul(w2, load(d, a[2] + i)));
+    const auto odd = hn::MulAdd(w1, load(d, a[1] + i), hn::MulAdd(w3, load(d, a[3] + i), base));
     hn::StoreU(hn::Add(even, odd), d, y + i);
   }
   for (; i < length; ++i)
@@ -35,14 +44,14 @@ HWY_INLINE void mixFour(const T* const (&a)[4], const T (&w)[4], std::size_t len
 }
 
 /// Four rows at a time: one pass over y for four over the rows. What is missing of the last four has weight 0.
-template <bool kOntoY, typename T, typename RowAt>
-HWY_INLINE void mixAll(RowAt rowAt, const T* weight, std::size_t rows, std::size_t length, T* y) {
+template <bool kOntoY, typename T, typename RowAt, typename WeightOf>
+HWY_INLINE void mixAll(RowAt rowAt, WeightOf weightOf, std::size_t rows, std::size_t length, T* y) {
   for (std::size_t r = 0; r < rows; r += 4) {
-    const T* a[4];
+    decltype(rowAt(r)) a[4];
     T w[4];
     for (std::size_t k = 0; k < 4; ++k) {
       a[k] = rowAt(std::min(r + k, rows - 1));
-      w[k] = r + k < rows ? weight[r + k] : T{0};
+      w[k] = r + k < rows ? weightOf(r + k) : T{0};
     }
     if (kOntoY || r > 0)
       mixFour<true>(a, w, length, y);
@@ -89,9 +98,9 @@ HWY_INLINE void dotAll(RowAt rowAt, const T* y, std::size_t rows, std::size_t le
   }
 }
 
-void AddWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
-                     std::size_t length, float* y) {
-  mixAll<true>([=](std::size_t r) { return A + r * stride; }, weight, rows, length, y);
+void AddRows(const ScaledRows& rows, const float* weight, float* y) {
+  mixAll<true>([&](std::size_t r) { return rows.A + r * rows.length; },
+               [&](std::size_t r) { return weight[r] * rows.scale[r]; }, rows.count, rows.length, y);
 }
 
 bool AllFinite(const float* x, std::size_t length) {
@@ -132,7 +141,8 @@ void MixPlacedRows(const Rows& rows, const double* weight, std::size_t length, d
   const auto rowAt = [&](std::size_t r) {
     return rows.A + rows.stride * static_cast<std::size_t>(rows.row[r]);
   };
-  mixAll<false>(rowAt, weight, rows.count, length, y);
+  mixAll<false>(
+      rowAt, [=](std::size_t r) { return weight[r]; }, rows.count, length, y);
 }
 
 void DotPlacedRows(const Rows& rows, const double* y, std::size_t length, double* out) {
@@ -151,7 +161,7 @@ namespace palpate {
 
 PALPATE_TRUSTED_BEGIN  // the table of instruction sets begins with a function that asks the processor, before the loop
 
-    HWY_EXPORT(AddWeightedRows);
+    HWY_EXPORT(AddRows);
 HWY_EXPORT(DotRows);
 HWY_EXPORT(AllFinite);
 HWY_EXPORT(MixInto);
@@ -162,9 +172,8 @@ void chooseKernels() noexcept {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
-                     std::size_t length, float* y) noexcept PALPATE_NONBLOCKING {
-  HWY_DYNAMIC_DISPATCH(AddWeightedRows)(A, stride, weight, rows, length, y);
+void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddRows)(rows, weight, y);
 }
 
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,

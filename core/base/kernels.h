@@ -15,9 +15,16 @@ namespace palpate {
 /// Takes it before the loop. Threads: any; no other kernel may run meanwhile for the first time.
 void chooseKernels() noexcept;
 
-/// y[i] += sum over `rows` rows of weight[r] * A[r * stride + i], i < length. y stays in the first-level cache while A streams past once. Real-time: yes.
-void addWeightedRows(const float* A, std::size_t stride, const float* weight, std::size_t rows,
-                     std::size_t length, float* y) noexcept PALPATE_NONBLOCKING;
+/// Rows of whole numbers that follow each other, with a scale each: number i of row r is scale[r] * A[r * length + i].
+struct ScaledRows {
+  const std::int16_t* A;
+  const float* scale;
+  std::size_t count;
+  std::size_t length;
+};
+
+/// y += sum_r weight[r] * row r. y stays in the first-level cache while A streams past once. Real-time: yes.
+void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING;
 
 /// out[r] = sum over i < length of A[r * stride + i] * y[i]. Real-time: yes.
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,

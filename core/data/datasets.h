@@ -40,17 +40,16 @@ inline constexpr Dataset<double> kContactDisplacement{"contact/displacement", {"
 /// "level" models only.
 inline constexpr Dataset<double> kLevelsZ{"levels/Z", {"C", "L + 1"}, ""};
 
-inline constexpr Dataset<float> kModesX{"modes/X", {"n", "3 Ns"}, ""};
-inline constexpr Dataset<float> kModesY{"modes/Y", {"M", "C", "n"}, "m"};
-// Modes in mixed precision: all four, or none.
-inline constexpr Dataset<std::int16_t> kModesInt16{"modes/int16", {"tiles", "pairs", "tile", "2"}, ""};
-inline constexpr Dataset<std::uint8_t> kModesBytes{"modes/bytes", {"tiles", "quads", "tile", "4"}, ""};
-inline constexpr Dataset<float> kModesScale{"modes/scale", {"packed"}, ""};
-inline constexpr Dataset<std::int32_t> kModesKinds{"modes/kinds", {"kinds"}, ""};
+// Fields are whole numbers; a number is its block's scale times these, and has the scale's unit.
+inline constexpr Dataset<std::int16_t> kModesX{"modes/X", {"n", "3 Ns"}, ""};
+inline constexpr Dataset<float> kModesXScale{"modes/X_scale", {"n"}, ""};
+inline constexpr Dataset<std::int16_t> kModesY{"modes/Y", {"M", "C", "n"}, ""};
+inline constexpr Dataset<float> kModesYScale{"modes/Y_scale", {"M", "C"}, "m"};
 
 inline constexpr Dataset<std::int64_t> kNearOffset{"near/offset", {"M + 1"}, ""};
 inline constexpr Dataset<std::int32_t> kNearNode{"near/node", {"sum K"}, ""};
-inline constexpr Dataset<float> kNearField{"near/field", {"3 C sum K"}, "m"};
+inline constexpr Dataset<std::int16_t> kNearField{"near/field", {"3 C sum K"}, ""};
+inline constexpr Dataset<float> kNearScale{"near/scale", {"M", "C"}, "m"};
 
 inline constexpr Dataset<double> kMeshNodes{"mesh/nodes", {"N", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kMeshTetrahedra{"mesh/tetrahedra", {"V", "4"}, ""};

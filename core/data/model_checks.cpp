@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,7 +14,6 @@
 #include "core/data/checker.h"
 #include "core/data/datasets.h"
 #include "core/data/load_driven_checks.h"
-#include "core/data/packed_modes.h"
 
 namespace palpate {
 
@@ -110,45 +110,13 @@ void checkNearOnce(const ModelView& v, const Checker& check) {
   }
 }
 
-/// A larger scale would round a mode to nothing, or its weight would leave no range to the others.
-void checkScales(const ModelView& v, const ModeCounts& counts, const Checker& check) {
-  const std::size_t numbers = 3 * v.surfaceNodes();
-  for (std::size_t k = 0; k < v.modes_packed.scale.size(); ++k) {
-    const float scale = v.modes_packed.scale[k];
-    if (!(std::isfinite(scale) && scale > 0.0F))
-      check.failAt(dataset::kModesScale.name(), k, "is " + digitsOf(scale), "more than 0");
-    float most = 0.0F;
-    for (const float x : v.modes_X.subspan((counts.f32 + k) * numbers, numbers))
-      most = std::max(most, std::abs(x));
-    const float top = k < counts.i16 ? 32767.0F : 94.0F;  // a shared byte takes 33 of 127
-    const float largest = 1.1F * std::max(most / top, kLeastScale);
-    if (scale > largest)
-      check.failAt(dataset::kModesScale.name(), k, "is " + digitsOf(scale),
-                   "at most " + digitsOf(largest) + ", as " + dataset::kModesX.name() + " is");
-  }
-}
-
-/// The packed modes are those of X, rounded.
-void checkPacked(const ModelView& v, const Checker& check) {
-  const PackedModes& packed = v.modes_packed;
-  const std::size_t numbers = 3 * v.surfaceNodes();
-  const ModeCounts counts = countModes(packed, v.modes());
-  const std::size_t most = std::max(counts.i16, counts.inBytes());
-  check.require(most <= kMostPackedModes,
-                dataset::kModesKinds.name() + " has " + std::to_string(most) + " modes in int16 or in bytes",
-                "at most " + std::to_string(kMostPackedModes));
-  checkScales(v, counts, check);
-  for (std::size_t mode = counts.f32; mode < v.modes(); ++mode) {
-    const float bound = 1.02F * roundingOf(packed, counts, mode);
-    for (std::size_t i = 0; i < numbers; ++i) {
-      const float x = v.modes_X[mode * numbers + i], found = unpack(packed, counts, mode, i);
-      if (!(std::abs(found - x) <= bound))
-        check.failAt(mode < counts.f32 + counts.i16
-                         ? dataset::kModesInt16.name() + ", of " + dataset::kModesX.name()
-                         : dataset::kModesBytes.name() + ", of " + dataset::kModesX.name(),
-                     mode * numbers + i, "is " + digitsOf(found), digitsOf(x) + " within " + digitsOf(bound));
-    }
-  }
+/// Of fields: above zero, and so that every number is finite.
+void checkScale(const std::string& name, std::span<const float> scale, const Checker& check) {
+  constexpr float kLargest = std::numeric_limits<float>::max() / 32768.0F;
+  for (std::size_t i = 0; i < scale.size(); ++i)
+    if (!(scale[i] > 0.0F && scale[i] <= kLargest))
+      check.failAt(name, i, "is " + digitsOf(double(scale[i])),
+                   "more than 0, at most " + digitsOf(double(kLargest)));
 }
 
 void checkFinite(const ModelView& v, const Checker& check) {
@@ -156,9 +124,6 @@ void checkFinite(const ModelView& v, const Checker& check) {
   check.finite(dataset::kContactForce.name(), v.contact_force);
   check.finite(dataset::kContactDisplacement.name(), v.contact_displacement);
   check.finite(dataset::kContactDomainRadius.name(), v.contact_domain_radius);
-  check.finite(dataset::kModesX.name(), v.modes_X);
-  check.finite(dataset::kModesY.name(), v.modes_Y);
-  check.finite(dataset::kNearField.name(), v.near_field);
   check.finite(dataset::kMeshNodes.name(), v.mesh_nodes);
 }
 
@@ -199,7 +164,9 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   checkFinite(v, check);
   check.indices(dataset::kSurfaceTriangles.name(), v.surface_triangles, v.surfaceNodes());
   checkTrianglesAtNodes(v, check);
-  checkPacked(v, check);
+  checkScale(dataset::kModesXScale.name(), v.modes_X_scale, check);
+  checkScale(dataset::kModesYScale.name(), v.modes_Y_scale, check);
+  checkScale(dataset::kNearScale.name(), v.near_scale, check);
   checkPositions(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
   checkNear(v, check);

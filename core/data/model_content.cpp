@@ -66,15 +66,6 @@ std::uint64_t lengthOf(std::string_view symbol, const LengthTable& lengths) {
   return error == std::errc() && end == symbol.data() + symbol.size() ? number : lengths.at(symbol);
 }
 
-void addPacked(const ModelView& v, LengthTable& size) {
-  if (v.modes_packed.empty()) return;
-  const ModeCounts counts = countModes(v.modes_packed, v.modes());
-  size["tiles"] = v.modes_packed.tiles;
-  size["pairs"] = counts.pairs();
-  size["quads"] = counts.quads();
-  size["packed"] = counts.packed();
-}
-
 }  // namespace
 
 LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
@@ -89,8 +80,6 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
                    {"M + 1", M + 1},
                    {"C", C},
                    {"n", v.modes()},
-                   {"kinds", kPackedKinds},
-                   {"tile", kTile},
                    {"sum K", v.near_node.size()},
                    {"3 C sum K", v.near_field.size()},
                    {"N", v.mesh_node_tag.size()},
@@ -98,7 +87,6 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
                    {"F", v.mesh_fixed.size()}};
   if (level) size["L + 1"] = C == 0 ? 0 : v.levels_Z.size() / C;
   if (a.parameters == Parameters::kDisplacement) size["Cf"] = sizeOf(a.force_order);
-  addPacked(v, size);
   return size;
 }
 

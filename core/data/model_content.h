@@ -51,16 +51,13 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
   if (a.parameters != Parameters::kDisplacement) visit(dataset::kContactDisplacement, v.contact_displacement);
   if (a.parameters == Parameters::kLevel) visit(dataset::kLevelsZ, v.levels_Z);
   visit(dataset::kModesX, v.modes_X);
+  visit(dataset::kModesXScale, v.modes_X_scale);
   visit(dataset::kModesY, v.modes_Y);
-  if (!v.modes_packed.empty()) {
-    visit(dataset::kModesInt16, v.modes_packed.X16);
-    visit(dataset::kModesBytes, v.modes_packed.X8);
-    visit(dataset::kModesScale, v.modes_packed.scale);
-    visit(dataset::kModesKinds, v.modes_packed.kinds);
-  }
+  visit(dataset::kModesYScale, v.modes_Y_scale);
   visit(dataset::kNearOffset, v.near_offset);
   visit(dataset::kNearNode, v.near_node);
   visit(dataset::kNearField, v.near_field);
+  visit(dataset::kNearScale, v.near_scale);
   visit(dataset::kMeshNodes, v.mesh_nodes);
   visit(dataset::kMeshTetrahedra, v.mesh_tetrahedra);
   visit(dataset::kMeshNodeTag, v.mesh_node_tag);

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/data/model_reader.h"
 
-#include <algorithm>
-#include <array>
-
 #include "core/base/multi_index.h"
 #include "core/data/datasets.h"
 #include "core/data/hdf5_reader.h"
 #include "core/data/model_checks.h"
-#include "core/data/packed_modes.h"
 
 namespace palpate {
 
@@ -98,58 +94,18 @@ void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size
   v.contact_domain_radius = file.dataset(dataset::kContactDomainRadius, size);
 }
 
-/// How many modes are packed in each way, none of them more than there are.
-std::uint64_t readKinds(const Hdf5Reader& file, Lengths& size, PackedModes& packed) {
-  size.define("kinds", kPackedKinds);
-  packed.kinds = file.dataset(dataset::kModesKinds, size);
-  std::int64_t sum = 0;
-  for (std::size_t k = 0; k < kPackedKinds; ++k) {
-    if (packed.kinds[k] < 0)
-      file.fail(dataset::kModesKinds.name() + " number " + std::to_string(k) + " is " +
-                std::to_string(packed.kinds[k]) + ", expected at least 0");
-    sum += packed.kinds[k];
-  }
-  if (static_cast<std::uint64_t>(sum) > size.value("n"))
-    file.fail(dataset::kModesKinds.name() + " adds up to " + std::to_string(sum) + ", expected at most " +
-              size["n"].text());
-  return static_cast<std::uint64_t>(sum);
-}
-
-/// Modes in mixed precision, of files that have them.
-void readPacked(const Hdf5Reader& file, Lengths& size, PackedModes& packed) {
-  const auto has = [&](const char* path) { return file.hasDataset(path); };
-  for (const char* old : {"modes/X16", "modes/X8", "modes/scale16", "modes/scale8"})  // never released
-    if (has(old))
-      file.fail(std::string("/") + old + " is a storage of modes that is no longer read, expected " +
-                dataset::kModesInt16.name() + ", bytes, scale and kinds: solve the model again");
-  constexpr std::array kAll{dataset::kModesKinds.path, dataset::kModesScale.path, dataset::kModesInt16.path,
-                            dataset::kModesBytes.path};  // or none of them
-  if (std::none_of(kAll.begin(), kAll.end(), has)) return;
-  size.define("packed", readKinds(file, size, packed));
-  packed.scale = file.dataset(dataset::kModesScale, size);
-  const ModeCounts counts = countModes(packed, static_cast<std::size_t>(size.value("n")));
-  size.define("pairs", counts.pairs());
-  size.define("quads", counts.quads());
-  size.define("tile", kTile);
-  packed.X16 = file.dataset(dataset::kModesInt16, size);
-  packed.X8 = file.dataset(dataset::kModesBytes, size);
-  const std::size_t most = tilesOf(3 * size.value("Ns"));
-  if (size.value("tiles") > most)
-    file.fail(dataset::kModesInt16.name() + " has " + size["tiles"].text() + ", expected at most " +
-              std::to_string(most));
-  packed.tiles = static_cast<std::size_t>(size.value("tiles"));
-}
-
 void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   size.define("3 Ns", 3 * size.value("Ns"));
   v.modes_X = file.dataset(dataset::kModesX, size);
+  v.modes_X_scale = file.dataset(dataset::kModesXScale, size);
   v.modes_Y = file.dataset(dataset::kModesY, size);
-  readPacked(file, size, v.modes_packed);
+  v.modes_Y_scale = file.dataset(dataset::kModesYScale, size);
   size.define("M + 1", size.value("M") + 1);
   v.near_offset = file.dataset(dataset::kNearOffset, size);
   v.near_node = file.dataset(dataset::kNearNode, size);
   size.define("3 C sum K", 3 * size.value("C") * size.value("sum K"));
   v.near_field = file.dataset(dataset::kNearField, size);
+  v.near_scale = file.dataset(dataset::kNearScale, size);
 }
 
 void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {

@@ -8,8 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/data/packed_modes.h"
-
 namespace palpate {
 
 /// What is prescribed at the contact: the parameter of a model beside s.   docs/design.md, Reproduction, Series
@@ -67,18 +65,20 @@ struct ModelView {
       contact_accessible;                        ///< [M] 1: accessible; 0: helper for interpolation beside it
   std::span<const double> contact_force;         ///< [M][Cf][3] f_alpha d_ref^|alpha|, N; "displacement" only
   std::span<const double> contact_displacement;  ///< [M][C][3] d_alpha, m; "force" and "level" only
-  std::span<const double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
-  std::span<const double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
-  std::size_t level_functions{0};                      ///< C of a "level" model, else 0
-  std::span<const float> modes_X;                      ///< [n][Ns][3] dimensionless
-  PackedModes modes_packed;                            ///< the modes as the tick reads them, or empty
-  std::span<const float> modes_Y;                      ///< [M][C][n] scaled, m
-  std::span<const std::int64_t> near_offset;           ///< [M+1] prefix sums of the near nodes' counts
-  std::span<const std::int32_t> near_node;             ///< [sum K] surface nodes
-  std::span<const float> near_field;                   ///< per position [C][K_m][3], windowed, scaled, m
-  std::span<const double> mesh_nodes;                  ///< [N][3] m
-  std::span<const std::int32_t> mesh_tetrahedra;       ///< [V][4]
-  std::span<const std::int64_t> mesh_node_tag;         ///< [N]
+  std::span<const double> contact_domain_radius;  ///< [M] d_max, m, or f_max, N, or t_max
+  std::span<const double> levels_Z;               ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
+  std::size_t level_functions{0};                 ///< C of a "level" model, else 0
+  std::span<const std::int16_t> modes_X;          ///< [n][Ns][3] dimensionless, over their scale
+  std::span<const float> modes_X_scale;           ///< [n]
+  std::span<const std::int16_t> modes_Y;          ///< [M][C][n] scaled, over their scale
+  std::span<const float> modes_Y_scale;           ///< [M][C] m
+  std::span<const std::int64_t> near_offset;      ///< [M+1] prefix sums of the near nodes' counts
+  std::span<const std::int32_t> near_node;        ///< [sum K] surface nodes
+  std::span<const std::int16_t> near_field;       ///< per position [C][K_m][3], windowed, over their scale
+  std::span<const float> near_scale;              ///< [M][C] m
+  std::span<const double> mesh_nodes;             ///< [N][3] m
+  std::span<const std::int32_t> mesh_tetrahedra;  ///< [V][4]
+  std::span<const std::int64_t> mesh_node_tag;    ///< [N]
   std::span<const std::int64_t> mesh_tetrahedron_tag;  ///< [V]
   std::span<const std::int32_t> mesh_fixed;            ///< volume nodes
   std::span<const std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
@@ -86,9 +86,7 @@ struct ModelView {
   [[nodiscard]] std::size_t surfaceNodes() const noexcept { return surface_mesh_tag.size(); }
   [[nodiscard]] std::size_t triangles() const noexcept { return surface_triangles.size() / 3; }
   [[nodiscard]] std::size_t positions() const noexcept { return contact_node.size(); }
-  [[nodiscard]] std::size_t modes() const noexcept {
-    return surface_mesh_tag.empty() ? 0 : modes_X.size() / (3 * surface_mesh_tag.size());
-  }
+  [[nodiscard]] std::size_t modes() const noexcept { return modes_X_scale.size(); }
 };
 
 }  // namespace palpate

@@ -5,29 +5,15 @@
 #include <array>
 
 #include "core/base/index.h"
-#include "core/base/length.h"
 #include "core/model/clamp_to_domain.h"
 
 namespace palpate {
 
 FieldScratch::FieldScratch(const MetaModel& model)
     : amplitudes(static_cast<std::size_t>(model.farField().modes())),
-      near_block(static_cast<std::size_t>(model.nearField().scratchSize())),
-      selection(model.farField().counts()) {}
+      near_block(static_cast<std::size_t>(model.nearField().scratchSize())) {}
 
 namespace {
-
-/// The largest displacement imposed: sources at one place are parts of one tool's.
-double imposed(std::span<const FieldSource> sources) noexcept {
-  double largest = 0.0;
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (i == 0 || !(sources[i].s == sources[i - 1].s)) sum.setZero();
-    sum += sources[i].gain * sources[i].parameter;
-    largest = std::max(largest, lengthOf(sum));
-  }
-  return largest;
-}
 
 /// Visits the sources that the model answers: add(mix, phi, gain).
 template <typename Add>
@@ -61,9 +47,7 @@ void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources
 
 void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<float> u) noexcept PALPATE_NONBLOCKING {
-  const bool displaced = model.attributes().parameters == Parameters::kDisplacement;
-  const double unseen = displaced ? kUnseenShare * imposed(sources) : 0.0;
-  model.farField().expand(scratch.amplitudes, static_cast<float>(unseen), scratch.selection, u);
+  model.farField().expand(scratch.amplitudes, u);
   forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
     model.nearField().add(mix, phi, gain, scratch.near_block, u);
   });

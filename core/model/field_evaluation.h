@@ -7,7 +7,6 @@
 #include "core/base/contact_point.h"
 #include "core/base/types.h"
 #include "core/model/meta_model.h"
-#include "core/model/mode_selection.h"
 
 namespace palpate {
 
@@ -16,11 +15,7 @@ struct FieldScratch {
   explicit FieldScratch(const MetaModel& model);
   std::vector<float> amplitudes;  ///< [n] y, m
   std::vector<float> near_block;  ///< NearField::scratchSize()
-  ModeSelection selection;        ///< of SeparatedField::expand()
 };
-
-/// Modes left out of a field may together move a node by this share of the largest displacement imposed.
-inline constexpr double kUnseenShare = 2e-4;
 
 /// One tool's part in a field.
 struct FieldSource {
@@ -33,8 +28,7 @@ struct FieldSource {
   }
 };
 
-/// Displacement of the surface nodes, far plus near field, superposed over the tools (docs/design.md, Parts). Of a "displacement"
-/// model, packed modes that together are below kUnseenShare of the largest displacement imposed are left out.
+/// Displacement of the surface nodes, far plus near field, superposed over the tools (docs/design.md, Parts).
 /// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Real-time: yes.
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;

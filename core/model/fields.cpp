@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "core/base/index.h"
 #include "core/base/kernels.h"
 #include "core/base/multi_index.h"
-#include "core/model/mode_tiles.h"
-#include "core/model/node_by_node.h"
 
 namespace palpate {
 
@@ -38,23 +34,15 @@ Weights scaled(std::span<const double> phi, double factor) noexcept {
 SeparatedField::SeparatedField(const ModelView& view)
     : X_(view.modes_X),
       Y_(view.modes_Y),
+      X_scale_(view.modes_X_scale),
+      Y_scale_(view.modes_Y_scale),
       modes_(static_cast<int>(view.modes())),
-      packed_(view.modes_packed),
-      counts_(countModes(packed_, view.modes())),
-      peak_(view.modes(), 0.0F),
-      by_node_(nodeByNode(X_, view.modes())) {
-  const std::size_t numbers = 3 * view.surfaceNodes();
-  for (std::size_t k = 0; k < peak_.size(); ++k) {
-    const float* const x = X_.data() + k * numbers;
-    for (std::size_t i = 0; i < numbers; i += 3)
-      peak_[k] = std::max(peak_[k], std::hypot(x[i], x[i + 1], x[i + 2]));
-  }
+      by_node_(X_.size()) {
+  const std::size_t n = view.modes(), numbers = 3 * view.surfaceNodes();
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < numbers; ++i)
+      by_node_[i * n + k] = X_scale_[k] * static_cast<float>(X_[k * numbers + i]);
   chooseKernels();
-}
-
-std::size_t SeparatedField::bytes() const noexcept {
-  const std::size_t numbers = peak_.empty() ? 0 : X_.size() / peak_.size();
-  return sizeof(float) * counts_.f32 * numbers + packed_.X16.size_bytes() + packed_.X8.size_bytes();
 }
 
 void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
@@ -62,25 +50,14 @@ void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const doubl
   const std::size_t n = y.size();
   for (std::size_t b = 0; b < index(mix.count); ++b) {
     const Weights weight = scaled(phi, gain * mix.weight[b]);
-    const float* const Y = Y_.data() + index(mix.position[b]) * phi.size() * n;
-    addWeightedRows(Y, n, weight.data(), used(phi), n, y.data());
+    const std::size_t first = index(mix.position[b]) * phi.size();
+    addRows({Y_.data() + first * n, Y_scale_.data() + first, used(phi), n}, weight.data(), y.data());
   }
 }
 
-void SeparatedField::expand(std::span<const float> y, float unseen, ModeSelection& use,
-                            std::span<float> u) const noexcept PALPATE_NONBLOCKING {
-  const bool onto = counts_.f32 > 0 || packed_.empty();
-  if (onto) {
-    std::fill(u.begin(), u.end(), 0.0F);
-    addWeightedRows(X_.data(), u.size(), y.data(), counts_.f32, u.size(), u.data());
-  }
-  if (packed_.empty()) return;
-  use.choose(y, peak_, packed_, unseen);
-  const TileWeights weights{use.pairs16().data(), use.weights16(),     use.pairs16().size(),
-                            use.unit16(),         use.quads8().data(), use.weights8(),
-                            use.quads8().size(),  use.unit8(),         use.start8()};
-  sumTiles(packed_, counts_.pairs(), counts_.quads(), weights, onto, u);
-  if (!use.finite()) std::fill(u.begin(), u.end(), std::numeric_limits<float>::quiet_NaN());
+void SeparatedField::expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
+  std::fill(u.begin(), u.end(), 0.0F);
+  addRows({X_.data(), X_scale_.data(), y.size(), u.size()}, y.data(), u.data());
 }
 
 Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING {
@@ -90,7 +67,7 @@ Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPA
 }
 
 NearField::NearField(const ModelView& view)
-    : offset_(view.near_offset), node_(view.near_node), field_(view.near_field) {
+    : offset_(view.near_offset), node_(view.near_node), field_(view.near_field), scale_(view.near_scale) {
   std::int64_t most = 0;
   for (std::size_t m = 0; m + 1 < offset_.size(); ++m) most = std::max(most, offset_[m + 1] - offset_[m]);
   scratch_size_ = static_cast<int>(3 * most) + static_cast<int>(view.surfaceNodes());
@@ -108,8 +85,8 @@ NearField::Block NearField::block(std::int32_t position, std::span<const double>
   const std::span<float> u = scratch.first(3 * nodes);
   std::fill(u.begin(), u.end(), 0.0F);
   const Weights weight = scaled(phi, factor);
-  const float* const field = field_.data() + 3 * phi.size() * first;
-  addWeightedRows(field, 3 * nodes, weight.data(), used(phi), 3 * nodes, u.data());
+  const std::int16_t* const field = field_.data() + 3 * phi.size() * first;
+  addRows({field, scale_.data() + m * phi.size(), used(phi), 3 * nodes}, weight.data(), u.data());
   return {node_.subspan(first, nodes), u};
 }
 
@@ -119,10 +96,11 @@ Vec3 NearField::at(std::int32_t position, std::span<const double> phi,
   const auto place = std::find(list.begin(), list.end(), node) - list.begin();
   Vec3 u = Vec3::Zero();
   if (place == std::ssize(list)) return u;
-  const float* field = field_.data() + 3 * (phi.size() * index(offset_[index(position)]) + index(place));
-  for (const double weight : phi.first(used(phi))) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) u[axis] += weight * double(field[axis]);
-    field += 3 * list.size();
+  const std::size_t m = index(position);
+  const std::int16_t* field = field_.data() + 3 * (phi.size() * index(offset_[m]) + index(place));
+  for (std::size_t k = 0; k < used(phi); ++k, field += 3 * list.size()) {
+    const double weight = phi[k] * double(scale_[m * phi.size() + k]);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) u[axis] += weight * field[axis];
   }
   return u;
 }

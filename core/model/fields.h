@@ -9,43 +9,30 @@
 #include "core/base/contact_point.h"
 #include "core/base/types.h"
 #include "core/data/model_view.h"
-#include "core/data/packed_modes.h"
-#include "core/model/mode_selection.h"
 
 namespace palpate {
 
 /// The far field, and all of a load-driven model's:                       docs/design.md, Reproduction, Parts
 ///   u(X; s, p) = sum_k X_k(X) y_k,   y_k = sum_b lambda_b sum_alpha phi_alpha(p) Y_{k,alpha}(p_b)
-/// Linear in y: the y of several tools add up before the one product with X, which reads the packed modes where the
-/// file has them. Borrows the model's arrays.
+/// Linear in y: the y of several tools add up before the one product with X. Borrows the model's arrays.
 class SeparatedField {
  public:
   explicit SeparatedField(const ModelView& view);
 
   [[nodiscard]] int modes() const noexcept { return modes_; }
-  /// How many of them are kept in which precision.
-  [[nodiscard]] const ModeCounts& counts() const noexcept { return counts_; }
-  /// Bytes of modes that expand() reads when it leaves out none.
-  [[nodiscard]] std::size_t bytes() const noexcept;
   /// y += gain * (the mode amplitudes of one tool), m.
   /// @param phi  [C] ParameterFunctions at p, @param y  [n]. Cost O(C n). Real-time: yes.
   void addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
-  /// u = X^T y, m; packed modes that together cannot move a node by more than `unseen` are left out. NaN where y
-  /// overflows. @param unseen  m, 0 for none  @param use  scratch  @param u  [Ns][3]
-  /// Cost O(n Ns). Real-time: yes.
-  void expand(std::span<const float> y, float unseen, ModeSelection& use,
-              std::span<float> u) const noexcept PALPATE_NONBLOCKING;
-  /// u of one surface node, m, as expand() gives it but for rounding and what it leaves out. Cost O(n). Real-time: yes.
+  /// u = X^T y, m. @param u  [Ns][3]. Cost O(n Ns). Real-time: yes.
+  void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
+  /// u of one surface node, m, as expand() gives it but for rounding. Cost O(n). Real-time: yes.
   [[nodiscard]] Vec3 at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  std::span<const float> X_;
-  std::span<const float> Y_;
+  std::span<const std::int16_t> X_, Y_;
+  std::span<const float> X_scale_, Y_scale_;
   int modes_;
-  PackedModes packed_;
-  ModeCounts counts_;
-  std::vector<float> peak_;     // [n] largest displacement of a node in each mode
   std::vector<float> by_node_;  // [Ns][3][n] X, so that one node's numbers lie together
 };
 
@@ -79,7 +66,8 @@ class NearField {
  private:
   std::span<const std::int64_t> offset_;
   std::span<const std::int32_t> node_;
-  std::span<const float> field_;
+  std::span<const std::int16_t> field_;
+  std::span<const float> scale_;
   int scratch_size_{0};
 };
 

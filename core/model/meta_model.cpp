@@ -21,8 +21,8 @@ void compare(const std::string& name, const char* what, const std::string& store
                     stored.substr(0, 64) + ": it was damaged or changed after it was written");
 }
 
-/// At most about what the model's tables take beside the copy: modes node by node, twice while they are made, their
-/// averages over patches and the patches themselves, the contact's answer in rows, and the refined surface with its
+/// At most about what the model's tables take beside the copy: modes node by node in float32, their averages over
+/// patches and the patches themselves, the contact's answer in rows, and the refined surface with its
 /// search tree.
 std::uint64_t bytesOfTables(const ModelView& v) {
   constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have

@@ -9,7 +9,6 @@
 
 #include "core/base/index.h"
 #include "core/base/kernels.h"
-#include "core/model/node_by_node.h"
 #include "core/surface/surface_distance.h"
 
 namespace palpate {
@@ -68,12 +67,18 @@ void PatchAverage::findPatches(const ModelView& view, double a) {
 }
 
 void PatchAverage::averageModes(const ModelView& view) {
-  const std::vector<float> X = nodeByNode(view.modes_X, modes_);
-  const std::size_t row = 3 * modes_;
-  averaged_.assign(centre_.size() * row, 0.0F);
-  for (std::size_t m = 0; m < centre_.size(); ++m)
-    for (std::size_t i = first_[m]; i < first_[m + 1]; ++i)
-      addWeightedRows(X.data() + index(node_[i]) * row, row, &weight_[i], 1, row, averaged_.data() + m * row);
+  const std::size_t numbers = 3 * view.surfaceNodes();
+  averaged_.resize(3 * centre_.size() * modes_);
+  for (std::size_t k = 0; k < modes_; ++k)  // one mode at a time: it stays in the first-level cache
+    for (std::size_t m = 0; m < centre_.size(); ++m) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (std::size_t i = first_[m]; i < first_[m + 1]; ++i)
+        sum += weight_[i] * Eigen::Map<const Eigen::Matrix<std::int16_t, 3, 1>>(
+                                view.modes_X.data() + k * numbers + 3 * index(node_[i]))
+                                .cast<float>();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        averaged_[(3 * m + axis) * modes_ + k] = view.modes_X_scale[k] * sum[Eigen::Index(axis)];
+    }
 }
 
 void PatchAverage::measureReach(const ModelView& view) {

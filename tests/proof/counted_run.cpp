@@ -104,8 +104,7 @@ CountedRun countTicks(const CountedOptions& options) {
   const std::uint32_t domain = palpate::testing::exclusiveDomain();
   const palpate::testing::TemporaryFile round("counted.h5");
   const std::string path = options.model.empty() ? round.path().string() : options.model;
-  if (options.model.empty())
-    palpate::testing::writeSyntheticModel(round.path(), {.modes = 24, .mixed_error = 1.0});
+  if (options.model.empty()) palpate::testing::writeSyntheticModel(round.path(), {.modes = 24});
   const MetaModel model = MetaModel::load(path);
   const SharedCounts counts;
   const auto server = startServer(path, domain, counts, options.mistake);

@@ -7,7 +7,6 @@
 
 #include "core/base/multi_index.h"
 #include "core/data/datasets.h"
-#include "core/data/packed_modes.h"
 
 namespace palpate::modelfile {
 
@@ -65,29 +64,6 @@ void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t 
   expectSize(dataset::kNearField.name(), d.near_field.size(), 3 * C * d.near_node.size());
 }
 
-void checkPacked(const ModelData& d, std::size_t Ns) {
-  const PackedModesData& packed = d.modes_packed;
-  expectSize(dataset::kModesKinds.name(), packed.kinds.size(), packed.scale.empty() ? 0 : kPackedKinds);
-  std::size_t modes = 0;
-  for (const std::int32_t kind : packed.kinds) {
-    if (kind < 0)
-      throw ModelFileError(dataset::kModesKinds.name() + " has " + std::to_string(kind) +
-                           ", expected at least 0");
-    modes += static_cast<std::size_t>(kind);
-  }
-  expectSize(dataset::kModesScale.name(), packed.scale.size(), modes);
-  if (modes > modeCount(d))
-    throw ModelFileError(dataset::kModesKinds.name() + " adds up to " + std::to_string(modes) +
-                         ", expected at most " + std::to_string(modeCount(d)));
-  const ModeCounts counts = countModes(packed.view(), modeCount(d));
-  if (packed.tiles > tilesOf(3 * Ns))
-    throw ModelFileError(dataset::kModesInt16.name() + " and bytes have " + std::to_string(packed.tiles) +
-                         " tiles, expected at most " + std::to_string(tilesOf(3 * Ns)));
-  const std::size_t tile_numbers = packed.tiles * kTile;
-  expectSize(dataset::kModesInt16.name(), packed.X16.size(), counts.pairs() * tile_numbers * 2);
-  expectSize(dataset::kModesBytes.name(), packed.X8.size(), counts.quads() * tile_numbers * 4);
-}
-
 void checkMesh(const ModelData& d) {
   expectSize(dataset::kMeshNodes.name(), d.mesh_nodes.size(), 3 * d.mesh_node_tag.size());
   expectSize(dataset::kMeshTetrahedra.name(), d.mesh_tetrahedra.size(), 4 * d.mesh_tetrahedron_tag.size());
@@ -119,7 +95,6 @@ void checkSizes(const ModelData& data) {
   checkContact(data, M, C);
   checkLevels(data, C);
   checkFields(data, Ns, M, C);
-  checkPacked(data, Ns);
   checkMesh(data);
 }
 

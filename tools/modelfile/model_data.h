@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/data/model_view.h"
-#include "core/data/packed_modes.h"
 
 namespace palpate::modelfile {
 
@@ -22,18 +21,7 @@ class ModelFileError : public std::runtime_error {
   return a.force_order == 0 ? a.order : a.force_order;
 }
 
-/// What PackedModes views.
-struct PackedModesData {
-  std::vector<std::int16_t> X16;
-  std::vector<std::uint8_t> X8;
-  std::vector<float> scale;
-  std::vector<std::int32_t> kinds;
-  std::size_t tiles{0};
-
-  [[nodiscard]] PackedModes view() const { return {X16, X8, scale, kinds, tiles}; }
-};
-
-/// Everything that a model file holds, as vectors. Shapes are row-major as in docs/model_file.md;
+/// Everything that a model file holds, as vectors; the writer rounds the fields to whole numbers. Shapes are row-major as in docs/model_file.md;
 /// Ns surface nodes, T triangles, M contact positions, C coefficients of the fields
 /// (MonomialBasis::size(order), or the number of level functions), n modes, N volume nodes, V tetrahedra.
 /// attributes.parameters chooses the kind; what belongs to the other kinds stays empty. Stored coefficient =
@@ -53,7 +41,6 @@ struct ModelData {
   std::vector<double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
   std::vector<double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::vector<float> modes_X;                      ///< [n][3 Ns]
-  PackedModesData modes_packed;                    ///< storeMixed(), or empty: the tick reads modes_X
   std::vector<float> modes_Y;                      ///< [M][C][n] m
   std::vector<std::int64_t> near_offset;           ///< [M+1]
   std::vector<std::int32_t> near_node;             ///< [sum K]
@@ -65,9 +52,6 @@ struct ModelData {
   std::vector<std::int32_t> mesh_fixed;            ///< volume nodes
   std::vector<std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
 };
-
-/// The same, as core reads it. Borrowed: valid as long as the data are not changed.
-[[nodiscard]] ModelView viewOf(const ModelData& data);
 
 /// n, the number of modes; 0 without a surface.
 [[nodiscard]] inline std::size_t modeCount(const ModelData& d) {

@@ -16,6 +16,7 @@
 #include "core/data/hdf5_handle.h"
 #include "core/data/model_content.h"
 #include "tools/modelfile/check_sizes.h"
+#include "tools/modelfile/pack_fields.h"
 #include "tools/program/write_file.h"
 
 namespace palpate::modelfile {
@@ -166,6 +167,36 @@ void writeProvenance(const Hdf5Handle& file, const std::string& text) {
   writeText(file, "provenance_digest", sha256(std::as_bytes(std::span<const char>(text))).hex());
 }
 
+ModelView viewOf(const ModelData& d, const PackedFields& fields) {
+  ModelView v;
+  v.surface_positions = d.surface_positions;
+  v.surface_triangles = d.surface_triangles;
+  v.surface_mesh_tag = d.surface_mesh_tag;
+  v.position_of_node = d.position_of_node;
+  v.contact_node = d.contact_node;
+  v.contact_accessible = d.contact_accessible;
+  v.contact_force = d.contact_force;
+  v.contact_displacement = d.contact_displacement;
+  v.contact_domain_radius = d.contact_domain_radius;
+  v.levels_Z = d.levels_Z;
+  if (d.attributes.parameters == Parameters::kLevel) v.level_functions = fieldCoefficients(d);
+  v.modes_X = fields.X.whole;
+  v.modes_X_scale = fields.X.scale;
+  v.modes_Y = fields.Y.whole;
+  v.modes_Y_scale = fields.Y.scale;
+  v.near_offset = d.near_offset;
+  v.near_node = d.near_node;
+  v.near_field = fields.near.whole;
+  v.near_scale = fields.near.scale;
+  v.mesh_nodes = d.mesh_nodes;
+  v.mesh_tetrahedra = d.mesh_tetrahedra;
+  v.mesh_node_tag = d.mesh_node_tag;
+  v.mesh_tetrahedron_tag = d.mesh_tetrahedron_tag;
+  v.mesh_fixed = d.mesh_fixed;
+  v.mesh_surface_node = d.mesh_surface_node;
+  return v;
+}
+
 /// The data have to be on the disk before the name points to them: else a crash could leave a name without a
 /// model.
 void sync(const std::string& path) {
@@ -181,7 +212,8 @@ void writeAll(const std::string& path, const ModelData& data) {
   ModelAttributes attributes = data.attributes;
   attributes.force_order = forceOrder(attributes);
   makeGroups(file, attributes);
-  writeContent(file, attributes, viewOf(data));
+  const PackedFields fields = packFields(data);
+  writeContent(file, attributes, viewOf(data, fields));
   writeProvenance(file, attributes.provenance);
   require(file.closeNow(), path);
   sync(path);

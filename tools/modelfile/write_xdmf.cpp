@@ -23,11 +23,13 @@ std::string dataItem(const std::string& file, const Dataset<T>& dataset, const s
          "\">" + file + ":" + dataset.name() + "</DataItem>";
 }
 
-/// Mode k is row k of /modes/X, read as one vector for each surface node.
-std::string mode(const std::string& file, std::size_t k, std::size_t modes, std::size_t nodes) {
+/// Mode k is row k of /modes/X, read as one vector for each surface node: whole numbers, their scale beside them.
+std::string mode(const std::string& file, std::size_t k, const ModelView& v) {
+  const std::size_t modes = v.modes(), nodes = v.surfaceNodes();
   const std::string row = std::to_string(3 * nodes);
   std::ostringstream out;
   out << "      <Attribute Name=\"mode " << k << "\" AttributeType=\"Vector\" Center=\"Node\">\n"
+      << "        <Information Name=\"scale\" Value=\"" << v.modes_X_scale[k] << "\"/>\n"
       << "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"" << nodes << " 3\">\n"
       << "          <DataItem Format=\"XML\" Dimensions=\"3 2\">" << k << " 0  1 1  1 " << row
       << "</DataItem>\n"
@@ -49,7 +51,7 @@ void writeGrid(std::ostream& out, const std::string& file, const ModelView& v) {
       << dataItem(file, dataset::kSurfaceMeshTag, std::to_string(nodes)) << "\n      </Attribute>\n"
       << "      <Attribute Name=\"contact position\" AttributeType=\"Scalar\" Center=\"Node\">\n        "
       << dataItem(file, dataset::kPositionOfNode, std::to_string(nodes)) << "\n      </Attribute>\n";
-  for (std::size_t k = 0; k < v.modes(); ++k) out << mode(file, k, v.modes(), nodes);
+  for (std::size_t k = 0; k < v.modes(); ++k) out << mode(file, k, v);
   out << "    </Grid>\n";
 }
 

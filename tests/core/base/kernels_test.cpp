@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "../instruction_sets.h"
-#include "core/model/byte_weights.h"
 
 namespace palpate::testing {
 
@@ -52,42 +51,34 @@ TEST(Kernels, MixIntoMovesOverByItsShare) {
   }
 }
 
-// Of any two amplitudes: what is left is what the weights do not say, and less than a hundredth of the larger
-// amplitude or 64 units.
-TEST(Kernels, WeighPairsSaysWhatIsLeft) {
-  constexpr std::size_t kPairs = 100, kRoom = pairBlocks(kPairs);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<float> number(-1.0F, 1.0F);
-  std::vector<float> a(kRoom, 0.0F), b(kRoom, 0.0F);
-  for (std::size_t i = 2; i < kPairs; ++i) {
-    a[i] = number(random);
-    b[i] = i % 5 == 0 ? 0.0F : number(random);
-  }
-  a[1] = b[1] = -1.0F;
-  const float unit = 1.0F / (kLeastByte * 32767.0F);
+TEST(Kernels, AddRowsAddsEachRowByItsWeightAndScale) {
   const InstructionSets sets;
-  for (const std::int64_t set : sets.list()) {
-    hwy::SetSupportedTargetsForTest(set);
-    chooseKernels();
-    std::vector<float> even = a, odd = b, left(kRoom);
-    std::vector<std::int16_t> bytes(kRoom), weight(kRoom);
-    const std::int32_t products =
-        weighPairs({even.data(), odd.data(), left.data(), bytes.data(), weight.data()}, kPairs, unit);
-    std::int32_t sum = 0;
-    for (std::size_t i = 0; i < kPairs; ++i) {
-      const auto both = static_cast<std::uint16_t>(bytes[i]);
-      const int first = static_cast<std::int8_t>(both & 255U), second = static_cast<std::int8_t>(both >> 8U);
-      EXPECT_LE(std::abs(first) + std::abs(second), 128);
-      EXPECT_GE(weight[i], 0);
-      sum += weight[i] * (first + second);
-      EXPECT_NEAR(even[i], a[i] - unit * static_cast<float>(weight[i] * first), 1e-6F);
-      EXPECT_NEAR(odd[i], b[i] - unit * static_cast<float>(weight[i] * second), 1e-6F);
-      EXPECT_FLOAT_EQ(left[i], std::max(std::abs(even[i]), std::abs(odd[i])));
-      EXPECT_LT(left[i], 1e-2F * std::max(std::abs(a[i]), std::abs(b[i])) + 64.0F * unit)
-          << hwy::TargetName(set) << ' ' << a[i] << ' ' << b[i];
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> whole(-32768, 32767);
+  std::uniform_real_distribution<float> number(-1.0F, 1.0F);
+  for (const std::size_t count : {0U, 1U, 4U, 7U})
+    for (const std::size_t length : {1U, 8U, 67U}) {
+      std::vector<std::int16_t> A(count * length);
+      std::vector<float> scale(count), weight(count), start(length);
+      for (auto& a : A) a = static_cast<std::int16_t>(whole(random));
+      for (std::size_t r = 0; r < count; ++r) {
+        scale[r] = std::ldexp(1.0F, -static_cast<int>(r) - 15);
+        weight[r] = number(random);
+      }
+      for (float& u : start) u = number(random);
+      for (const std::int64_t set : sets.list()) {
+        hwy::SetSupportedTargetsForTest(set);
+        chooseKernels();
+        std::vector<float> y = start;
+        addRows({A.data(), scale.data(), count, length}, weight.data(), y.data());
+        for (std::size_t i = 0; i < length; ++i) {
+          double expected = double(start[i]);
+          for (std::size_t r = 0; r < count; ++r)
+            expected += double(weight[r]) * double(scale[r]) * A[r * length + i];
+          ASSERT_NEAR(double(y[i]), expected, 1e-6) << hwy::TargetName(set) << ' ' << count << ' ' << i;
+        }
+      }
     }
-    EXPECT_EQ(products, sum) << hwy::TargetName(set);
-  }
 }
 
 }  // namespace palpate::testing

@@ -10,6 +10,7 @@
 
 #include "../load_case.h"
 #include "core/model/meta_model.h"
+#include "tools/modelfile/pack_fields.h"
 
 namespace palpate::testing {
 
@@ -29,11 +30,15 @@ TEST(Load, GivesBackEveryBitThatWasWritten) {
   EXPECT_TRUE(sameBits(d.contact_accessible, v.contact_accessible));
   EXPECT_TRUE(sameBits(d.contact_force, v.contact_force));
   EXPECT_TRUE(sameBits(d.contact_domain_radius, v.contact_domain_radius));
-  EXPECT_TRUE(sameBits(d.modes_X, v.modes_X));
-  EXPECT_TRUE(sameBits(d.modes_Y, v.modes_Y));
+  const modelfile::PackedFields fields = modelfile::packFields(d);
+  EXPECT_TRUE(sameBits(fields.X.whole, v.modes_X));
+  EXPECT_TRUE(sameBits(fields.X.scale, v.modes_X_scale));
+  EXPECT_TRUE(sameBits(fields.Y.whole, v.modes_Y));
+  EXPECT_TRUE(sameBits(fields.Y.scale, v.modes_Y_scale));
   EXPECT_TRUE(sameBits(d.near_offset, v.near_offset));
   EXPECT_TRUE(sameBits(d.near_node, v.near_node));
-  EXPECT_TRUE(sameBits(d.near_field, v.near_field));
+  EXPECT_TRUE(sameBits(fields.near.whole, v.near_field));
+  EXPECT_TRUE(sameBits(fields.near.scale, v.near_scale));
   EXPECT_TRUE(sameBits(d.mesh_nodes, v.mesh_nodes));
   EXPECT_TRUE(sameBits(d.mesh_tetrahedra, v.mesh_tetrahedra));
   EXPECT_TRUE(sameBits(d.mesh_node_tag, v.mesh_node_tag));
@@ -75,7 +80,7 @@ TEST(Load, ModelOutlivesItsFile) {
   modelfile::writeModel(file.path(), goodData());
   const MetaModel model = MetaModel::load(file.path());
   std::filesystem::resize_file(file.path(), 0);
-  EXPECT_TRUE(sameBits(goodData().near_field, model.view().near_field));
+  EXPECT_TRUE(sameBits(modelfile::packFields(goodData()).near.whole, model.view().near_field));
 }
 
 TEST(Load, LeavesNoHandleBehind) {

@@ -26,12 +26,14 @@ std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
     const auto K = static_cast<std::size_t>(v.near_offset[m + 1]) - first;
     for (std::size_t k = 0; k < C; ++k) {
       const double w = mix.weight[b] * monomial[k];
-      for (std::size_t mode = 0; mode < n; ++mode)
+      for (std::size_t mode = 0; mode < n; ++mode) {
+        const double y = w * double(v.modes_Y_scale[m * C + k]) * v.modes_Y[(m * C + k) * n + mode];
         for (std::size_t i = 0; i < u.size(); ++i)
-          u[i] += w * double(v.modes_Y[(m * C + k) * n + mode]) * double(v.modes_X[mode * u.size() + i]);
+          u[i] += y * double(v.modes_X_scale[mode]) * v.modes_X[mode * u.size() + i];
+      }
       for (std::size_t i = 0; i < 3 * K; ++i)
         u[3 * static_cast<std::size_t>(v.near_node[first + i / 3]) + i % 3] +=
-            w * double(v.near_field[3 * C * first + k * 3 * K + i]);
+            w * double(v.near_scale[m * C + k]) * v.near_field[3 * C * first + k * 3 * K + i];
     }
   }
   return u;

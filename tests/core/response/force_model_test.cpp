@@ -207,8 +207,9 @@ TEST(ForceModel, FieldIsThatOfTheForce) {
     double sum = 0.0;
     for (std::size_t k = 0; k < monomial.size(); ++k)
       for (std::size_t mode = 0; mode < v.modes(); ++mode)
-        sum += monomial[k] * double(v.modes_Y[(5 * monomial.size() + k) * v.modes() + mode]) *
-               double(v.modes_X[mode * u.size() + i]);
+        sum += monomial[k] * double(v.modes_Y_scale[5 * monomial.size() + k]) *
+               v.modes_Y[(5 * monomial.size() + k) * v.modes() + mode] * double(v.modes_X_scale[mode]) *
+               v.modes_X[mode * u.size() + i];
     EXPECT_NEAR(u[i], sum, 1e-8);
   }
   FieldScratch scratch(model);

@@ -5,7 +5,6 @@
 
 #include "core/base/multi_index.h"
 #include "icosphere.h"
-#include "tools/modelfile/mixed_precision.h"
 #include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
@@ -193,7 +192,6 @@ ModelData syntheticModel(const SyntheticOptions& o) {
   else
     fillNear(o, sphere, basis, data);
   fillMesh(sphere, data);
-  (void)modelfile::storeMixed(data, o.mixed_error);
   return data;
 }
 

@@ -90,8 +90,8 @@ double medianOf(std::vector<double> values) {
 void growth(benchmark::State& state, double rate_hz) {
   constexpr int kAlternations = 5, kModes = 100, kPositions = 1000;
   constexpr std::array kNodes{2000, 20000};
-  const std::array models{throughFile(storedModel({kNodes[0], kModes, kPositions})),
-                          throughFile(storedModel({kNodes[1], kModes, kPositions}))};
+  const std::array models{throughFile(syntheticModel({kNodes[0], kModes, kPositions})),
+                          throughFile(syntheticModel({kNodes[1], kModes, kPositions}))};
   std::array<std::vector<double>, 2> p50, p99;
   for (auto _ : state)
     for (int turn = 0; turn < kAlternations; ++turn)

@@ -8,7 +8,6 @@
 
 #include "core/base/multi_index.h"
 #include "tools/examine/bench/eigen_product.h"
-#include "tools/examine/bench/mode_storage.h"
 #include "tools/examine/bench/plain_read.h"
 #include "tools/examine/bench/reference_field.h"
 #include "tools/examine/bench/scratch_model.h"
@@ -38,7 +37,7 @@ double largestNorm(std::span<const double> u) {
 }  // namespace
 
 FieldRace::FieldRace(const SyntheticSize& size)
-    : data_(storedModel(size)),
+    : data_(syntheticModel(size)),
       model_(throughFile(data_)),
       scratch_(model_),
       u_(3 * model_.view().surfaceNodes()) {
@@ -71,9 +70,7 @@ void FieldRace::run(Runner who) {
     eigenProduct(data_.modes_X, question.amplitudes, u_);
     benchmark::DoNotOptimize(u_.data());
   } else {
-    std::uint64_t sum = 0;
-    for (const std::span<const std::byte> part : modeStorage(model_)) sum += plainRead(part);
-    benchmark::DoNotOptimize(sum);
+    benchmark::DoNotOptimize(plainRead(std::as_bytes(model_.view().modes_X)));
   }
   benchmark::ClobberMemory();
 }
@@ -99,10 +96,7 @@ void FieldRace::measure(double seconds) {
 }
 
 std::size_t FieldRace::bytes(Runner who) const {
-  if (who == Runner::kEigen) return data_.modes_X.size() * sizeof(float);
-  std::size_t sum = 0;
-  for (const std::span<const std::byte> part : modeStorage(model_)) sum += part.size();
-  return sum;
+  return who == Runner::kEigen ? data_.modes_X.size() * sizeof(float) : model_.view().modes_X.size_bytes();
 }
 
 double FieldRace::worstError(Runner who) {

@@ -46,7 +46,7 @@ class FieldRace {
   void ask();
   [[nodiscard]] double worstError(Runner who);
 
-  modelfile::ModelData data_;  ///< modes_X is float32 whatever the model keeps
+  modelfile::ModelData data_;  ///< modes_X is float32
   MetaModel model_;
   FieldScratch scratch_;
   std::vector<Question> questions_;

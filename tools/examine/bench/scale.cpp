@@ -3,7 +3,6 @@
 
 #include <cstdio>
 
-#include "tools/examine/bench/mode_storage.h"
 #include "tools/examine/bench/scratch_model.h"
 #include "tools/examine/bench/step_bench.h"
 #include "tools/examine/bench/synthetic_model.h"
@@ -20,10 +19,9 @@ constexpr int kPositions = 1000;
 bool fits(int nodes, int modes) {
   constexpr int kWays = 6;
   constexpr double kLength = 0.01;  // m
-  const MetaModel model = throughFile(storedModel({nodes, modes, kPositions}));
+  const MetaModel model = throughFile(syntheticModel({nodes, modes, kPositions}));
   const StepTimes times = timeSteps(model, 1, kWays, kLength);
-  double bytes = 0.0;
-  for (const std::span<const std::byte> part : modeStorage(model)) bytes += static_cast<double>(part.size());
+  const auto bytes = static_cast<double>(model.view().modes_X.size_bytes());
   const bool good = times.fields.quantile(0.99) < kPeriod;
   const double near_nodes =
       static_cast<double>(model.view().near_node.size()) / static_cast<double>(model.view().positions());

@@ -8,7 +8,6 @@
 
 #include "core/tick/shown_surface.h"
 #include "core/tick/step.h"
-#include "tools/examine/bench/mode_storage.h"
 #include "tools/examine/bench/ways.h"
 
 namespace palpate::bench {
@@ -57,9 +56,7 @@ void stepDefault(benchmark::State& state, const MetaModel& model, int tools) {
   state.counters["in_contact"] = all.in_contact;
   state.counters["field_p50_us"] = all.fields.quantile(0.5);
   state.counters["field_p99_us"] = all.fields.quantile(0.99);
-  double bytes = 0.0;
-  for (const std::span<const std::byte> part : modeStorage(model)) bytes += static_cast<double>(part.size());
-  state.counters["bytes"] = bytes;
+  state.counters["bytes"] = static_cast<double>(model.view().modes_X.size_bytes());
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "core/data/model_view.h"
 #include "tools/examine/bench/ellipsoid.h"
 #include "tools/examine/bench/synthetic_fields.h"
-#include "tools/modelfile/mixed_precision.h"
 
 namespace palpate::bench {
 
@@ -21,8 +20,6 @@ const Vec3 kSemiAxes(0.085, 0.075, 0.070);  // m; the default organ's surface is
 constexpr double kStiffness = 500.0;        // N/m
 constexpr double kReference = 0.004;        // d_ref, m
 constexpr double kDomain = 0.0065;          // d_max, m
-constexpr double kOwnError =
-    0.01;  // of the fields, over the displacement: docs/design.md, Parts, 60 to 100 modes and a near field
 constexpr int kOrder = 3, kForceOrder = 6;
 
 /// Distance between neighbours, m, for nodes that share the area in a triangular grid.
@@ -126,12 +123,6 @@ ModelData syntheticModel(const SyntheticSize& size) {
   fillContact(surface, data);
   fillModes(surface, size.modes, data);
   fillNear(surface, data);
-  return data;
-}
-
-ModelData storedModel(const SyntheticSize& size) {
-  ModelData data = syntheticModel(size);
-  (void)modelfile::storeMixed(data, kOwnError);
   return data;
 }
 

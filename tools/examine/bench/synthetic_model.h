@@ -19,8 +19,4 @@ struct SyntheticSize {
 /// field and contact are independent of each other.
 [[nodiscard]] modelfile::ModelData syntheticModel(const SyntheticSize& size);
 
-/// The same with its modes in mixed precision, as palpate-solve stores them when a model's own error is 1 %
-/// of the displacement. The order of the modes changes.
-[[nodiscard]] modelfile::ModelData storedModel(const SyntheticSize& size);
-
 }  // namespace palpate::bench

@@ -15,7 +15,6 @@
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/read_mesh.h"
-#include "tools/modelfile/mixed_precision.h"
 #include "tools/modelfile/write_model.h"
 #include "tools/modelfile/write_xdmf.h"
 #include "tools/program/run.h"
@@ -71,17 +70,15 @@ void run(solve_program::Options options) {
   solver::BuildReport report;
   modelfile::ModelData data =
       solver::buildModel(c, organ, {options.threads, options.scratch, options.quiet}, report);
-  const modelfile::StorageReport storage =
-      modelfile::storeMixed(data, options.storage == "mixed" ? solve_program::ownError(report) : 0.0);
   // 4. Where it came from, and the file.
-  solve_program::addProvenance(data, c, report, storage);
+  solve_program::addProvenance(data, c, report);
   const auto write_start = Clock::now();
   modelfile::writeModel(options.output, data);
   modelfile::writeXdmf(options.output);
   const double write_seconds = secondsSince(write_start);
   // 5. What came out.
   const program::Json s =
-      solve_program::summarize(options.output, c, data, report, storage, write_seconds, secondsSince(start));
+      solve_program::summarize(options.output, c, data, report, write_seconds, secondsSince(start));
   solve_program::print(s);
   if (options.json) std::cout << s.dump(2) << '\n';
 }

@@ -51,9 +51,6 @@ void describe(program::Options line, Options& options) {
   line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
   line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);
-  line.add("--storage", &options.storage,
-           "modes: mixed (8 to 16 bits or float32, each as its rounding allows) or float32")
-      .oneOf({"mixed", "float32"});
   line.add("--scratch", &options.scratch, "folder of the scratch file (default: beside the output)");
   line.add("--threads", &options.threads, "worker threads").range(1, 1024);
   line.flag("--json", &options.json, "print one JSON object on standard output");

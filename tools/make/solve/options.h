@@ -17,7 +17,6 @@ struct Options {
   std::filesystem::path output{"model.h5"};
   std::filesystem::path scratch;
   int threads{solver::machineThreads()};
-  std::string storage{"mixed"};  ///< of the modes: "mixed" or "float32"
   bool json{false};
   bool quiet{false};
 

@@ -33,8 +33,7 @@ std::string utcNow() {
 
 }  // namespace
 
-void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solver::BuildReport& report,
-                   const modelfile::StorageReport& storage) {
+void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solver::BuildReport& report) {
   program::Json provenance{{"program", "palpate-solve"},
                            {"version", PALPATE_VERSION},
                            {"created", utcNow()},
@@ -44,7 +43,6 @@ void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solv
                            {"fixed", c.fixed},
                            {"accessible", c.accessible.value_or("")},
                            {"method", toString(c.method)},
-                           {"storage", toJson(storage)},
                            {"seconds", stages(c.method, report)}};
   if (report.fit_errors.empty()) {
     provenance["load"] = loadOf(c, report);

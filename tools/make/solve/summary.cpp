@@ -69,15 +69,6 @@ void printTimes(const Json& seconds) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-void printStorage(const Json& storage) {
-  std::fprintf(stderr,
-               "modes kept as: %zu float32, %zu of 16 bits, %zu of 10, %zu of 8, %.2f MB; rounding costs "
-               "%.3f %% of the largest displacement\n",
-               storage["float32"].get<std::size_t>(), storage["int16"].get<std::size_t>(),
-               storage["bits10"].get<std::size_t>(), storage["bits8"].get<std::size_t>(),
-               1e-6 * storage["bytes"].get<double>(), 100.0 * storage["error_max"].get<double>());
-}
-
 int wholeOr0(const Json& object, const char* key) {
   const Json* const member = object.find(key);
   return member == nullptr ? 0 : member->get<int>();
@@ -107,18 +98,6 @@ void printRadius(const Json& s) {
 
 }  // namespace
 
-double ownError(const solver::BuildReport& report) {
-  if (!report.fit_errors.empty()) return report.fit_errors.back();
-  return std::max(report.residual, report.truncation);
-}
-
-Json toJson(const modelfile::StorageReport& storage) {
-  return {{"float32", storage.counts.f32},      {"int16", storage.counts.i16},
-          {"int8", storage.counts.inBytes()},   {"bits10", storage.counts.bits10},
-          {"bits8", storage.counts.bits8},      {"error_max", storage.error_max},
-          {"error_limit", storage.error_limit}, {"bytes", storage.bytes}};
-}
-
 Json stages(Method method, const solver::BuildReport& report) {
   if (isSeries(method))
     return {
@@ -143,8 +122,7 @@ Json loadOf(const solver::Case& c, const solver::BuildReport& report) {
 }
 
 Json summarize(const std::filesystem::path& output, const solver::Case& c, const modelfile::ModelData& data,
-               const solver::BuildReport& report, const modelfile::StorageReport& storage,
-               double write_seconds, double total_seconds) {
+               const solver::BuildReport& report, double write_seconds, double total_seconds) {
   Json seconds = stages(c.method, report);
   seconds["write"] = write_seconds;
   seconds["total"] = total_seconds;
@@ -158,7 +136,6 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
          {"contact_positions", data.contact_node.size()},
          {"patch_radius", data.attributes.patch_radius},
          {"modes", data.modes_X.size() / (3 * data.surface_mesh_tag.size())},
-         {"storage", toJson(storage)},
          {radiusKey(parameters), radii(data)},
          {"seconds", seconds},
          {"file_bytes", std::filesystem::file_size(output)},
@@ -190,7 +167,6 @@ void print(const Json& s) {
   std::fprintf(stderr, "%zu modes\n", s["modes"].get<std::size_t>());
   printTimes(s["seconds"]);
   printRadius(s);
-  printStorage(s["storage"]);
   std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
                1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());
 }

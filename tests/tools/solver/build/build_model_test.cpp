@@ -110,7 +110,7 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
   }
 }
 
-// So that what is stored for the tick ends before the clamped nodes (PackedModes).
+// What is sent and drawn may end before them.
 TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
   const MetaModel model = MetaModel::load(world_->file.path());
   const ModelView& view = model.view();
@@ -121,7 +121,7 @@ TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
     clamped = held;
     for (std::size_t mode = 0; held && mode < view.modes(); ++mode)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        ASSERT_EQ(view.modes_X[3 * (mode * view.surfaceNodes() + i) + axis], 0.0F);
+        ASSERT_EQ(view.modes_X[3 * (mode * view.surfaceNodes() + i) + axis], 0);
   }
   EXPECT_TRUE(clamped);
 }

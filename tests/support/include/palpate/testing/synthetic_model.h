@@ -16,7 +16,6 @@ struct SyntheticOptions {
   int order{3};                          ///< p, of the fields
   int force_order{0};                    ///< of the force, up to 6; 0: as the fields
   int modes{6};                          ///< n
-  double mixed_error{0.0};               ///< > 0: modes in mixed precision, a tenth of this is allowed
   double near_radius{0.02};              ///< m
   double reference_displacement{0.005};  ///< m
   double domain_radius{0.008};           ///< d_max, m

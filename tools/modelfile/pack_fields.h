@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/modelfile/model_data.h"
+
+namespace palpate::modelfile {
+
+/// Whole numbers with a scale for each block: number = scale * whole.
+struct PackedNumbers {
+  std::vector<std::int16_t> whole;
+  std::vector<float> scale;  ///< > 0; infinity or NaN where the block has one
+
+  /// Adds a block, its largest number as 32767: the rounding is at most half its scale.
+  void add(std::span<const float> block);
+};
+
+/// The fields as the file has them (docs/model_file.md): X mode by mode, Y and the near field coefficient by
+/// coefficient of each position. Modes are scaled so that the largest amplitude of each is the same.
+struct PackedFields {
+  PackedNumbers X, Y, near;
+};
+
+/// @param data  of sizes that fit each other
+[[nodiscard]] PackedFields packFields(const ModelData& data);
+
+}  // namespace palpate::modelfile
