@@ -90,7 +90,7 @@ void setLevelFunctions(const std::filesystem::path& path, hsize_t functions) {
   deleteThing(path, nullptr, "old");
   replaceWith(path, "contact/displacement", H5T_IEEE_F64LE, {M, functions, 3});
   deleteThing(path, nullptr, "old");
-  replaceWith(path, "modes/Y", H5T_IEEE_F32LE, {M, functions, 2});
+  replaceWith(path, "modes/Y", H5T_STD_I16LE, {M, functions, 2});
 }
 
 }  // namespace

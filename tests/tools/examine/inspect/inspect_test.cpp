@@ -47,8 +47,8 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   EXPECT_DOUBLE_EQ(json["material"]["nu"], 0.48);
   EXPECT_EQ(json["provenance"]["program"], "synthetic");
   EXPECT_DOUBLE_EQ(json["domain_radius"]["p05"], 0.008);
-  EXPECT_EQ(json["bytes"]["far_field"],
-            4U * (4U * 3U * 162U + json["contact_positions"].get<unsigned>() * 19U * 4U));
+  const unsigned rows = json["contact_positions"].get<unsigned>() * 19U;
+  EXPECT_EQ(json["bytes"]["far_field"], 2U * (4U * 3U * 162U + rows * 4U) + 4U * (4U + rows));
 }
 
 TEST(Inspect, DoesNotDescribeAModelThatWasChanged) {
