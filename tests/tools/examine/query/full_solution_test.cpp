@@ -16,8 +16,8 @@ TEST(FullSolution, ModelAgreesOnATinyTouch) {
   const Vec3 d(2e-6, -3e-6, -6e-6);
   const Errors errors = errorsOf(ask(box.model, anchor, d), box.solve(anchor, d), box.organ);
   EXPECT_LT(errors.force, 1e-9);
-  EXPECT_LT(errors.field_max, 1e-5);  // the model's field is in single precision
-  EXPECT_LT(errors.field_l2, 1e-5);
+  EXPECT_LT(errors.field_max, 6e-5);  // the model's field is rounded to 16 bits
+  EXPECT_LT(errors.field_l2, 4e-5);
 }
 
 TEST(FullSolution, ImposesWhatWasAskedForBeyondTheDomainToo) {
