@@ -14,7 +14,7 @@ constexpr int kPollsPerFlush = 100;  // about once per second; a killed server l
 
 Recorder::Recorder(Channels& channels, const std::filesystem::path& path, const record::SessionFacts& facts)
     : channels_(channels), path_(path), writer_(path, facts) {
-  channels_.recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 4096>>();
+  channels_.recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
 }
 
 void Recorder::run() noexcept {

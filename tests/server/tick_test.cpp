@@ -181,7 +181,7 @@ TEST_F(TickTest, AFullRingCostsTheNewestRecordAndTheCounterShowsIt) {
 }
 
 TEST_F(TickTest, AFullRecordingRingCostsTheNewestTicksAndTheCounterShowsIt) {
-  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 4096>>();
+  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
   send(poseAtDepth(0, -0.01));
   for (std::size_t i = 0; i < channels_->recording->capacity() + 3; ++i) runOneTick();
   EXPECT_EQ(channels_->unrecorded, 3U);
@@ -255,7 +255,7 @@ TEST_F(TickTest, TellsWhenZeroForceWasSent) {
 }
 
 TEST_F(TickTest, AllocatesNothingWhateverComes) {
-  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 4096>>();
+  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
   dds::ToolPose bad = poseAtDepth(1, 0.001);
   bad.position[2] = std::numeric_limits<double>::infinity();
   std::vector<dds::ToolPose> poses;

@@ -17,14 +17,15 @@ namespace {
 
 constexpr double kApproachSeconds = 1.0;
 
-// Moves between 1 and 2 mm deep, one second per cycle, so that the force keeps changing.
+// Moves between 1 and 2 mm deep and 3 mm aside, one second per cycle, so that the force keeps changing and the tip slides.
 device::Path gentlePress(const client::Spot& spot, const MeasureOptions& options) {
+  const device::Point aside = 0.003 * device::tangentOf(spot.normal);
   const auto above = [&](double height) {
     return spot.position + (options.tip_radius + height) * spot.normal;
   };
   std::vector<device::Leg> legs{{above(-0.001), kApproachSeconds, "approach"}};
   for (double t = 0.0; t < options.seconds; t += 1.0) {
-    legs.push_back({above(-0.002), 0.5, "in"});
+    legs.push_back({above(-0.002) + aside, 0.5, "in"});
     legs.push_back({above(-0.001), 0.5, "out"});
   }
   return device::Path(above(0.010), std::move(legs));

@@ -30,7 +30,7 @@ struct SenderStats {
   bool realtime{false};
 };
 
-/// Presses the organ gently at `spot`, because a tick has less to do without contact, and fills `log`. The
+/// Presses the organ gently at `spot` and slides there, because a tick has less to do without contact, and fills `log`. The
 /// approach before and the retreat after, about one second each, are not measured.
 /// @throw client::ClientError  no server takes poses
 [[nodiscard]] SenderStats measure(const dds::Participant& participant, const client::Spot& spot,

@@ -96,7 +96,7 @@ def cyclictest(setup):
     """Wake-up lateness of a thread like the tick: priority, policy, clock_nanosleep on CLOCK_MONOTONIC each ms, memory locked.
     Where more than 1 % of the wake-ups are later than 1 ms, it measures again in whole us, up to 1 s."""
     for nanoseconds in (True, False):
-        found = wakeups(_cyclictest_thread(setup, nanoseconds), 1e-3 if nanoseconds else 1.0)
+        found = wakeups(cyclictest_thread(setup, nanoseconds), 1e-3 if nanoseconds else 1.0)
         if found is not None:
             if not nanoseconds and _COARSE not in setup.notes:
                 setup.notes.append(_COARSE)
@@ -104,9 +104,9 @@ def cyclictest(setup):
     raise Failure("cyclictest: 1 % of its wake-ups lie beyond 1 s")
 
 
-def _cyclictest_thread(setup, nanoseconds):
+def cyclictest_thread(setup, nanoseconds, rate=1000.0):
     result = setup.out / "cyclictest.json"
-    command = ["cyclictest", "--quiet", "--mlockall", "--threads=1", "--interval=1000", "--histogram=1000000",
+    command = ["cyclictest", "--quiet", "--mlockall", "--threads=1", f"--interval={round(1e6 / rate)}", "--histogram=1000000",
                f"--duration={max(1, round(setup.seconds))}", f"--json={result}"]
     if nanoseconds:
         command.append("--nsecs")
@@ -176,9 +176,9 @@ def _ddsperf_output(setup, size, log):
 class Server:
     """A palpate-server on the report's domain."""
 
-    def __init__(self, setup, locked):
+    def __init__(self, setup, locked, more=()):
         self._setup = setup
-        command = [setup.bin / "palpate-server", "--model", setup.model, "--domain", setup.domain, *setup.server_arguments]
+        command = [setup.bin / "palpate-server", "--model", setup.model, "--domain", setup.domain, *setup.server_arguments, *more]
         self._process = processes.start(command + (["--phase-lock"] if locked else []), setup.log("server"), setup.env)
 
     def __enter__(self):

@@ -30,8 +30,9 @@ struct Channels {
   // Events -> tick: latest wins. What is in it was checked.
   rt::TripleBuffer<AllToolSettings> parameters;
 
-  // Tick -> force-out: a ring, because every tick is answered. 512 records are 128 ms of four tools.
-  rt::SpscQueue<ForceRecord, 512> forces;
+  // Tick -> force-out: a ring, because every tick is answered. 2048 records are 128 ms of four tools at
+  // 4 kHz.
+  rt::SpscQueue<ForceRecord, 2048> forces;
   rt::Semaphore force_ready;
 
   // Surface-out -> tick: 0 where nobody reads fields, and the tick hands over none; else another number with each reader that
@@ -45,8 +46,8 @@ struct Channels {
   rt::TripleBuffer<SurfaceSample> surface;
   rt::Semaphore surface_ready;
 
-  // Tick -> events. Polled: the tick does not pay for waking it.
-  rt::SpscQueue<TickRecord, 1024> ticks;
+  // Tick -> events. Polled: the tick does not pay for waking it. 4096 ticks are a second at 4 kHz.
+  rt::SpscQueue<TickRecord, 4096> ticks;
 
   // Subscriber -> events: poses with a tool_id above 3, and the newest such id. Counters; relaxed, they order
   // nothing.
@@ -65,9 +66,9 @@ struct Channels {
   // Announcements' tap, on DDS's receive thread -> events: words of drivers for which there was no place. A counter; relaxed.
   std::atomic<std::uint64_t> surplus_announcements{0};
 
-  // Tick -> recorder, only with --record: 4096 ticks are 4 s at 1 kHz, longer than a disk stalls. On the heap, made before
+  // Tick -> recorder, only with --record: 16,384 ticks are 4 s at 4 kHz, longer than a disk stalls. On the heap, made before
   // the loop. Polled. A full ring loses the newest tick, which the counter says; relaxed, it orders nothing.
-  std::unique_ptr<rt::SpscQueue<record::RecordedTick, 4096>> recording;
+  std::unique_ptr<rt::SpscQueue<record::RecordedTick, 16384>> recording;
   std::atomic<std::uint64_t> unrecorded{0};
 
   // Recorder -> events: the file cannot be written any more. A flag, relaxed.

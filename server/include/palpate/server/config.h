@@ -61,7 +61,7 @@ struct ServerConfig {
   bool addressed_only{false};          ///< poses for any server are left to others
   double listen_first{0.5};            ///< for other servers before the first force, s, in [0, 10]
   std::int64_t organ_id{0};            ///< key of the surface topics, in [0, 2^32 - 1]
-  double surface_rate{kEveryTick};     ///< surface fields per second at most, Hz, in [0.1, kEveryTick]
+  double surface_rate{1000.0};         ///< surface fields per second at most, Hz, in [0.1, kEveryTick]
   bool phase_lock{false};              ///< ticks follow the poses' arrival
   std::int64_t tick_cpu{kAnyCpu};      ///< CPU of the tick, one that this process may use
   bool tick_cpu_alone{false};          ///< nothing else of this process runs there

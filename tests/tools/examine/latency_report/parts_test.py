@@ -10,7 +10,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[4]
 sys.path.insert(0, str(ROOT / "tools" / "examine"))
 
-from latency_report import measure, processes, rounds, tables, wire  # noqa: E402
+from latency_report import lost, measure, processes, rounds, tables, wire  # noqa: E402
 
 
 def times(p50, p99, largest=0.0):
@@ -62,6 +62,20 @@ class Numbers(unittest.TestCase):
         thread = {"histogram": {"3000": 98, "9500": 1}, "cycles": 100, "max": 2500000}
         self.assertEqual(measure.wakeups(thread, 1e-3), times(3.0, 9.5, 2500.0))
         self.assertIsNone(measure.wakeups(dict(thread, cycles=101), 1e-3))
+
+    def test_a_thread_that_woke_some_periods_late_missed_as_many(self):
+        thread = {"histogram": {"40": 90, "249": 5, "250": 2, "800": 1}, "cycles": 99}
+        self.assertEqual(lost.missed(thread, 250.0), 2 + 3 + 4000)
+        self.assertEqual(lost.missed(dict(thread, cycles=98), 1000.0), 0)
+
+    def test_periods_missed_are_added_up_and_compared(self):
+        times_us = {"p50": 10.0, "p99": 20.0}
+        def run(missed):
+            return {"ticks": 100, "missed": missed, "tick_us": times_us, "wakeup_us": times_us}
+        text = lost.as_text({"cyclictest": [run(2), run(1)], "server": [run(0), run(3)]}, 4000.0, 1.0)
+        self.assertIn("3 of       200   (0 + 3)", text)
+        self.assertIn("no more than cyclictest: held", text)
+        self.assertIn("missed", lost.as_text({"cyclictest": [run(2)], "server": [run(3)]}, 4000.0, 1.0).splitlines()[-1])
 
     def test_statistics_of_ddsperf_are_understood(self):
         line = ("[72] 1.000  vm:71 size 288 mean 123.652us min 46.967us 50% 79.272us 90% 90.558us 99% 1567.062us "
@@ -127,6 +141,8 @@ class Processes(unittest.TestCase):
         def said(*words):
             return subprocess.run([ROOT / "tools/latency-report", *words], capture_output=True, text=True, check=False)
         self.assertIn("--seconds is 0.5, expected 1 to 3600", said("--seconds", "0.5").stderr)
+        self.assertIn("--rate goes with --lost-ticks", said("--rate", "4000").stderr)
+        self.assertIn("--rate is 20000, expected 50 to 10000", said("--lost-ticks", "--rate", "20000").stderr)
         self.assertIn("/no/such.h5 is not there", said("--model", "/no/such.h5").stderr)
         self.assertIn("/bin/palpate-server is not there", said("--model", "/dev/null", "--bin", "/bin").stderr)
 
