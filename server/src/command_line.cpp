@@ -100,7 +100,8 @@ void declare(program::Options line, Given& given) {
   line.add("--tip-radius", &given.tip_radius, "Radius of the tools' tips, m, 0 to 0.05, default 0.005");
   declareContact(line, given);
   line.add("--surface-rate", &given.surface_rate,
-           "Most surface fields per second, 0.1 or more, default 1000; inf: one with every tick that changes it")
+           "Most surface fields per second, 0.1 or more, default 1000; inf: one with every tick that changes "
+           "it")
       .valueName("HZ");
   line.flag("--phase-lock,!--no-phase-lock", &given.phase_lock,
             "Ticks follow the poses' arrival, so that a pose waits little for its tick");

@@ -50,6 +50,7 @@ void ForcePublisher::run() noexcept {
       if (!writer_.write(toWire(facts_, record)))
         channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
     }
+    if (channels_.surface_waits.exchange(false, std::memory_order_relaxed)) channels_.surface_ready.post();
   }
 }
 

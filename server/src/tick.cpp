@@ -24,11 +24,12 @@ std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   // 2. What the tools feel.
   (void)step(model_, work_, input_, result_);
   countRejectedPoses();
-  // 3. One force for each tool seen so far; wake the thread that sends them.
+  // 3. One force for each tool seen so far.
   writeForces(cycle);
-  channels_.force_ready.post();
-  // 4. What the surface is made of, if somebody sees it and it changed; wake the thread that evaluates it.
+  // 4. What the surface is made of, if somebody sees it and it changed. Wake the thread that sends forces; it wakes the one
+  //    that evaluates the surface.
   writeSurface(cycle);
+  channels_.force_ready.post();
   // 5. What went in and came out, for a session that is recorded.
   writeRecording(cycle);
   // 6. The phase of the next tick.
@@ -156,7 +157,7 @@ void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     sample.poses[tool] = {ledgers_[tool].pose.seq, ledgers_[tool].pose.stamp_ns};
   sample.state = handed_over_;
   channels_.surface.publish();
-  channels_.surface_ready.post();
+  channels_.surface_waits.store(true, std::memory_order_relaxed);
 }
 
 void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {

@@ -114,10 +114,12 @@ CountedRun countTicks(const CountedOptions& options) {
     tools.start();
     wait(kWarmUp);
     (void)tools.take();
+    const std::uint64_t fields_before = tools.newestField();
     counts->command.store(TickCounts::kCount, std::memory_order_relaxed);
     wait(options.seconds);
     const bool counted = stopCounting(counts);
     run.tools = tools.take();
+    run.fields = static_cast<std::int64_t>(tools.newestField() - fields_before);
     const auto status = tools.status();
     if (!counted || !status)
       throw std::runtime_error("no tick was counted; the server said:\n" + server->log());

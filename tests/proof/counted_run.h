@@ -21,7 +21,8 @@ struct CountedRun {
   std::int64_t other_posts{0};
   Usage usage;
   std::array<Answers, 2> tools;
-  std::string log;  ///< the server's
+  std::int64_t fields{0};  ///< of the surface that the server made while it was counted
+  std::string log;         ///< the server's
 
   [[nodiscard]] std::int64_t of(Kind kind) const noexcept { return calls[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] std::int64_t faults() const noexcept { return usage.minor_faults + usage.major_faults; }

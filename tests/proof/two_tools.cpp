@@ -128,6 +128,11 @@ std::optional<dds::ServerStatus> TwoTools::status() {
   return std::nullopt;
 }
 
+std::uint64_t TwoTools::newestField() {
+  const auto samples = fields_.takeLoaned();
+  return samples.empty() ? 0 : samples[samples.size() - 1].seq;
+}
+
 std::array<Answers, 2> TwoTools::take() {
   std::array<Answers, 2> out;
   for (std::size_t tool = 0; tool < 2; ++tool) {

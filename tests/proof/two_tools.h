@@ -35,6 +35,8 @@ class TwoTools {
   void start();
   /// What the server says of itself, or nothing when it says nothing for 10 s.
   [[nodiscard]] std::optional<dds::ServerStatus> status();
+  /// The counter of the newest field; 0: none came since the last call.
+  [[nodiscard]] std::uint64_t newestField();
   /// What came back since the last call, by tool.
   [[nodiscard]] std::array<Answers, 2> take();
 

@@ -42,8 +42,10 @@ struct Channels {
   // Surface-out -> tick: the last field was not finite. A flag, relaxed: it orders nothing.
   std::atomic<bool> field_overflowed{false};
 
-  // Tick -> surface-out: latest wins.
+  // Tick -> surface-out: latest wins. The tick tells force-out, which wakes surface-out once the forces are sent, so that the
+  // two do not run at once. A flag, relaxed: the semaphores order.
   rt::TripleBuffer<SurfaceSample> surface;
+  std::atomic<bool> surface_waits{false};
   rt::Semaphore surface_ready;
 
   // Tick -> events. Polled: the tick does not pay for waking it. 4096 ticks are a second at 4 kHz.
