@@ -2,6 +2,7 @@
 #include "tools/solver/base/cauchy_product.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace palpate::solver {
 
@@ -15,6 +16,22 @@ CauchyProduct::CauchyProduct(const MonomialBasis& basis, int factor_order) {
       if (c >= b && c < factors) pairs.push_back({b, c});
     }
     begin.push_back(static_cast<int>(pairs.size()));
+  }
+}
+
+CauchyRows::CauchyRows(const CauchyProduct& product, int first) {
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  std::vector<std::vector<Entry>> rows;
+  for (int k = first; at(k) + 1 < product.begin.size(); ++k)
+    for (int p = product.begin[at(k)]; p < product.begin[at(k) + 1]; ++p) {
+      const auto [b, c] = product.pairs[at(p)];
+      if (rows.size() <= at(b)) rows.resize(at(b) + 1);
+      rows[at(b)].push_back({c, k - first});
+    }
+  begin.push_back(0);
+  for (const std::vector<Entry>& row : rows) {
+    entries.insert(entries.end(), row.begin(), row.end());
+    begin.push_back(static_cast<int>(entries.size()));
   }
 }
 

@@ -19,4 +19,16 @@ struct CauchyProduct {
   std::vector<int> begin;  ///< coefficients + 1, offsets into pairs
 };
 
+/// The pairs of a product from coefficient `first` on, by their first factor: a kernel that takes them in this
+/// order reads b once.
+struct CauchyRows {
+  struct Entry {
+    int c;
+    int k;  ///< the coefficient that b and c make up, counted from `first`
+  };
+  CauchyRows(const CauchyProduct& product, int first);
+  std::vector<Entry> entries;
+  std::vector<int> begin;  ///< by b, and the end; offsets into entries
+};
+
 }  // namespace palpate::solver

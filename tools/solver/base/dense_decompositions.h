@@ -6,6 +6,7 @@
 namespace palpate::solver {
 
 // Eigen's decompositions, compiled once: a file that instantiates them takes half a minute to build.
+// All throw std::runtime_error for a matrix that is not finite or does not converge.
 
 /// A = U diag(values) V^T.
 struct SingularValues {

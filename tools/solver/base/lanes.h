@@ -11,6 +11,8 @@ namespace palpate::solver {
 /// of a vector unit of any width.
 inline constexpr int kLanes = 8;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+/// The same in single precision: one AVX2 register.
+using FloatLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 /// A kernel built for several instruction sets, chosen when the program starts.
 #ifdef PALPATE_HAVE_TARGET_CLONES
@@ -33,5 +35,6 @@ struct LaneAllocator {
 };
 
 using LaneVector = std::vector<Lanes, LaneAllocator<Lanes>>;
+using FloatLaneVector = std::vector<FloatLanes, LaneAllocator<FloatLanes>>;
 
 }  // namespace palpate::solver

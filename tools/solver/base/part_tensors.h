@@ -21,46 +21,59 @@ PALPATE_INLINE Part& partOf(Lanes& x, int part) {
   return reinterpret_cast<Part*>(&x)[part];
 }
 
-/// General 3 x 3, row-major: H, F, P.
-struct PartTensor {
-  Part v[9];
+/// What a kernel holds in one register: a part of the lanes in double, all of them in float.
+template <typename Scalar>
+struct RegisterOf;
+template <>
+struct RegisterOf<double> {
+  using Type = Part;
 };
-/// xx yy zz yz xz xy. Strains hold twice the shear, stresses once: S : E is then a sum of six.
-struct PartSymmetric {
-  Part v[6];
+template <>
+struct RegisterOf<float> {
+  using Type = FloatLanes;
 };
 
-/// t += (A^T B + B^T A) / 2, with twice the shear.
-PALPATE_INLINE void addProduct(const PartTensor& A, const PartTensor& B, PartSymmetric& t) {
-  for (int i = 0; i < 3; ++i) {
-    const Part *a = A.v + 3 * i, *b = B.v + 3 * i;
-    for (int J = 0; J < 3; ++J) t.v[J] += a[J] * b[J];
-    t.v[3] += a[1] * b[2];
-    t.v[3] += b[1] * a[2];
-    t.v[4] += a[0] * b[2];
-    t.v[4] += b[0] * a[2];
-    t.v[5] += a[0] * b[1];
-    t.v[5] += b[0] * a[1];
-  }
+/// General 3 x 3, row-major: H, F, P.
+template <typename Scalar>
+struct Tensor {
+  typename RegisterOf<Scalar>::Type v[9];
+};
+/// xx yy zz yz xz xy. Strains hold twice the shear, stresses once: S : E is then a sum of six.
+template <typename Scalar>
+struct Symmetric {
+  typename RegisterOf<Scalar>::Type v[6];
+};
+using PartTensor = Tensor<double>;
+using PartSymmetric = Symmetric<double>;
+
+/// T += A^T B. Nine sums that do not wait for each other.
+template <typename Scalar>
+PALPATE_INLINE void addTransposeTimes(const Tensor<Scalar>& A, const Tensor<Scalar>& B, Tensor<Scalar>& T) {
+  for (int i = 0; i < 3; ++i)
+    for (int I = 0; I < 3; ++I)
+      for (int J = 0; J < 3; ++J) T.v[3 * I + J] += A.v[3 * i + I] * B.v[3 * i + J];
 }
 
 /// t += A^T A / 2, with twice the shear.
-PALPATE_INLINE void addSquare(const PartTensor& A, PartSymmetric& t) {
+template <typename Scalar>
+PALPATE_INLINE void addSquare(const Tensor<Scalar>& A, Symmetric<Scalar>& t) {
+  constexpr Scalar kHalf = 0.5;
   for (int i = 0; i < 3; ++i) {
-    const Part* a = A.v + 3 * i;
-    for (int J = 0; J < 3; ++J) t.v[J] += 0.5 * a[J] * a[J];
+    const auto* a = A.v + 3 * i;
+    for (int J = 0; J < 3; ++J) t.v[J] += kHalf * a[J] * a[J];
     t.v[3] += a[1] * a[2];
     t.v[4] += a[0] * a[2];
     t.v[5] += a[0] * a[1];
   }
 }
 
-/// t += sym H, with twice the shear.
-PALPATE_INLINE void addSym(const PartTensor& H, PartSymmetric& t) {
-  for (int J = 0; J < 3; ++J) t.v[J] += H.v[4 * J];
-  t.v[3] += H.v[5] + H.v[7];
-  t.v[4] += H.v[2] + H.v[6];
-  t.v[5] += H.v[1] + H.v[3];
+/// t += sym T, with twice the shear.
+template <typename Scalar>
+PALPATE_INLINE void addSym(const Tensor<Scalar>& T, Symmetric<Scalar>& t) {
+  for (int J = 0; J < 3; ++J) t.v[J] += T.v[4 * J];
+  t.v[3] += T.v[5] + T.v[7];
+  t.v[4] += T.v[2] + T.v[6];
+  t.v[5] += T.v[1] + T.v[3];
 }
 
 /// P += H S

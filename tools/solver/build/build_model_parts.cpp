@@ -2,8 +2,11 @@
 #include "tools/solver/build/build_model_parts.h"
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tools/solver/base/lanes.h"
 #include "tools/solver/base/parallel.h"
@@ -17,26 +20,16 @@ std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// U_alpha at the surface nodes, [k][node][3].
-std::vector<float> surfaceFields(const SeriesSolver& series, int lane, const PatchSurface& surface) {
-  std::vector<float> fields;
-  fields.reserve(at(series.basis().size()) * surface.nodes.size() * 3);
-  for (int k = 0; k < series.basis().size(); ++k)
-    for (const std::int32_t node : surface.nodes) {
-      const Vec3 u = series.displacement(lane, k, node);
-      for (int c = 0; c < 3; ++c) fields.push_back(static_cast<float>(u[c]));
-    }
-  return fields;
-}
-
 }  // namespace
 
-void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const Case& c) {
+void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c) {
   factor.factorize(Eigen::VectorXd::Zero(3 * setup.model.nodeCount()));
-  if (!factor.positiveDefinite())
-    throw std::runtime_error(c.mesh.string() +
-                             ": the stiffness is not positive definite; is the organ held by \"" + c.fixed +
-                             "\"?");
+  const std::optional<int> unknown = factor.indefiniteAt();
+  for (int node = 0; unknown && node < setup.model.nodeCount(); ++node)
+    if (setup.model.isFree(node) && setup.model.dof(node) == *unknown - *unknown % 3)
+      throw std::runtime_error(c.mesh.string() + ": node " + std::to_string(mesh.node_tags[at(node)]) +
+                               ": the stiffness is not positive definite; is the organ held by \"" + c.fixed +
+                               "\"?");
 }
 
 void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,
@@ -46,6 +39,7 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
   const std::size_t count = positions.nodes.size();
   Progress progress("series, contact positions", count, options.quiet);
   std::vector<std::unique_ptr<SeriesSolver>> solvers(at(options.workers));
+  std::vector<std::vector<float>> fields(at(options.workers));  // of the chunk that a worker has
   parallelFor(options.workers, (count + kLanes - 1) / kLanes, [&](int worker, std::size_t chunk) {
     auto& solver = solvers[at(worker)];
     if (!solver) solver = std::make_unique<SeriesSolver>(setup.model, factor, c.orderOrDefault(), kind);
@@ -60,8 +54,13 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
             std::to_string(mesh.node_tags[at(setup.surface.nodes[at(positions.nodes[first + lane])])]) +
             ": the series has no domain; is the organ held by \"" + c.fixed + "\"?");
       sink(*solver, static_cast<int>(lane), first + lane, radii[lane]);
-      table.write(first + lane, surfaceFields(*solver, static_cast<int>(lane), setup.surface));
     }
+    std::vector<float>& chunk_fields = fields[at(worker)];
+    const std::size_t block = table.coefficients() * table.rows();
+    chunk_fields.resize(lanes * block);
+    solver->copyDisplacements(setup.surface.nodes, chunk_fields);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      table.write(first + lane, std::span(chunk_fields).subspan(lane * block, block));
     progress.advance(lanes);
   });
 }

@@ -29,8 +29,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
 };
 
-/// Factorizes K_T(0). @throw std::runtime_error when it is not positive definite
-void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const Case& c);
+/// Factorizes K_T(0). @throw std::runtime_error naming the node where it is not positive definite
+void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c);
 
 /// Takes the series of one position. Called from several threads, once per position.
 using SeriesSink =

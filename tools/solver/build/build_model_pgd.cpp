@@ -89,7 +89,7 @@ void PgdBuilder::chooseLoad() {
   constexpr double kTravel = 2e-3;  // m
   const Stopwatch watch;
   Cholesky factor(setup_.model);
-  factorizeAtRest(factor, setup_, case_);
+  factorizeAtRest(factor, setup_, mesh_, case_);
   const double compliance = medianCompliance(setup_, factor, directions_);
   load_ = case_.load.magnitude.value_or(kTravel / compliance);
   travel_ = load_ * compliance;

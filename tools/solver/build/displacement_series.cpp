@@ -142,7 +142,7 @@ void Builder::storeNearField(const FieldTable& table, const FarField& far) {
 modelfile::ModelData Builder::run() {
   const Stopwatch factor_watch;
   Cholesky factor(setup_.model);
-  factorizeAtRest(factor, setup_, case_);
+  factorizeAtRest(factor, setup_, mesh_, case_);
   report_.factor_seconds = factor_watch.seconds();
 
   const Stopwatch series_watch;

@@ -57,7 +57,7 @@ class ForceBuilder {
 void ForceBuilder::solveSeries(FieldTable& table) {
   Stopwatch factor_watch;
   Cholesky factor(setup_.model);
-  factorizeAtRest(factor, setup_, case_);
+  factorizeAtRest(factor, setup_, mesh_, case_);
   report_.factor_seconds = factor_watch.seconds();
   const Stopwatch series_watch;
   solveAllSeries(setup_, mesh_, case_, factor, SeriesKind::kForce, options_, table,

@@ -162,6 +162,7 @@ struct Cholesky::State {
   cholmod_factor* definite{nullptr};
   cholmod_factor* indefinite{nullptr};
   bool positive{true};
+  int indefinite_at{-1};  // unknown
 };
 
 Cholesky::Cholesky(const FeModel& model) : state_(std::make_unique<State>(&model, lowerPattern(model))) {}
@@ -170,8 +171,29 @@ Cholesky::Cholesky(const SparseMatrix& K) : state_(std::make_unique<State>(nullp
 }
 Cholesky::~Cholesky() = default;
 
-bool Cholesky::positiveDefinite() const noexcept {
-  return state_->positive;
+std::optional<int> Cholesky::indefiniteAt() const noexcept {
+  return state_->positive ? std::nullopt : std::optional(state_->indefinite_at);
+}
+
+void Cholesky::requirePositiveDefinite(const std::string& matrix) const {
+  if (const std::optional<int> unknown = indefiniteAt())
+    throw std::runtime_error(matrix + " is not positive definite, at unknown " + std::to_string(*unknown) +
+                             " of " + std::to_string(state_->matrix.nrow));
+}
+std::span<const int> Cholesky::order() const noexcept {
+  const cholmod_factor* factor = state_->active();
+  return {static_cast<const int*>(factor->Perm), factor->n};
+}
+Supernodes Cholesky::supernodes() const {
+  const cholmod_factor* factor = state_->active();
+  if (factor->is_super == 0)
+    throw std::invalid_argument("supernodes of a matrix that is not positive definite");
+  const auto list = [](const void* numbers, std::size_t count) {
+    return std::span(static_cast<const int*>(numbers), count);
+  };
+  return {list(factor->super, factor->nsuper + 1), list(factor->pi, factor->nsuper + 1),
+          list(factor->px, factor->nsuper + 1), list(factor->s, factor->ssize),
+          static_cast<const double*>(factor->x)};
 }
 double Cholesky::factorSize() const noexcept {
   return state_->common.get()->lnz;
@@ -191,19 +213,25 @@ void Cholesky::factorize(const SparseMatrix& K) {
 }
 
 void Cholesky::State::factorize() {
-  const auto run = [this](cholmod_factor* factor) {
+  // Where a pivot is not positive (L D L^T: zero), CHOLMOD succeeds with a warning and says in which row.
+  const auto run = [this](cholmod_factor* factor) -> std::optional<int> {
     if (cholmod_factorize(&matrix, factor, common.get()) == 0)
       throw std::runtime_error("CHOLMOD could not factorize the stiffness matrix (code " +
                                std::to_string(common.get()->status) + ")");
-    return factor->minor == factor->n;
+    if (factor->minor == factor->n) return std::nullopt;
+    return static_cast<const int*>(factor->Perm)[factor->minor];
   };
-  positive = run(definite);
+  const std::optional<int> stopped = run(definite);
+  positive = !stopped;
   if (positive) return;
+  indefinite_at = *stopped;
   common.get()->supernodal = CHOLMOD_SIMPLICIAL;
   if (indefinite == nullptr) indefinite = cholmod_analyze(&matrix, common.get());
-  const bool regular = indefinite != nullptr && run(indefinite);
   common.get()->supernodal = CHOLMOD_SUPERNODAL;
-  if (!regular) throw std::runtime_error("the tangent stiffness is singular");
+  if (indefinite == nullptr) throw std::runtime_error("CHOLMOD could not analyse the stiffness matrix");
+  if (const std::optional<int> singular = run(indefinite))
+    throw std::runtime_error("the tangent stiffness is singular, at unknown " + std::to_string(*singular) +
+                             " of " + std::to_string(matrix.nrow));
 }
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) const {

@@ -4,12 +4,22 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 
 #include "tools/solver/fem/fe_model.h"
 
 namespace palpate::solver {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  ///< column by column
+
+/// L of L L^T, in blocks of columns with the same rows: columns first[s] .. first[s + 1] hold the rows
+/// rows[row_begin[s] .. row_begin[s + 1]], their own before those below, column-major from value_begin[s] on.
+struct Supernodes {
+  std::span<const int> first, row_begin, value_begin, rows;
+  const double* values;
+};
 
 /// Factorization of the tangent stiffness on the unknowns of an FeModel, by CHOLMOD (METIS ordering,
 /// supernodal). The constructor does the symbolic analysis; factorize() may be called any number of times.
@@ -24,14 +34,22 @@ class Cholesky {
   Cholesky& operator=(const Cholesky&) = delete;
 
   /// Factorizes K_T(u). Falls back to L D L^T when K_T is not positive definite.
-  /// @param u  3 N, m  @throw std::runtime_error when K_T is singular
+  /// @param u  3 N, m  @throw std::runtime_error naming the unknown where K_T is singular
   void factorize(const Eigen::VectorXd& u);
   /// Factorizes a matrix with the pattern of the first.
   /// @throw std::invalid_argument for another pattern, std::runtime_error when K is singular
   void factorize(const SparseMatrix& K);
-  [[nodiscard]] bool positiveDefinite() const noexcept;
+  [[nodiscard]] bool positiveDefinite() const noexcept { return !indefiniteAt().has_value(); }
+  /// The unknown at which the matrix turned out not to be positive definite.
+  [[nodiscard]] std::optional<int> indefiniteAt() const noexcept;
+  /// @throw std::runtime_error naming the matrix and the unknown when it is not positive definite
+  void requirePositiveDefinite(const std::string& matrix) const;
   /// Non-zeros of the factor.
   [[nodiscard]] double factorSize() const noexcept;
+  /// The unknown that belongs to each row of the factor.
+  [[nodiscard]] std::span<const int> order() const noexcept;
+  /// For solvers of their own. @throw std::invalid_argument when K_T is not positive definite
+  [[nodiscard]] Supernodes supernodes() const;
   /// Unknowns of K0 x = b. @param b  dofs x columns
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 

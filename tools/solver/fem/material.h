@@ -23,17 +23,20 @@ namespace palpate::solver {
 ///   stress        P(H) = dPsi/dH, Pa
 ///   tangent       3 N x 3 N, node-interleaved, Pa/m^2: block (a, b) is dP/dH contracted with dN_a and dN_b, the
 ///                 rows of g (N x 3, 1/m)
-///   Series        the terms of its power series                                        docs/design.md, Series
-/// A Series is made from Lame's constants and H_k (k < fields; the others are zero), and keeps what it needs of
-/// lower degrees:
-///   carry         its own quantities of coefficient k; called in the order of k
-///   lowerOrders   P_k without the part that is linear in H_k, when all lower degrees are carried
-///   energy        W_k, Pa, when its factors are carried
-/// Its functions are inlined into kernels: no calls, and Part by reference only.
+///   Series        the terms of the power series of P                               docs/design.md, Series
+///   EnergySeries  those of W, in float32
+/// Both are made from Lame's constants and H_k (k < fields; the others are zero), and keep what they need of lower
+/// degrees:
+///   carry         their own quantities of coefficient k; called in the order of k
+///   Series::lowerOrders        P_k without the part that is linear in H_k, when all lower degrees are carried
+///   EnergySeries::addEnergies  W_k += weight Psi_k for all k of the rows, when all factors are carried
+/// Series works in Part, EnergySeries in FloatLanes, with fields of d / length: its numbers are near 1 in any unit.
+/// Their functions are inlined into kernels: no calls, and registers by reference only.
 template <typename L>
 concept MaterialLaw = requires(const Lame& m, const Elasticity& e, const Eigen::Matrix3d& H,
                                const Eigen::Matrix<double, 4, 3>& g, typename L::Series& series,
-                               const CauchyProduct& pairs, int k, PartTensor& P, Part& W) {
+                               typename L::EnergySeries& energies, const CauchyProduct& pairs,
+                               const CauchyRows& rows, int k, PartTensor& P, float weight, FloatLanes* W) {
   { L::kName } -> std::convertible_to<std::string_view>;
   L::check(e);
   { L::ccx(e) } -> std::same_as<CcxMaterial>;
@@ -41,9 +44,12 @@ concept MaterialLaw = requires(const Lame& m, const Elasticity& e, const Eigen::
   { L::stress(m, H) } -> std::same_as<Eigen::Matrix3d>;
   { L::tangent(m, H, g) } -> std::same_as<Eigen::Matrix<double, 12, 12>>;
   requires std::constructible_from<typename L::Series, const Lame&, const PartTensor*, int>;
+  requires std::constructible_from < typename L::EnergySeries, const Lame&, const Tensor<float>
+  *, int > ;
   series.carry(pairs, k);
   series.lowerOrders(pairs, k, P);
-  series.energy(pairs, k, W);
+  energies.carry(pairs, k);
+  energies.addEnergies(rows, weight, W);
 };
 
 template <MaterialLaw... L>

@@ -33,7 +33,7 @@ FieldTable::~FieldTable() {
   close(file_);
 }
 
-void FieldTable::write(std::size_t position, const std::vector<float>& fields) {
+void FieldTable::write(std::size_t position, std::span<const float> fields) {
   const char* data = reinterpret_cast<const char*>(fields.data());
   std::size_t done = 0;
   while (done < blockBytes()) {

@@ -25,7 +25,7 @@ class FieldTable {
   [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
 
   /// @param fields  coefficients x rows numbers of one position
-  void write(std::size_t position, const std::vector<float>& fields);
+  void write(std::size_t position, std::span<const float> fields);
   /// @param[out] fields  coefficients x rows numbers of one position
   void read(std::size_t position, std::span<float> fields) const;
 

@@ -53,7 +53,9 @@ AlternatingDirections::AlternatingDirections(const SparseMatrix& K, const Separa
       options_(options),
       components_(std::move(components)),
       count_(countOf(components_)),
-      factor_(K) {}
+      factor_(K) {
+  factor_.requirePositiveDefinite("the stiffness matrix");
+}
 
 MatrixXd AlternatingDirections::solve(const MatrixXd& B) const {
   const Index share = std::max<Index>(1, (B.cols() + options_.workers - 1) / options_.workers);
@@ -111,6 +113,7 @@ void AlternatingDirections::stepHadamardR(const SeparatedSolution& u, NewPairs& 
     blocks_factor_ = std::make_unique<Cholesky>(blocks_);
   else
     blocks_factor_->factorize(blocks_);
+  blocks_factor_->requirePositiveDefinite("the matrix of an R-step");
   pairs.R = blocks_factor_->solve(r);
   const MatrixXd split = byComponent(pairs.R, components_, count_);
   const VectorXd squares = split.cwiseProduct(K_ * split).colwise().sum().transpose();

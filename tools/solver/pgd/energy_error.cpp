@@ -26,6 +26,7 @@ constexpr Index kBlock = 32;  // full solutions in memory at once, for each work
 void forEachSolution(const ParametricProblem& problem, int workers,
                      const std::function<void(std::size_t, Index, const MatrixXd&)>& visit) {
   const Cholesky factor(problem.stiffness());
+  factor.requirePositiveDefinite("the stiffness matrix");
   std::vector<std::unique_ptr<Cholesky::Solver>> solvers(static_cast<std::size_t>(workers));
   const Index count = problem.positions();
   parallelFor(workers, static_cast<std::size_t>((count + kBlock - 1) / kBlock),

@@ -122,7 +122,11 @@ void Greedy::add(const NewPairs& pairs) {
 void Greedy::update() {
   MatrixXd gram = gram_;
   gram.diagonal().array() += 1e-14;  // the X have norm 1; for a component without any displacement
-  const MatrixXd Y = gram.ldlt().solve(load_on_X_);
+  const Eigen::LDLT<MatrixXd> factor(gram);
+  if (factor.info() != Eigen::Success)
+    throw std::runtime_error("the energy products of " + std::to_string(u_.pairs()) +
+                             " pairs have no factor");
+  const MatrixXd Y = factor.solve(load_on_X_);
   for (Index c = 0; c < u_.terms(); ++c)
     u_.Y[static_cast<std::size_t>(c)] = Y(Eigen::seqN(c, u_.pairs(), u_.terms()), Eigen::all);
   updated_at_ = static_cast<int>(u_.pairs());

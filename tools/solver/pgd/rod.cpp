@@ -121,6 +121,7 @@ RodSeries rodSeries(const RodProblem& rod, int node, int order) {
                                 std::to_string(node) + " of " + std::to_string(rod.dofs()));
   const double EA = rod.data().E * rod.data().area;
   const Cholesky K0(rod.stiffness());
+  K0.requirePositiveDefinite("the stiffness of the rod");
   const Eigen::VectorXd W = K0.solve(Eigen::VectorXd::Unit(rod.dofs(), node));
   RodSeries series{Eigen::MatrixXd(rod.dofs(), order), Eigen::VectorXd(order)};
   Eigen::MatrixXd H(rod.dofs(), order), S(rod.dofs(), order);  // of each order; S times the area, N

@@ -61,6 +61,7 @@ SeparatedIncrement::SeparatedIncrement(const ParametricProblem& problem, const E
       rho_(problem.dofs(), problem.positions()),
       b_(0, problem.positions()),
       T_(static_cast<std::size_t>(problem.positions())) {
+  K0_.requirePositiveDefinite("the stiffness matrix");
   weighPositions();
   if (problem.positions() > options.exact_residuals)
     probes_ = gaussian(problem.positions(), options.probes, 1);

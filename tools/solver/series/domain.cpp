@@ -5,7 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
+
+#include "tools/solver/base/lanes.h"
+#include "tools/solver/fem/fe_model.h"
 
 namespace palpate::solver {
 
@@ -79,43 +85,77 @@ bool Ray::isTrusted(double r) const {
   return K.llt().info() == Eigen::Success;
 }
 
-/// x^alpha for x = radius * direction, per lane.
-LaneVector laneMonomials(const MonomialBasis& basis, const Vec3& direction, const Lanes& radius) {
+/// x^alpha for x = radius * direction, per lane. @param[out] monomials  one per coefficient
+void laneMonomials(const MonomialBasis& basis, const Vec3& direction, const Lanes& radius,
+                   LaneVector& monomials) {
   std::array<double, MonomialBasis::kMaxCoefficients> unit{};
   basis.evaluate(direction, unit);
-  LaneVector monomials(static_cast<std::size_t>(basis.size()));
-  for (int degree = 1; degree <= basis.order(); ++degree) {
-    Lanes power = radius;
-    for (int n = 1; n < degree; ++n) power *= radius;
+  Lanes power = radius;
+  for (int degree = 1; degree <= basis.order(); ++degree, power *= radius)
     for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k)
       monomials[static_cast<std::size_t>(k)] = power * unit[static_cast<std::size_t>(k)];
-  }
-  return monomials;
 }
 
-/// The integration points in which some lane could pass below the limit: det F >= (1 - |H|)^3.
-std::vector<int> suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
-                          const Lanes& radius) {
-  LaneVector powers(static_cast<std::size_t>(basis.size()));
-  for (int degree = 1; degree <= basis.order(); ++degree) {
-    Lanes power = radius;
-    for (int n = 1; n < degree; ++n) power *= radius;
-    for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k) {
-      // |x^alpha| <= |x|^|alpha| in every direction.
-      powers[static_cast<std::size_t>(k)] = power;
-    }
-  }
-  LaneVector bounds(static_cast<std::size_t>(input.point_count));
+/// The integration points in which some lane could pass below the limit, det F >= (1 - |H|)^3, with their nodes
+/// and the fields there.
+class Suspects {
+ public:
+  Suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f, const Lanes& radius);
+  [[nodiscard]] bool empty() const { return points_.empty(); }
+  /// Smallest det F of each lane, at most 1. @param monomials  x^alpha of each lane's sample
+  [[nodiscard]] Lanes leastDet(const LaneVector& monomials);
+
+ private:
+  void take(const KernelInput& input, int point);
+
+  std::vector<std::int32_t> place_;  // of a node in the fields here, or -1
+  std::vector<FeModel::Point> points_;
+  LaneVector U_, summed_;
+  KernelInput fields_;
+};
+
+Suspects::Suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
+                   const Lanes& radius) {
+  FloatLaneVector powers, bounds(static_cast<std::size_t>(input.point_count));
+  Lanes power = radius / input.length;
+  for (int degree = 1; degree <= basis.order(); ++degree, power *= radius / input.length)
+    powers.push_back(__builtin_convertvector(power, FloatLanes));
   gradientBounds(input, powers.data(), bounds.data());
-  const double harmless = 1.0 - std::cbrt(min_det_f);
-  std::vector<int> found;
+  const double rounding = 1e-5;
+  const double harmless = 1.0 - std::cbrt(min_det_f) - rounding;
   for (int n = 0; n < input.point_count; ++n) {
-    double largest = 0.0;
+    bool suspect = false;
     for (int lane = 0; lane < kLanes; ++lane)
-      largest = std::max(largest, bounds[static_cast<std::size_t>(n)][lane]);
-    if (!(largest < harmless)) found.push_back(n);
+      suspect = suspect || !(static_cast<double>(bounds[static_cast<std::size_t>(n)][lane]) < harmless);
+    if (suspect) take(input, n);
   }
-  return found;
+  summed_.resize(U_.size() / static_cast<std::size_t>(input.coefficients));
+  fields_ = {
+      points_.data(), static_cast<int>(points_.size()), input.coefficients, U_.data(), input.law, {}, {}};
+}
+
+void Suspects::take(const KernelInput& input, int point) {
+  points_.push_back(input.points[point]);
+  for (std::int32_t& node : points_.back().nodes) {
+    const auto old = static_cast<std::size_t>(node);
+    const std::size_t count = static_cast<std::size_t>(input.coefficients) * 3;
+    if (place_.size() <= old) place_.resize(old + 1, -1);
+    if (place_[old] < 0) {
+      place_[old] = static_cast<std::int32_t>(U_.size() / count);
+      U_.insert(U_.end(), input.U + old * count, input.U + (old + 1) * count);
+    }
+    node = place_[old];
+  }
+}
+
+Lanes Suspects::leastDet(const LaneVector& monomials) {
+  sumFields(fields_, static_cast<int>(summed_.size() / 3), monomials.data(), summed_.data());
+  KernelInput summed = fields_;
+  summed.U = summed_.data();
+  summed.coefficients = 1;
+  Lanes least = Lanes{} + 1.0;
+  leastDetF(summed, &least);
+  return least;
 }
 
 }  // namespace
@@ -157,29 +197,29 @@ void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double mi
                  std::span<double> radii) {
   Lanes radius{};
   for (std::size_t lane = 0; lane < radii.size(); ++lane) radius[static_cast<int>(lane)] = radii[lane];
-  for (const int point : suspects(basis, input, min_det_f, radius)) {
-    for (const Vec3& direction : sampledDirections()) {
-      // A radius that is too large is halved up to ten times, to a thousandth.
-      Lanes good{};
-      Lanes tried = radius;
-      Lanes step = 0.5 * radius;
-      const Lanes offered = radius;
-      for (int halving = 0; halving < 11; ++halving) {
-        Lanes det;
-        detF(input, point, laneMonomials(basis, direction, tried).data(), &det);
-        bool all_good = true;
-        for (int lane = 0; lane < kLanes; ++lane) {
-          const bool fine = det[lane] >= min_det_f;
-          if (fine) good[lane] = std::max(good[lane], tried[lane]);
-          if (good[lane] == offered[lane]) continue;
-          all_good = false;
-          tried[lane] += fine ? step[lane] : -step[lane];
-          step[lane] *= 0.5;
-        }
-        if (all_good) break;
+  Suspects suspects(basis, input, min_det_f, radius);
+  if (suspects.empty()) return;
+  LaneVector monomials(static_cast<std::size_t>(basis.size()));
+  for (const Vec3& direction : sampledDirections()) {
+    // A radius that is too large is halved up to ten times, to a thousandth.
+    Lanes good{};
+    Lanes tried = radius;
+    Lanes step = 0.5 * radius;
+    for (int halving = 0; halving < 11; ++halving) {
+      laneMonomials(basis, direction, tried, monomials);
+      const Lanes det = suspects.leastDet(monomials);
+      bool all_good = true;
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const bool fine = det[lane] >= min_det_f;
+        if (fine) good[lane] = std::max(good[lane], tried[lane]);
+        if (good[lane] == radius[lane]) continue;
+        all_good = false;
+        tried[lane] += fine ? step[lane] : -step[lane];
+        step[lane] *= 0.5;
       }
-      radius = good;
+      if (all_good) break;
     }
+    radius = good;
   }
   for (std::size_t lane = 0; lane < radii.size(); ++lane) radii[lane] = radius[static_cast<int>(lane)];
 }

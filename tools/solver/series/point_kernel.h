@@ -15,14 +15,16 @@
 
 namespace palpate::solver {
 
-/// Input of the kernels. U holds all coefficients of all nodes, [node][k][3] lanes.
+/// Input of the kernels. U and V hold all coefficients of all nodes, [node][k][3] lanes.
 template <int N>
 struct PointInput {
   const IntegrationPoint<N>* points;
   int point_count;
-  int coefficients;  ///< stride of U
-  const Lanes* U;
+  int coefficients;  ///< stride of U and V
+  const Lanes* U;    ///< U_alpha
   Law law;
+  const FloatLanes* V;  ///< U_alpha length^|alpha|, for energies and bounds
+  double length;        ///< of the order of an element, m: numbers near 1 for float32
 };
 
 // What the kernels of series_kernel.h do with one part of one integration point, for elements of any number of nodes.
@@ -37,15 +39,27 @@ PALPATE_INLINE double slope(const IntegrationPoint<N>& point, std::size_t a, std
   return point.gradients.data()[J * std::size_t{N} + a];
 }
 
+/// dN_a/dX_J in the precision of a kernel.
+template <typename Scalar, int N>
+struct Slopes {
+  Scalar v[N][3];
+};
+template <typename Scalar, int N>
+PALPATE_INLINE void slopesOf(const IntegrationPoint<N>& point, Slopes<Scalar, N>& g) {
+  for (std::size_t a = 0; a < N; ++a)
+    for (std::size_t J = 0; J < 3; ++J) g.v[a][J] = static_cast<Scalar>(slope(point, a, J));
+}
+
 /// H = sum u_a (x) grad N_a; component i of node a at u[a][stride i].
-template <int N>
-PALPATE_INLINE void gradientOf(const IntegrationPoint<N>& point, const Part* const (&u)[N], int stride,
-                               PartTensor& H) {
+template <typename Scalar, int N>
+PALPATE_INLINE void gradientOf(const Slopes<Scalar, N>& g,
+                               const typename RegisterOf<Scalar>::Type* const (&u)[N], int stride,
+                               Tensor<Scalar>& H) {
   for (int i = 0; i < 3; ++i) {
-    Part row[3] = {};
+    typename RegisterOf<Scalar>::Type row[3] = {};
     for (std::size_t a = 0; a < N; ++a) {
-      const Part x = u[a][stride * i];
-      for (std::size_t J = 0; J < 3; ++J) row[J] += x * slope(point, a, J);
+      const auto& x = u[a][stride * i];
+      for (std::size_t J = 0; J < 3; ++J) row[J] += x * g.v[a][J];
     }
     for (int J = 0; J < 3; ++J) H.v[3 * i + J] = row[J];
   }
@@ -59,14 +73,32 @@ PALPATE_INLINE void nodesOf(const PointInput<N>& input, const IntegrationPoint<N
     u[a] = &partOf(input.U[static_cast<std::ptrdiff_t>(point.nodes[a]) * input.coefficients * 3], part);
 }
 
+/// H_k of the first `count` coefficients.
 template <int N>
 PALPATE_INLINE void gradientsOf(const PointInput<N>& input, const IntegrationPoint<N>& point, int part,
                                 int count, PartTensor* H) {
   const Part* u[N];
   nodesOf(input, point, part, u);
+  Slopes<double, N> g;
+  slopesOf(point, g);
   for (int k = 0; k < count; ++k) {
-    gradientOf(point, u, kParts, H[k]);
+    gradientOf(g, u, kParts, H[k]);
     for (const Part*& x : u) x += 3 * kParts;
+  }
+}
+
+/// H_k length^|alpha_k| of all coefficients.
+template <int N>
+PALPATE_INLINE void scaledGradientsOf(const PointInput<N>& input, const IntegrationPoint<N>& point,
+                                      Tensor<float>* H) {
+  const FloatLanes* u[N];
+  for (std::size_t a = 0; a < N; ++a)
+    u[a] = input.V + static_cast<std::ptrdiff_t>(point.nodes[a]) * input.coefficients * 3;
+  Slopes<float, N> g;
+  slopesOf(point, g);
+  for (int k = 0; k < input.coefficients; ++k) {
+    gradientOf(g, u, 1, H[k]);
+    for (const FloatLanes*& x : u) x += 3;
   }
 }
 
@@ -98,71 +130,44 @@ PALPATE_INLINE void assemblePart(const PointInput<N>& input, const CauchyProduct
   }
 }
 
-/// One part of one point's energyCoefficients.
+/// One point's energyCoefficients.
 template <typename L, int N>
-PALPATE_INLINE void energyPart(const PointInput<N>& input, const CauchyProduct& strain,
-                               const CauchyProduct& energy, int n, int part, int first, int last, Lanes* W) {
-  std::array<PartTensor, kMost> H;
+PALPATE_INLINE void energyPoint(const PointInput<N>& input, const CauchyProduct& factors,
+                                const CauchyRows& rows, int n, FloatLanes* W) {
+  std::array<Tensor<float>, kMost> H;
   const IntegrationPoint<N>& point = input.points[n];
-  gradientsOf(input, point, part, input.coefficients, H.data());
-  typename L::Series series(point.lame, H.data(), input.coefficients);
-  const int strains = static_cast<int>(strain.begin.size()) - 1;
-  for (int k = 0; k < strains; ++k) series.carry(strain, k);
-  for (int k = first; k < last; ++k) {
-    Part density;
-    series.energy(energy, k, density);
-    partOf(W[k - first], part) += point.weight * density;
-  }
+  scaledGradientsOf(input, point, H.data());
+  typename L::EnergySeries series(point.lame, H.data(), input.coefficients);
+  const int carried = static_cast<int>(factors.begin.size()) - 1;
+  for (int k = 0; k < carried; ++k) series.carry(factors, k);
+  series.addEnergies(rows, static_cast<float>(point.weight), W);
 }
 
-/// One part of detF. F is linear in the nodes' displacements, so it sums those and not the gradients.
+/// One part of det F of one point, of fields that are already summed: one coefficient.
 template <int N>
-PALPATE_INLINE void detPart(const PointInput<N>& input, int n, int part, const Lanes* monomials, Lanes* det) {
-  const IntegrationPoint<N>& point = input.points[n];
-  const Part* u[N];
-  nodesOf(input, point, part, u);
-  Part moved[N][3];
-  const Part* at[N];
-  for (int a = 0; a < N; ++a) {
-    Part x{}, y{}, z{};
-    for (int k = 0; k < input.coefficients; ++k) {
-      const Part *from = u[a] + 3 * kParts * k, power = partOf(monomials[k], part);
-      x += power * from[0];
-      y += power * from[kParts];
-      z += power * from[2 * kParts];
-    }
-    moved[a][0] = x;
-    moved[a][1] = y;
-    moved[a][2] = z;
-    at[a] = moved[a];
-  }
+PALPATE_INLINE void detPart(const PointInput<N>& summed, int n, int part, Part& det) {
   PartTensor F;
-  gradientOf(point, at, 1, F);
+  gradientsOf(summed, summed.points[n], part, 1, &F);
   for (int i = 0; i < 9; i += 4) F.v[i] += 1.0;
   const Part* f = F.v;
-  partOf(*det, part) = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
-                       f[2] * (f[3] * f[7] - f[4] * f[6]);
+  det = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
+        f[2] * (f[3] * f[7] - f[4] * f[6]);
 }
 
-/// One part of one point's gradientBounds.
+/// One point's gradientBounds.
 template <int N>
-PALPATE_INLINE void boundPart(const PointInput<N>& input, int n, int part, const Lanes* powers,
-                              Lanes* bounds) {
-  const IntegrationPoint<N>& point = input.points[n];
-  const Part* u[N];
-  nodesOf(input, point, part, u);
-  Part bound{};
-  for (int k = 0; k < input.coefficients; ++k) {
-    PartTensor H;
-    gradientOf(point, u, kParts, H);
-    for (const Part*& x : u) x += 3 * kParts;
-    Part square{}, root;
-    for (const Part& h : H.v) square += h * h;
-    for (std::size_t lane = 0; lane < sizeof(Part) / sizeof(double); ++lane)
-      root[lane] = std::sqrt(square[lane]);
-    bound += partOf(powers[k], part) * root;
+PALPATE_INLINE void boundPoint(const PointInput<N>& input, int n, const FloatLanes* powers,
+                               FloatLanes& bound) {
+  std::array<Tensor<float>, kMost> H;
+  scaledGradientsOf(input, input.points[n], H.data());
+  bound = FloatLanes{};
+  for (int k = 0, degree = 1; k < input.coefficients; ++degree) {
+    FloatLanes square{}, root;
+    for (; k < input.coefficients && k < MonomialBasis::begin(degree + 1); ++k)
+      for (const FloatLanes& h : H[static_cast<std::size_t>(k)].v) square += h * h;
+    for (int lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(square[lane]);
+    bound += powers[degree - 1] * root;
   }
-  partOf(bounds[n], part) = bound;
 }
 
 /// Calls body with the law; std::visit would not be inlined. @param body  inlined as well
@@ -190,14 +195,35 @@ PALPATE_INLINE void assembleAll(const PointInput<N>& input, const CauchyProduct&
 
 /// energyCoefficients of series_kernel.h.
 template <int N>
-PALPATE_INLINE void energyAll(const PointInput<N>& input, const CauchyProduct& strain,
-                              const CauchyProduct& energy, int first, int last, Lanes* W) {
+PALPATE_INLINE void energyAll(const PointInput<N>& input, const CauchyProduct& factors,
+                              const CauchyRows& rows, int count, Lanes* W) {
+  constexpr int kBlock = 16;  // points summed in float32
   withLaw(
       input.law, [&](auto law) __attribute__((always_inline)) {
-        for (int n = 0; n < input.point_count; ++n)
-          for (int part = 0; part < kParts; ++part)
-            energyPart<decltype(law)>(input, strain, energy, n, part, first, last, W);
+        for (int begin = 0; begin < input.point_count; begin += kBlock) {
+          std::array<FloatLanes, kMost> sums;
+          for (int k = 0; k < count; ++k) sums[static_cast<std::size_t>(k)] = FloatLanes{};
+          for (int n = begin; n < begin + kBlock && n < input.point_count; ++n)
+            energyPoint<decltype(law)>(input, factors, rows, n, sums.data());
+          for (int k = 0; k < count; ++k)
+            for (int lane = 0; lane < kLanes; ++lane)
+              W[k][lane] += static_cast<double>(sums[static_cast<std::size_t>(k)][lane]);
+        }
       });
+}
+
+/// leastDetF of series_kernel.h.
+template <int N>
+PALPATE_INLINE void leastDetAll(const PointInput<N>& summed, Lanes& least) {
+  for (int part = 0; part < kParts; ++part) {
+    Part smallest = partOf(least, part);
+    for (int n = 0; n < summed.point_count; ++n) {
+      Part det;
+      detPart(summed, n, part, det);
+      smallest = det < smallest ? det : smallest;
+    }
+    partOf(least, part) = smallest;
+  }
 }
 
 }  // namespace point_kernel

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/solver/series/series.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tools/solver/base/lanes.h"
+#include "tools/solver/fem/ordered_solver.h"
 #include "tools/solver/series/domain.h"
+#include "tools/solver/series/node_order.h"
 #include "tools/solver/series/series_kernel.h"
 
 namespace palpate::solver {
 
 namespace {
 
-/// Neighbours in memory are neighbours in the mesh: each field is read once, not once per element.
-std::vector<FeModel::Point> sorted(std::span<const FeModel::Point> of_the_mesh) {
-  std::vector<FeModel::Point> points(of_the_mesh.begin(), of_the_mesh.end());
-  std::sort(points.begin(), points.end(), [](const FeModel::Point& l, const FeModel::Point& r) {
-    return *std::min_element(l.nodes.begin(), l.nodes.end()) <
-           *std::min_element(r.nodes.begin(), r.nodes.end());
-  });
-  return points;
+/// A power of two of the order of an element's edge: a change of unit by it is exact.
+double lengthOf(std::span<const FeModel::Point> points) {
+  double volume = 0.0;
+  for (const FeModel::Point& point : points) volume += point.weight;
+  return std::exp2(std::round(std::log2(std::cbrt(volume / static_cast<double>(points.size())))));
 }
 
 }  // namespace
@@ -34,29 +37,52 @@ struct SeriesSolver::State {
         answer_basis(answerOrder(order)),
         energy_basis(std::min(answerOrder(order) + 1, MonomialBasis::kMaxOrder)),
         product(basis, order),
-        strain_product(answer_basis, order),
-        energy_product(energy_basis, answerOrder(order)),
-        points(sorted(fe.points())),
+        factor_product(answer_basis, order),
+        energy_rows(CauchyProduct(energy_basis, answerOrder(order)), firstEnergy()),
+        order_of_nodes(fe, factor),
+        points(order_of_nodes.sorted(fe.points())),
+        length(lengthOf(points)),
         solver(factor) {
     U.resize(static_cast<std::size_t>(model.nodeCount()) * coefficients() * 3);
+    V.resize(U.size());
     answer.resize(static_cast<std::size_t>(answer_basis.size()) * 3);
   }
 
   [[nodiscard]] std::size_t coefficients() const { return static_cast<std::size_t>(basis.size()); }
-  [[nodiscard]] KernelInput input() const {
-    return {points.data(), static_cast<int>(points.size()), basis.size(), U.data(), model.material().law};
+  /// The first coefficient of the energy that the force takes from it.
+  [[nodiscard]] int firstEnergy() const {
+    return energy_basis.begin(std::min(basis.order() + 2, energy_basis.order() + 1));
   }
-  Lanes* at(int node, int k) {
-    return U.data() + (static_cast<std::size_t>(node) * coefficients() + static_cast<std::size_t>(k)) * 3;
+  [[nodiscard]] KernelInput input() const {
+    return {points.data(),
+            static_cast<int>(points.size()),
+            basis.size(),
+            U.data(),
+            model.material().law,
+            V.data(),
+            length};
+  }
+  /// Of a coefficient in U and V.
+  [[nodiscard]] std::size_t at(std::size_t place, int k) const {
+    return (place * coefficients() + static_cast<std::size_t>(k)) * 3;
+  }
+  [[nodiscard]] std::size_t placeOf(int node) const {
+    return static_cast<std::size_t>(order_of_nodes.place[static_cast<std::size_t>(node)]);
+  }
+  /// Of the factor, for a node that is free.
+  [[nodiscard]] std::size_t rowOf(int node, int c) const {
+    return order_of_nodes.row_of[placeOf(node)][static_cast<std::size_t>(c)];
   }
 
   void firstDegree();
-  void prescribeDisplacement(int lane, const Mat3& C);
   void nextDegree(int degree);
-  void correct(int k);
+  void fillSides(std::size_t count);
+  void solveSides(int count);
+  void takeFields(int first, int last, const Lanes* mix);
+  void store(int lane, int k, const Vec3& value);
+  const Mat3& inverseCompliance(int lane, const Mat3& C);
   void answerFromEnergy();
-  void takeColumns(int first, int last, double sign);
-  [[nodiscard]] Vec3 average(int lane, int k);
+  [[nodiscard]] Vec3 average(int lane, int j) const;
 
   const FeModel& model;
   SeriesKind kind;
@@ -64,15 +90,18 @@ struct SeriesSolver::State {
   MonomialBasis answer_basis;
   MonomialBasis energy_basis;
   CauchyProduct product;         // of fields, for fields
-  CauchyProduct strain_product;  // of fields, for strains to the degree of the force
-  CauchyProduct energy_product;  // of strains, for the energy
+  CauchyProduct factor_product;  // of fields, for what the energy is made of, to the degree of the force
+  CauchyRows energy_rows;        // of those, for the energy
+  NodeOrder order_of_nodes;
   std::vector<FeModel::Point> points;
-  Cholesky::Solver solver;
+  double length;  // unit of V, m
+  OrderedSolver solver;
   std::span<const Patch> patches;
-  LaneVector U;                                 // [node][k][3]
-  LaneVector r;                                 // [node][k - first][3]
+  LaneVector U;                                 // [place][k][3]; zero at clamped nodes
+  FloatLaneVector V;                            // U_alpha length^|alpha|, as U
+  LaneVector r;                                 // [place][k - first][3]
   LaneVector answer;                            // [k][3]
-  Eigen::MatrixXd rhs;                          // dofs x (coefficients of the degree * kLanes)
+  LaneVector sides;                             // [row of the factor][k - first]
   std::array<Mat3, kLanes> inverse_compliance;  // C_s^-1, N/m
 
   [[nodiscard]] const Patch& patch(int lane) const {
@@ -81,109 +110,99 @@ struct SeriesSolver::State {
   }
 };
 
-void SeriesSolver::State::takeColumns(int first, int last, double sign) {
-  for (int node = 0; node < model.nodeCount(); ++node) {
-    const int dof = model.dof(node);
-    for (int k = first; k < last; ++k) {
-      Lanes* u = at(node, k);
-      for (int c = 0; c < 3; ++c)
-        for (int lane = 0; lane < kLanes; ++lane)
-          u[c][lane] = dof < 0 ? 0.0 : sign * rhs(dof + c, (k - first) * kLanes + lane);
-    }
-  }
-}
-
-Vec3 SeriesSolver::State::average(int lane, int k) {
+/// The patch's average of the solution, coefficient j of those that `sides` holds.
+Vec3 SeriesSolver::State::average(int lane, int j) const {
+  const std::size_t count = sides.size() / order_of_nodes.rows.size();
   Vec3 d = Vec3::Zero();
   const Patch& p = patch(lane);
   for (std::size_t i = 0; i < p.nodes.size(); ++i)
-    for (int c = 0; c < 3; ++c) d[c] += p.weights[i] * at(p.nodes[i], k)[c][lane];
+    for (int c = 0; c < 3; ++c)
+      d[c] += p.weights[i] * sides[rowOf(p.nodes[i], c) * count + static_cast<std::size_t>(j)][lane];
   return d;
 }
 
-/// W_s = K0^-1 G_s, C_s = G_s^T W_s: the answer to unit forces, when driven by force.
+void SeriesSolver::State::store(int lane, int k, const Vec3& value) {
+  for (int c = 0; c < 3; ++c) answer[static_cast<std::size_t>(3 * k + c)][lane] = value[c];
+}
+
+/// Solves for all `count` coefficients of a degree.
+void SeriesSolver::State::solveSides(int count) {
+  const std::span<Lanes> all(sides);
+  solver.solve({reinterpret_cast<double*>(all.data()), all.size() * kLanes}, count * kLanes);
+}
+
+/// U_k from the solution, first <= k < last of one degree. @param mix  [k - first][3], see fieldsFromRows
+void SeriesSolver::State::takeFields(int first, int last, const Lanes* mix) {
+  const MultiIndex& alpha = basis[first];
+  const double unit = std::pow(length, alpha[0] + alpha[1] + alpha[2]);
+  fieldsFromRows(order_of_nodes.rows, {sides.data(), first, last, mix, unit}, basis.size(), U.data(),
+                 V.data());
+}
+
+/// W_s = K0^-1 G_s, C_s = G_s^T W_s: the answer to unit forces, when driven by force. Driven by displacement,
+/// f_{e_i} = C_s^-1 e_i, U_{e_i} = W_s f_{e_i}.
 void SeriesSolver::State::firstDegree() {
-  rhs.setZero(model.dofCount(), 3 * kLanes);
+  sides.assign(order_of_nodes.rows.size() * 3, Lanes{});
   for (int lane = 0; lane < kLanes; ++lane)
     for (std::size_t i = 0; i < patch(lane).nodes.size(); ++i)
       for (int c = 0; c < 3; ++c)
-        rhs(model.dof(patch(lane).nodes[i]) + c, c * kLanes + lane) = patch(lane).weights[i];
-  solver.solveInPlace(rhs);
-  takeColumns(0, 3, 1.0);
+        sides[rowOf(patch(lane).nodes[i], c) * 3 + static_cast<std::size_t>(c)][lane] =
+            patch(lane).weights[i];
+  solveSides(3);
+  std::array<Lanes, 9> mix{};  // of the columns of W_s, [k][i]
   for (int lane = 0; lane < kLanes; ++lane) {
     Mat3 C;
     for (int k = 0; k < 3; ++k) C.col(k) = average(lane, k);
     C = 0.5 * (C + C.transpose()).eval();
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) answer[static_cast<std::size_t>(3 * k + c)][lane] = C(c, k);
-    if (kind == SeriesKind::kDisplacement) prescribeDisplacement(lane, C);
+    Mat3 M = Mat3::Identity();
+    if (kind == SeriesKind::kDisplacement) C = M = inverseCompliance(lane, C);
+    for (int k = 0; k < 3; ++k) {
+      store(lane, k, C.col(k));
+      for (int i = 0; i < 3; ++i) mix[static_cast<std::size_t>(3 * k + i)][lane] = M(i, k);
+    }
   }
+  takeFields(0, 3, mix.data());
 }
 
-/// f_{e_i} = C_s^-1 e_i, U_{e_i} = W_s f_{e_i}.
-void SeriesSolver::State::prescribeDisplacement(int lane, const Mat3& C) {
-  const Mat3 inverse = C.inverse();
-  if (!inverse.allFinite())
-    throw std::runtime_error("a contact patch cannot be moved: its compliance is singular");
-  inverse_compliance[static_cast<std::size_t>(lane)] = inverse;
-  for (int k = 0; k < 3; ++k)
-    for (int c = 0; c < 3; ++c) answer[static_cast<std::size_t>(3 * k + c)][lane] = inverse(c, k);
-  for (int node = 0; node < model.nodeCount(); ++node) {
-    Mat3 W;
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) W(c, k) = at(node, k)[c][lane];
-    const Mat3 u = W * inverse;
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) at(node, k)[c][lane] = u(c, k);
-  }
+/// C_s^-1, N/m.
+const Mat3& SeriesSolver::State::inverseCompliance(int lane, const Mat3& C) {
+  const Eigen::LLT<Mat3> factor(C);
+  if (factor.info() != Eigen::Success)
+    throw std::runtime_error("the compliance of the contact patch at volume node " +
+                             std::to_string(patch(lane).nodes.front()) + " is not positive definite");
+  Mat3& inverse = inverse_compliance[static_cast<std::size_t>(lane)];
+  inverse = factor.solve(Mat3::Identity());
+  return inverse;
 }
 
-/// v = -K0^-1 r: with f prescribed that is U, and d = G_s^T v.
+/// `sides` from r.
+void SeriesSolver::State::fillSides(std::size_t count) {
+  sides.resize(order_of_nodes.rows.size() * count);
+  auto side = sides.begin();
+  for (const NodeRow& row : order_of_nodes.rows)
+    for (std::size_t j = 0; j < count; ++j) *side++ = r[(row.place * count + j) * 3 + row.c];
+}
+
+/// v = -K0^-1 r: with f prescribed that is U, and d = G_s^T v. With d prescribed f = -C_s^-1 G_s^T v,
+/// U = v + W_s f = v - sum_i U_{e_i} (G_s^T v)_i.
 void SeriesSolver::State::nextDegree(int degree) {
   const int first = basis.begin(degree);
   const int last = basis.begin(degree + 1);
   const int count = last - first;
   r.assign(static_cast<std::size_t>(model.nodeCount()) * static_cast<std::size_t>(count) * 3, Lanes{});
   assembleDegree(input(), product, first, last, r.data());
-  rhs.resize(model.dofCount(), count * kLanes);
-  for (int node = 0; node < model.nodeCount(); ++node) {
-    const int dof = model.dof(node);
-    if (dof < 0) continue;
-    const Lanes* in = r.data() + static_cast<std::size_t>(node) * static_cast<std::size_t>(count) * 3;
-    for (int k = 0; k < count; ++k)
-      for (int c = 0; c < 3; ++c)
-        for (int lane = 0; lane < kLanes; ++lane) rhs(dof + c, k * kLanes + lane) = in[3 * k + c][lane];
-  }
-  solver.solveInPlace(rhs);
-  takeColumns(first, last, -1.0);
-  for (int k = first; k < last; ++k) {
-    if (kind == SeriesKind::kDisplacement) {
-      correct(k);
-      continue;
+  fillSides(static_cast<std::size_t>(count));
+  solveSides(count);
+  std::array<Lanes, 3 * MonomialBasis::kMaxCoefficients> mix;  // [k - first][i]: of U_{e_i}
+  for (int lane = 0; lane < kLanes; ++lane)
+    for (int j = 0; j < count; ++j) {
+      const Vec3 moved = -average(lane, j);
+      const bool by_force = kind == SeriesKind::kForce;
+      store(lane, first + j,
+            by_force ? moved : Vec3(-inverse_compliance[static_cast<std::size_t>(lane)] * moved));
+      for (int i = 0; i < 3; ++i) mix[static_cast<std::size_t>(3 * j + i)][lane] = by_force ? 0.0 : -moved[i];
     }
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const Vec3 moved = average(lane, k);
-      for (int c = 0; c < 3; ++c) answer[static_cast<std::size_t>(3 * k + c)][lane] = moved[c];
-    }
-  }
-}
-
-/// d prescribed: f = -C_s^-1 G_s^T v, U = v + W_s f = v - sum_i U_{e_i} (G_s^T v)_i.
-void SeriesSolver::State::correct(int k) {
-  Lanes d[3];
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const Vec3 moved = average(lane, k);
-    const Vec3 f = -inverse_compliance[static_cast<std::size_t>(lane)] * moved;
-    for (int c = 0; c < 3; ++c) {
-      d[c][lane] = moved[c];
-      answer[static_cast<std::size_t>(3 * k + c)][lane] = f[c];
-    }
-  }
-  for (int node = 0; node < model.nodeCount(); ++node) {
-    Lanes* u = at(node, k);
-    for (int i = 0; i < 3; ++i)
-      for (int c = 0; c < 3; ++c) u[c] -= at(node, i)[c] * d[i];
-  }
+  takeFields(first, last, mix.data());
 }
 
 /// For p < |alpha| <= answerOrder(p): f_alpha,i = (alpha_i + 1) W_(alpha + e_i). With f prescribed the
@@ -191,16 +210,17 @@ void SeriesSolver::State::correct(int k) {
 /// part.
 void SeriesSolver::State::answerFromEnergy() {
   if (answer_basis.order() == basis.order()) return;
-  const int first = energy_basis.begin(basis.order() + 2);
+  const int first = firstEnergy();
   LaneVector W(static_cast<std::size_t>(energy_basis.size() - first), Lanes{});
   const double sign = kind == SeriesKind::kDisplacement ? 1.0 : -1.0;
-  energyCoefficients(input(), strain_product, energy_product, first, energy_basis.size(), W.data());
+  energyCoefficients(input(), factor_product, energy_rows, static_cast<int>(W.size()), W.data());
   for (int k = basis.size(); k < answer_basis.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
       MultiIndex gamma = answer_basis[k];
       ++gamma[i];
+      const double unit = std::pow(length, -(gamma[0] + gamma[1] + gamma[2]));
       answer[static_cast<std::size_t>(3 * k) + i] =
-          sign * static_cast<double>(gamma[i]) *
+          sign * unit * static_cast<double>(gamma[i]) *
           W[static_cast<std::size_t>(energy_basis.find(gamma) - first)];
     }
   }
@@ -237,8 +257,23 @@ Vec3 SeriesSolver::answer(int lane, int k) const {
 }
 
 Vec3 SeriesSolver::displacement(int lane, int k, int node) const {
-  const Lanes* u = state_->at(node, k);
+  const Lanes* u = state_->U.data() + state_->at(state_->placeOf(node), k);
   return {u[0][lane], u[1][lane], u[2][lane]};
+}
+
+void SeriesSolver::copyDisplacements(std::span<const std::int32_t> nodes, std::span<float> fields) const {
+  constexpr std::size_t kTogether = 16;  // nodes, of which all coefficients stay in the cache
+  const State& s = *state_;
+  const std::size_t rows = 3 * nodes.size();
+  for (std::size_t begin = 0; begin < nodes.size(); begin += kTogether)
+    for (std::size_t k = 0; k < s.coefficients(); ++k)
+      for (std::size_t lane = 0; lane < s.patches.size(); ++lane) {
+        float* out = fields.data() + (lane * s.coefficients() + k) * rows + 3 * begin;
+        for (std::size_t i = begin; i < std::min(begin + kTogether, nodes.size()); ++i)
+          for (std::size_t c = 0; c < 3; ++c)
+            *out++ = static_cast<float>(
+                s.U[s.at(s.placeOf(nodes[i]), static_cast<int>(k)) + c][static_cast<int>(lane)]);
+      }
 }
 
 std::vector<double> SeriesSolver::domainRadii(const DomainCriteria& criteria) const {

@@ -43,7 +43,7 @@ class SeriesSolver {
   ~SeriesSolver();
 
   /// @param patches  1 to kLanes contact patches with at least one free node each
-  /// @throw std::runtime_error when a patch cannot move (C_s singular) or a result is not finite
+  /// @throw std::runtime_error when C_s is not positive definite or a result is not finite
   void solve(std::span<const Patch> patches);
 
   /// Degree of the answer for fields of degree p: 2p, or less where a MonomialBasis cannot hold the energy,
@@ -60,6 +60,8 @@ class SeriesSolver {
   [[nodiscard]] Vec3 answer(int lane, int k) const;
   /// U_alpha of the position in a lane at a volume node.
   [[nodiscard]] Vec3 displacement(int lane, int k, int node) const;
+  /// U_alpha of all positions at volume nodes. @param[out] fields  [position][k][node][3]
+  void copyDisplacements(std::span<const std::int32_t> nodes, std::span<float> fields) const;
   /// Largest |d| (|f|) at which the series of a lane meets the criteria, over 26 directions, m (N). Driven by
   /// displacement the whole answer is judged; driven by force only its part of degree p, which a model keeps.
   [[nodiscard]] std::vector<double> domainRadii(const DomainCriteria& criteria) const;

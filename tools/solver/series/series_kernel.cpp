@@ -9,20 +9,55 @@ void assembleDegree(const KernelInput& input, const CauchyProduct& product, int 
 }
 
 PALPATE_MULTIVERSION
-void energyCoefficients(const KernelInput& input, const CauchyProduct& strain, const CauchyProduct& energy,
-                        int first, int last, Lanes* W) {
-  point_kernel::energyAll(input, strain, energy, first, last, W);
+void energyCoefficients(const KernelInput& input, const CauchyProduct& factors, const CauchyRows& rows,
+                        int count, Lanes* W) {
+  point_kernel::energyAll(input, factors, rows, count, W);
 }
 
 PALPATE_MULTIVERSION
-void detF(const KernelInput& input, int point, const Lanes* monomials, Lanes* det) {
-  for (int part = 0; part < kParts; ++part) point_kernel::detPart(input, point, part, monomials, det);
+void fieldsFromRows(std::span<const NodeRow> rows, const SolvedRows& solved, int coefficients, Lanes* U,
+                    FloatLanes* V) {
+  using FloatPart [[gnu::vector_size(sizeof(FloatLanes) / kParts), gnu::may_alias]] = float;
+  const int count = solved.last - solved.first;
+  const Lanes* v = solved.v;
+  for (const NodeRow& row : rows) {
+    const std::size_t begin = row.place * static_cast<std::size_t>(coefficients) * 3 + row.c;
+    for (int part = 0; part < kParts; ++part) {
+      Part linear[3];
+      for (int i = 0; i < 3; ++i) linear[i] = partOf(solved.first == 0 ? v[i] : U[begin + 3 * i], part);
+      for (int j = 0; j < count; ++j) {
+        const std::size_t k = begin + 3 * static_cast<std::size_t>(solved.first + j);
+        Part u{};
+        if (solved.first > 0) u -= partOf(v[j], part);
+        for (int i = 0; i < 3; ++i) u += linear[i] * partOf(solved.mix[3 * j + i], part);
+        partOf(U[k], part) = u;
+        reinterpret_cast<FloatPart*>(&V[k])[part] = __builtin_convertvector(u * solved.unit, FloatPart);
+      }
+    }
+    v += count;
+  }
 }
 
 PALPATE_MULTIVERSION
-void gradientBounds(const KernelInput& input, const Lanes* powers, Lanes* bounds) {
-  for (int n = 0; n < input.point_count; ++n)
-    for (int part = 0; part < kParts; ++part) point_kernel::boundPart(input, n, part, powers, bounds);
+void sumFields(const KernelInput& input, int nodes, const Lanes* monomials, Lanes* u) {
+  for (int part = 0; part < kParts; ++part)
+    for (int node = 0; node < nodes; ++node) {
+      const Lanes* from = input.U + static_cast<std::ptrdiff_t>(node) * input.coefficients * 3;
+      Part sum[3] = {};
+      for (int k = 0; k < input.coefficients; ++k)
+        for (int c = 0; c < 3; ++c) sum[c] += partOf(monomials[k], part) * partOf(from[3 * k + c], part);
+      for (int c = 0; c < 3; ++c) partOf(u[3 * node + c], part) = sum[c];
+    }
+}
+
+PALPATE_MULTIVERSION
+void leastDetF(const KernelInput& summed, Lanes* least) {
+  point_kernel::leastDetAll(summed, *least);
+}
+
+PALPATE_MULTIVERSION
+void gradientBounds(const KernelInput& input, const FloatLanes* powers, FloatLanes* bounds) {
+  for (int n = 0; n < input.point_count; ++n) point_kernel::boundPoint(input, n, powers, bounds[n]);
 }
 
 }  // namespace palpate::solver

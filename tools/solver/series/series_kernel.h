@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "tools/solver/base/cauchy_product.h"
 #include "tools/solver/base/lanes.h"
 #include "tools/solver/fem/fe_model.h"
+#include "tools/solver/series/node_order.h"
 #include "tools/solver/series/point_kernel.h"
 
 namespace palpate::solver {
@@ -16,17 +19,36 @@ using KernelInput = PointInput<FeModel::kNodes>;
 /// The coefficients below `first` must be in U.
 void assembleDegree(const KernelInput& input, const CauchyProduct& product, int first, int last, Lanes* r);
 
-/// W[k - first] += the energy coefficients first <= k < last, J m^-|gamma|, of the fields that U holds.
-/// @param strain  pairs for what the law carries, up to the degree that W needs  @param energy  pairs for W_gamma
-void energyCoefficients(const KernelInput& input, const CauchyProduct& strain, const CauchyProduct& energy,
-                        int first, int last, Lanes* W);
+/// W[k] += length^|gamma| W_gamma, J, for the coefficients of `rows`, of the fields that V holds: terms in
+/// float32, their sum over points in double.
+/// @param factors  pairs for what the law carries, up to the degree that W needs  @param count  of rows
+void energyCoefficients(const KernelInput& input, const CauchyProduct& factors, const CauchyRows& rows,
+                        int count, Lanes* W);
 
-/// det F in one integration point: F = I + sum x^alpha H_alpha.
-/// @param monomials  [k] lanes: x^alpha of each lane's sample  @param[out] det  det F, one per lane
-void detF(const KernelInput& input, int point, const Lanes* monomials, Lanes* det);
+/// A solution v of one degree, and what becomes of it.
+struct SolvedRows {
+  const Lanes* v;  ///< [row][k - first]
+  int first, last;
+  const Lanes* mix;  ///< [k - first][3]
+  double unit;       ///< length^|alpha|
+};
 
-/// sum_k radius^|alpha_k| |H_alpha_k|_F in each integration point: a bound of |H|_F in the ball |d| <= radius.
-/// @param powers  [k] lanes: radius^|alpha_k|
-void gradientBounds(const KernelInput& input, const Lanes* powers, Lanes* bounds);
+/// U_k, first <= k < last, and V_k = unit U_k, with one pass over the rows. The first degree is
+/// U_k = sum_i v_i mix_ki, the others are U_k = -v_k + sum_i U_{e_i} mix_ki.
+/// @param[out] U, V  [place][coefficients][3]
+void fieldsFromRows(std::span<const NodeRow> rows, const SolvedRows& solved, int coefficients, Lanes* U,
+                    FloatLanes* V);
+
+/// u = sum_k x^alpha_k U_k at the first nodes, [node][3]. @param monomials  [k] lanes: x^alpha of each lane's sample
+void sumFields(const KernelInput& input, int nodes, const Lanes* monomials, Lanes* u);
+
+/// least = min(least, det F) over the points, lane by lane.
+/// @param summed  fields of one coefficient, such as sumFields makes
+void leastDetF(const KernelInput& summed, Lanes* least);
+
+/// bounds[n]: a bound of |H|_F in point n within the ball |d| <= radius:
+///   sum_degree radius^degree (sum_(|alpha| = degree) |H_alpha|_F^2)^1/2, since sum x^2alpha <= |x|^2degree
+/// @param powers  [degree - 1] lanes: (radius / length)^degree
+void gradientBounds(const KernelInput& input, const FloatLanes* powers, FloatLanes* bounds);
 
 }  // namespace palpate::solver

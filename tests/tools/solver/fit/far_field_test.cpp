@@ -252,7 +252,7 @@ TEST(FieldTable, GivesBackWhatWasWritten) {
   FieldTable table(std::filesystem::temp_directory_path(), 5, 2, 3);
   for (std::size_t s = 0; s < 5; ++s) {
     const auto x = static_cast<float>(s);
-    table.write(s, {x, 1, 2, 3, 4, x});
+    table.write(s, std::vector<float>{x, 1, 2, 3, 4, x});
   }
   std::vector<float> fields(6);
   table.read(3, fields);

@@ -20,7 +20,9 @@ class QuadraticKernels : public ::testing::Test {
   const std::span<const IntegrationPoint<10>> points_{body_.points};
   const MonomialBasis basis_{3};
   const Vec3 direction_ = Vec3(0.3, -0.5, 0.8).normalized();
+  static constexpr double kLength = 0.25;  // m, a power of two as in SeriesSolver: no rounding by it
   LaneVector U_;
+  FloatLaneVector V_;
 
   /// Fields up to a degree are random, others zero.
   PointInput<10> input(int degree) {
@@ -31,7 +33,18 @@ class QuadraticKernels : public ::testing::Test {
       for (int k = 0; k < MonomialBasis::size(degree); ++k)
         for (int c = 0; c < 3; ++c)
           for (int lane = 0; lane < kLanes; ++lane) at(node, k, c)[lane] = uniform(random);
-    return {body_.points.data(), static_cast<int>(body_.points.size()), basis_.size(), U_.data(), {}};
+    V_.resize(U_.size());
+    for (std::size_t i = 0; i < U_.size(); ++i) {
+      const MultiIndex& alpha = basis_[static_cast<int>(i / 3) % basis_.size()];
+      V_[i] = __builtin_convertvector(U_[i] * std::pow(kLength, alpha[0] + alpha[1] + alpha[2]), FloatLanes);
+    }
+    return {body_.points.data(),
+            static_cast<int>(body_.points.size()),
+            basis_.size(),
+            U_.data(),
+            {},
+            V_.data(),
+            kLength};
   }
   Lanes& at(std::size_t node, int k, int c) {
     return U_[(node * static_cast<std::size_t>(basis_.size()) + static_cast<std::size_t>(k)) * 3 +
@@ -97,9 +110,10 @@ TEST_F(QuadraticKernels, LowerOrdersMakeTheForceOfTheNextDegree) {
 TEST_F(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
   const PointInput<10> fields = input(kOrder);
   const MonomialBasis strains(2 * kOrder), energies(2 * kOrder + 1);
-  const CauchyProduct strain(strains, kOrder), energy(energies, 2 * kOrder);
+  const CauchyProduct factors(strains, kOrder);
+  const CauchyRows rows(CauchyProduct(energies, 2 * kOrder), 0);
   LaneVector W(static_cast<std::size_t>(energies.size()), Lanes{});
-  point_kernel::energyAll(fields, strain, energy, 0, energies.size(), W.data());
+  point_kernel::energyAll(fields, factors, rows, energies.size(), W.data());
   std::vector<double> monomials(static_cast<std::size_t>(energies.size()));
   energies.evaluate(direction_, monomials);
   for (const int lane : {0, kLanes - 1}) {
@@ -109,8 +123,9 @@ TEST_F(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
     for (int degree = 2; degree <= energies.order(); ++degree) {
       double found = 0.0;
       for (int k = energies.begin(degree); k < energies.begin(degree + 1); ++k)
-        found += monomials[static_cast<std::size_t>(k)] * W[static_cast<std::size_t>(k)][lane];
-      EXPECT_NEAR(found, wanted[degree], 1e-6 * std::abs(wanted[degree])) << "degree " << degree;
+        found += monomials[static_cast<std::size_t>(k)] * W[static_cast<std::size_t>(k)][lane] *
+                 std::pow(kLength, -degree);
+      EXPECT_NEAR(found, wanted[degree], 2e-5 * std::abs(wanted[degree])) << "degree " << degree;
     }
   }
 }
@@ -118,26 +133,33 @@ TEST_F(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
 TEST_F(QuadraticKernels, DetFIsThatOfTheSumAndWithinItsBound) {
   const PointInput<10> fields = input(kOrder);
   const double radius = 5e-3;
-  LaneVector monomials(static_cast<std::size_t>(basis_.size())), powers(monomials.size());
+  LaneVector monomials(static_cast<std::size_t>(basis_.size())), summed(body_.nodes.size() * 3);
   std::vector<double> unit(monomials.size());
   basis_.evaluate(radius * direction_, unit);
-  for (std::size_t k = 0; k < unit.size(); ++k) {
-    const MultiIndex& alpha = basis_[static_cast<int>(k)];
-    monomials[k] = unit[k] - Lanes{};
-    powers[k] = std::pow(radius, alpha[0] + alpha[1] + alpha[2]) - Lanes{};
+  for (std::size_t k = 0; k < unit.size(); ++k) monomials[k] = unit[k] - Lanes{};
+  FloatLaneVector powers, bounds(static_cast<std::size_t>(fields.point_count));
+  for (int degree = 1; degree <= basis_.order(); ++degree)
+    powers.push_back(static_cast<float>(std::pow(radius / kLength, degree)) - FloatLanes{});
+  for (std::size_t i = 0; i < summed.size(); ++i) {
+    summed[i] = Lanes{};
+    for (std::size_t k = 0; k < unit.size(); ++k)
+      summed[i] += monomials[k] * at(i / 3, static_cast<int>(k), static_cast<int>(i % 3));
   }
-  for (int n = 0; n < fields.point_count; ++n) {
-    Lanes det{};
-    LaneVector bounds(static_cast<std::size_t>(fields.point_count), Lanes{});
-    for (int part = 0; part < kParts; ++part) {
-      point_kernel::detPart(fields, n, part, monomials.data(), &det);
-      point_kernel::boundPart(fields, n, part, powers.data(), bounds.data());
-    }
-    for (const int lane : {0, kLanes - 1}) {
+  PointInput<10> sum = fields;
+  sum.U = summed.data();
+  sum.coefficients = 1;
+  Lanes least = Lanes{} + 1e9;
+  point_kernel::leastDetAll(sum, least);
+  for (const int lane : {0, kLanes - 1}) {
+    double smallest = 1e9;
+    for (int n = 0; n < fields.point_count; ++n) {
       const Mat3 H = displacementGradient(points_[static_cast<std::size_t>(n)], displacement(radius, lane));
-      EXPECT_NEAR(det[lane], (Mat3::Identity() + H).determinant(), 1e-12);
-      EXPECT_GE(bounds[static_cast<std::size_t>(n)][lane], H.norm());
+      smallest = std::min(smallest, (Mat3::Identity() + H).determinant());
+      FloatLanes& bound = bounds[static_cast<std::size_t>(n)];
+      point_kernel::boundPoint(fields, n, powers.data(), bound);
+      EXPECT_GE(static_cast<double>(bound[lane]) * (1.0 + 1e-6), H.norm());
     }
+    EXPECT_NEAR(least[lane], smallest, 1e-12);
   }
 }
 

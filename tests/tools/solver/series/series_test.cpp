@@ -9,6 +9,12 @@
 namespace palpate::solver {
 namespace {
 
+/// Relative error that a coefficient of degree n may have: with fields of degree p, those above p come from energies
+/// that are summed in float32.
+constexpr double precision(int degree, int field_order) {
+  return degree <= field_order ? 1e-9 : 2e-5;
+}
+
 class BlockSeries : public ::testing::Test {
  protected:
   static constexpr int kOrder = 4;
@@ -86,7 +92,7 @@ TEST_F(BlockSeries, FieldsOfDegree3GiveTheForceToDegree6) {
         scale = std::max(scale, high.answer(lane, k).norm());
         worst = std::max(worst, (low.answer(lane, k) - high.answer(lane, k)).norm());
       }
-      EXPECT_LT(worst, 1e-9 * scale) << "degree " << degree;
+      EXPECT_LT(worst, precision(degree, 3) * scale) << "degree " << degree;
     }
 }
 
@@ -231,7 +237,7 @@ TEST_F(BlockSeries, DisplacementsOfAForceSeriesArePatchAveragesAndFieldsOfDegree
       scale = std::max(scale, average.norm());
       worst = std::max({worst, (low.answer(1, k) - average).norm(), (high.answer(1, k) - average).norm()});
     }
-    EXPECT_LT(worst, 1e-9 * scale) << "degree " << degree;
+    EXPECT_LT(worst, precision(degree, 3) * scale) << "degree " << degree;
   }
 }
 
@@ -268,7 +274,7 @@ TEST_F(BlockSeries, DrivenByForceAndByDisplacementAreInverseToEachOther) {
       }
       EXPECT_LT((f[1] - f_ref * direction).norm(), 1e-10 * f_ref);
       for (std::size_t degree = 2; degree <= kDegree; ++degree)
-        EXPECT_LT(f[degree].norm(), 1e-9 * f_ref) << "degree " << degree;
+        EXPECT_LT(f[degree].norm(), precision(static_cast<int>(degree), 3) * f_ref) << "degree " << degree;
     }
 }
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/series/node_order.h"
+
+#include <algorithm>
+
+namespace palpate::solver {
+
+NodeOrder::NodeOrder(const FeModel& model, const Cholesky& factor) {
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  std::vector<int> node_of(at(model.dofCount()));
+  for (int node = 0; node < model.nodeCount(); ++node)
+    if (model.isFree(node))
+      for (int c = 0; c < 3; ++c) node_of[at(model.dof(node) + c)] = node;
+  place.assign(at(model.nodeCount()), -1);
+  std::int32_t next = 0;
+  for (const int dof : factor.order()) {
+    const int node = node_of[at(dof)];
+    if (place[at(node)] < 0) place[at(node)] = next++;
+    rows.push_back({at(place[at(node)]), at(dof - model.dof(node))});
+  }
+  row_of.resize(at(next));
+  for (std::size_t row = 0; row < rows.size(); ++row) row_of[rows[row].place][rows[row].c] = row;
+  for (std::int32_t& clamped : place)
+    if (clamped < 0) clamped = next++;
+}
+
+std::vector<FeModel::Point> NodeOrder::sorted(std::span<const FeModel::Point> of_the_mesh) const {
+  std::vector<FeModel::Point> points(of_the_mesh.begin(), of_the_mesh.end());
+  for (FeModel::Point& point : points)
+    for (std::int32_t& node : point.nodes) node = place[static_cast<std::size_t>(node)];
+  std::sort(points.begin(), points.end(), [](const FeModel::Point& l, const FeModel::Point& r) {
+    return *std::min_element(l.nodes.begin(), l.nodes.end()) <
+           *std::min_element(r.nodes.begin(), r.nodes.end());
+  });
+  return points;
+}
+
+}  // namespace palpate::solver

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/solver/fem/cholesky.h"
+#include "tools/solver/fem/fe_model.h"
+
+namespace palpate::solver {
+
+/// A row of the factor: component c of a node, by its place.
+struct NodeRow {
+  std::size_t place;
+  std::size_t c;
+};
+
+/// Where a node's numbers lie: in the order of the factor, clamped nodes last. It follows nested dissection, so
+/// neighbours in memory are neighbours in the mesh.
+struct NodeOrder {
+  NodeOrder(const FeModel& model, const Cholesky& factor);
+  /// The points with places instead of nodes, sorted by them: each field is read once, not once per element.
+  [[nodiscard]] std::vector<FeModel::Point> sorted(std::span<const FeModel::Point> of_the_mesh) const;
+  std::vector<NodeRow> rows;
+  std::vector<std::int32_t> place;                 ///< by node
+  std::vector<std::array<std::size_t, 3>> row_of;  ///< by place, of free nodes
+};
+
+}  // namespace palpate::solver
