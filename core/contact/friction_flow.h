@@ -16,7 +16,7 @@ struct Holding {
 
 /// The way y of a tip in one tick, where friction opposes the way itself (implicit Euler of Coulomb's law):
 ///   T - A y = h(y) y / |y|,   h = max(0, mu f_n) + drag max(0, |y| - free_way);   y = 0 where |T| <= mu f_n
-/// With |y| sigma = h that is (A + sigma) y = T, and sigma is found by bisection. Not: T scaled back to the cone, which is
+/// With |y| sigma = h that is (A + sigma) y = T, and sigma is found by Newton's method. Not: T scaled back to the cone, which is
 /// the same only where A is as stiff in all directions.
 /// @param[in] T  at y = 0, N, @param[in] A  symmetric, positive definite, N/m. Real-time: yes.
 [[nodiscard]] Vec2 wayAgainst(const Holding& holding, const Vec2& T,
