@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/solver/fit/far_field.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
-#include "tools/solver/base/dense_decompositions.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/fit/ball_moments.h"
 #include "tools/solver/fit/far_field_fit.h"
@@ -39,21 +36,20 @@ FarFieldFit::FarFieldFit(const FitProblem& problem, const FitOptions& options)
   std::vector<Vec3> places;
   for (const FitSource& one : problem.sources) places.push_back(one.place);
   source_order_ = spatialOrder(places);
-  collectNeighbours();
+  change_.setZero(rows_ / 3, static_cast<Index>(problem.sources.size()));
+  for (std::size_t s = 0; s < problem.sources.size(); ++s) {
+    const FitWeights& weights = problem.sources[s].weights;
+    for (std::size_t j = 0; j < weights.nodes.size(); ++j)
+      change_(weights.nodes[j], static_cast<Index>(s)) = weights.change[j];
+  }
   result_.Y = MatrixXf::Zero(modes_, columns);
+  result_.largest.assign(problem.sources.size(), 0.0F);
 }
 
-/// The weights by node.
-void FarFieldFit::collectNeighbours() {
-  neighbours_.assign(problem_.areas.size(), {});
-  for (std::size_t s = 0; s < problem_.sources.size(); ++s) {
-    const FitWeights& weights = problem_.sources[s].weights;
-    for (std::size_t j = 0; j < weights.nodes.size(); ++j) {
-      Neighbours& near = neighbours_[static_cast<std::size_t>(weights.nodes[j])];
-      near.sources.push_back(static_cast<std::int32_t>(s));
-      near.change.push_back(weights.change[j]);
-    }
-  }
+/// Sweeps go over every stride-th source from now on.
+void FarFieldFit::activate(std::size_t stride) {
+  active_.clear();
+  for (std::size_t i = 0; i < source_order_.size(); i += stride) active_.push_back(source_order_[i]);
 }
 
 /// The fields of some sources, columns i * C + k, scaled by reference^|alpha|: metres; and the same times the weights.
@@ -61,21 +57,25 @@ void FarFieldFit::read(Sources chunk, Worker& worker) const {
   const auto block = static_cast<std::size_t>(rows_ * coefficients_);
   worker.fields.resize(chunk.size() * block);
   worker.weighted.resize(rows_, static_cast<Index>(chunk.size()) * coefficients_);
-  Eigen::VectorXf weight(rows_);
   for (std::size_t i = 0; i < chunk.size(); ++i) {
     float* const own = worker.fields.data() + i * block;
     problem_.table.read(static_cast<std::size_t>(chunk[i]), std::span(own, block));
     Eigen::Map<MatrixXf> A(own, rows_, coefficients_);
-    weight.setOnes();
-    const FitWeights& weights = source(chunk[i]).weights;
-    for (std::size_t j = 0; j < weights.nodes.size(); ++j)
-      weight.segment<3>(3 * weights.nodes[j]).array() += weights.change[j];
     for (Index k = 0; k < coefficients_; ++k) {
       const MultiIndex& a = problem_.basis[static_cast<int>(k)];
       A.col(k) *= static_cast<float>(std::pow(problem_.reference, a[0] + a[1] + a[2]));
-      worker.weighted.col(static_cast<Index>(i) * coefficients_ + k) = A.col(k).cwiseProduct(weight);
     }
+    weigh(chunk[i], static_cast<Index>(i) * coefficients_, worker);
   }
+}
+
+/// Worker::weighted <- Worker::fields times the weights, for one source.
+void FarFieldFit::weigh(std::int32_t s, Index column, Worker& worker) const {
+  const Eigen::VectorXf weight =
+      (change_.col(s).array() + 1.0F).matrix().transpose().replicate<3, 1>().reshaped();
+  const Eigen::Map<const MatrixXf> fields(worker.fields.data(), rows_, worker.weighted.cols());
+  worker.weighted.middleCols(column, coefficients_) =
+      weight.asDiagonal() * fields.middleCols(column, coefficients_);
 }
 
 /// C x C: times this, the columns of one source are orthonormal in the mean over its ball,
@@ -90,65 +90,76 @@ MatrixXf FarFieldFit::whitening(std::int32_t s) const {
   return D.cast<float>();
 }
 
-/// The Y of all sources, each times its whitening.
+/// The Y of the active sources, each times its whitening; 0 for the others.
 MatrixXf FarFieldFit::whitenedY() {
-  MatrixXf Z(result_.Y.rows(), result_.Y.cols());
-  for (const std::int32_t s : source_order_) columnsOf(Z, s) = columnsOf(result_.Y, s) * whitening(s);
+  MatrixXf Z = MatrixXf::Zero(result_.Y.rows(), result_.Y.cols());
+  for (const std::int32_t s : active_) columnsOf(Z, s) = columnsOf(result_.Y, s) * whitening(s);
   return Z;
 }
 
-/// A first basis: the table times random numbers (a randomized range finder, one pass).
-void FarFieldFit::sketch() {
-  for (Worker& worker : workers_) worker.row_rhs = MatrixXd::Zero(rows_, modes_);
-  forBlocks(source_order_, kChunk, [&](Worker& worker, Sources chunk) {
-    read(chunk, worker);
-    const Eigen::Map<const MatrixXf> A(worker.fields.data(), rows_, worker.weighted.cols());
-    MatrixXf noise(worker.weighted.cols(), modes_);
-    for (std::size_t i = 0; i < chunk.size(); ++i) {
-      if (!A.middleCols(static_cast<Index>(i) * coefficients_, coefficients_).allFinite())
-        throw FitError("the fields of source " + std::to_string(chunk[i]) + " are not finite");
-      std::mt19937 random(static_cast<std::mt19937::result_type>(chunk[i]));
-      std::normal_distribution<float> normal;
-      noise.middleRows(static_cast<Index>(i) * coefficients_, coefficients_) =
-          whitening(chunk[i]) * MatrixXf::NullaryExpr(coefficients_, modes_, [&] { return normal(random); });
-    }
-    const MatrixXf product = A * noise;
-    worker.row_rhs += product.cast<double>();
-  });
-  orthonormalize(sumOfRhs());
+/// Every fourth source is enough to begin with, where that leaves many times more columns than modes.
+std::size_t FarFieldFit::headStride() const {
+  constexpr Index kColumnsPerMode = 20;
+  const Index all = static_cast<Index>(problem_.sources.size()) * coefficients_;
+  const Index most = std::max<Index>(modes_, options_.error > 0.0 ? options_.most_modes : 0);
+  return static_cast<std::size_t>(std::clamp<Index>(all / (kColumnsPerMode * most), 1, 4));
 }
 
-/// X <- X R^-1 with X^T diag(area) X = R^T R; twice, since the first basis may be nearly dependent.
-void FarFieldFit::orthonormalize(MatrixXd X) {
-  for (int pass = 0; pass < 2; ++pass) {
-    MatrixXd gram = X.transpose() * row_area_.asDiagonal() * X;
-    gram.diagonal().array() += 1e-14 * gram.trace();
-    const Eigen::LLT<MatrixXd> llt(gram);
-    if (llt.info() != Eigen::Success || !gram.allFinite())
-      throw FitError("the fit of the modes broke down: the fields are all zero");
-    X = llt.matrixL().solve(X.transpose()).transpose().eval();
+/// 95 of 100 active sources have no larger error.
+double FarFieldFit::quantileOfLargest() const {
+  std::vector<float> list;
+  for (const std::int32_t s : active_) list.push_back(result_.largest[static_cast<std::size_t>(s)]);
+  const std::size_t at = list.size() - 1 - list.size() / 20;
+  std::nth_element(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(at), list.end());
+  return double{list[at]};
+}
+
+/// Modes that bring an error down to what is asked: it falls about as n^-1.5.
+Index FarFieldFit::modesFor(double error, double asked) const {
+  const double n = static_cast<double>(modes_) * std::pow(error / asked, 1.0 / 1.5);
+  const double most = std::min({static_cast<double>(options_.most_modes), 2.0 * static_cast<double>(modes_),
+                                static_cast<double>(std::min(rows_, result_.Y.cols()))});
+  return static_cast<Index>(std::ceil(std::min(most, std::max(n, static_cast<double>(modes_) + 8.0))));
+}
+
+/// A basis from a part of the sources, of as many modes as the asked error wants.
+void FarFieldFit::headStart() {
+  constexpr double kReweightingGains = 0.75;  // of the error of plain sweeps
+  activate(headStride());
+  sketch();
+  for (int i = 1; i <= options_.head_start; ++i)
+    sweep(i == options_.head_start ? Step::kMeasured : Step::kPlain);
+  for (int round = 0; round < 4 && options_.error > 0.0; ++round) {
+    sweep(Step::kLast);
+    const double error = kReweightingGains * quantileOfLargest();
+    if (error <= options_.error || modes_ >= options_.most_modes) break;
+    grow(modesFor(error, options_.error));
+    for (int i = 0; i < 2; ++i) sweep(Step::kPlain);
   }
-  result_.X = X.cast<float>();
+  activate(1);
+  result_.errors.clear();
 }
 
-/// Rotates the modes so that Y's mean square is diagonal and falls.
-void FarFieldFit::orderByEnergy() {
-  const MatrixXf Z = whitenedY();
-  const MatrixXf gram = Z * Z.transpose();
-  const MatrixXf turn = eigenpairs(gram.cast<double>()).V.cast<float>();
-  result_.X = (result_.X * turn).eval();
-  result_.Y = (turn.transpose() * result_.Y).eval();
+void FarFieldFit::sweepAll() {
+  const int plain = options_.sweeps - options_.reweighted;
+  for (int i = 1; i <= options_.sweeps; ++i)
+    sweep(i < plain ? Step::kPlain : i == plain ? Step::kMeasured : Step::kReweighted);
+  sweep(Step::kLast);
 }
 
 FarField FarFieldFit::run() {
-  Progress progress("far field", static_cast<std::size_t>(options_.sweeps) + 2, options_.quiet);
-  sketch();
+  Progress progress("far field", 3, options_.quiet);
+  headStart();
   progress.advance();
-  for (int i = 0; i < options_.sweeps; ++i) {
-    sweep(false);
-    progress.advance();
+  sweepAll();
+  progress.advance();
+  while (options_.error > 0.0 && quantileOfLargest() > options_.error && modes_ < options_.most_modes) {
+    const Index before = modes_;
+    grow(modesFor(quantileOfLargest(), options_.error));
+    if (modes_ == before) break;  // the table has no more
+    sweep(Step::kReweighted);
+    sweep(Step::kLast);
   }
-  sweep(true);
   orderByEnergy();
   progress.advance();
   return std::move(result_);

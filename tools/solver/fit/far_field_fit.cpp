@@ -29,31 +29,35 @@ MatrixXd FarFieldFit::sumOfRhs() const {
   return sum;
 }
 
-void FarFieldFit::sweep(bool last) {
+/// One sweep over the active sources. All but plain sweeps measure the errors that are seen, which the next sweep's weights
+/// may follow; the last has no X-step.
+void FarFieldFit::sweep(Step step) {
   for (Worker& worker : workers_) {
     worker.row_rhs = MatrixXd::Zero(rows_, modes_);
-    worker.error = worker.energy = 0.0;
+    worker.error = worker.energy = worker.seen = worker.count = 0.0;
   }
   area_X_ = row_area_.cast<float>().asDiagonal() * result_.X;
   const MatrixXf scaled = result_.X.transpose() * row_area_.cwiseSqrt().cast<float>().asDiagonal();
   area_gram_ = (scaled * scaled.transpose()).cast<double>();
   const GramSums grams(scaled, 3);
-  forBlocks(source_order_, GramSums::blockSize(modes_, options_.workers, source_order_.size()),
-            [&](Worker& worker, Sources block) { solveY(block, grams, !last, worker); });
-  double error = 0.0, energy = 0.0;
+  forBlocks(active_, GramSums::blockSize(modes_, options_.workers, active_.size()),
+            [&](Worker& worker, Sources block) { solveY(block, grams, step, worker); });
+  double error = 0.0, energy = 0.0, seen = 0.0, count = 0.0;
   for (const Worker& worker : workers_) {
     error += worker.error;
     energy += worker.energy;
+    seen += worker.seen;
+    count += worker.count;
   }
+  if (count > 0.0) mean_seen_ = seen / count;
   result_.errors.push_back(std::sqrt(error / std::max(energy, 1e-300)));
-  if (!last) solveX(sumOfRhs());
+  if (step != Step::kLast) solveX(sumOfRhs());
 }
 
 /// Y-step: n x n normal equations per source: those of the areas, changed at nodes with another weight.
-void FarFieldFit::solveY(Sources block, const GramSums& grams, bool feed, Worker& worker) {
-  std::vector<GramTerms> terms;
-  for (const std::int32_t s : block) terms.push_back({source(s).weights.nodes, source(s).weights.change});
-  grams.sum(terms, worker.grams);
+void FarFieldFit::solveY(Sources block, const GramSums& grams, Step step, Worker& worker) {
+  grams.sum(
+      node_order_, block, [&](std::int32_t node, std::int32_t s) { return change_(node, s); }, worker.grams);
   const double scale = area_gram_.diagonal().mean();
   MatrixXd N;
   for (std::size_t first = 0; first < block.size(); first += kChunk) {
@@ -68,7 +72,8 @@ void FarFieldFit::solveY(Sources block, const GramSums& grams, bool feed, Worker
           NormalEquations(N, scale, "source " + std::to_string(chunk[i])).solve(b).cast<float>();
       addError(chunk[i], column, b, worker);
     }
-    if (feed) feedX(chunk, worker);
+    if (step != Step::kPlain) measure(chunk, step == Step::kReweighted, worker);
+    if (step != Step::kLast) feedX(chunk, worker);
   }
 }
 
@@ -128,12 +133,9 @@ void FarFieldFit::solveX(const MatrixXd& rhs) {
   MatrixXd X(modes_, rows_);
   forBlocks(node_order_, GramSums::blockSize(modes_, options_.workers, node_order_.size()),
             [&](Worker& worker, Sources nodes) {
-              std::vector<GramTerms> terms;
-              for (const std::int32_t node : nodes) {
-                const Neighbours& near = neighbours_[static_cast<std::size_t>(node)];
-                terms.push_back({near.sources, near.change});
-              }
-              grams.sum(terms, worker.grams);
+              grams.sum(
+                  active_, nodes, [&](std::int32_t s, std::int32_t node) { return change_(node, s); },
+                  worker.grams);
               MatrixXd N;
               for (std::size_t i = 0; i < nodes.size(); ++i) {
                 addPacked(worker.grams.sums.col(static_cast<Index>(i)).data(), base, N);

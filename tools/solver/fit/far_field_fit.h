@@ -28,7 +28,10 @@ class FarFieldFit {
     Eigen::MatrixXd row_rhs;  // 3 Ns x n, input of the X-step
     double error{0.0};        // weighted square of the remainder
     double energy{0.0};       // weighted square of the field
+    double seen{0.0};         // sum of the errors seen near the sources, over d
+    double count{0.0};        // of them
   };
+  enum class Step : std::uint8_t { kPlain, kMeasured, kReweighted, kLast };
   using Sources = std::span<const std::int32_t>;
   [[nodiscard]] const FitSource& source(std::int32_t s) const {
     return problem_.sources[static_cast<std::size_t>(s)];
@@ -38,13 +41,25 @@ class FarFieldFit {
   }
   void forBlocks(Sources order, std::size_t block, const std::function<void(Worker&, Sources)>& work);
   void read(Sources chunk, Worker& worker) const;
+  void weigh(std::int32_t source, Eigen::Index column, Worker& worker) const;
   [[nodiscard]] Eigen::MatrixXf whitening(std::int32_t source) const;
   [[nodiscard]] Eigen::MatrixXf whitenedY();
-  void collectNeighbours();
+  void activate(std::size_t stride);
+  [[nodiscard]] std::size_t headStride() const;
+  [[nodiscard]] Eigen::MatrixXf noise(Sources chunk, Eigen::Index count) const;
   void sketch();
+  void grow(Eigen::Index modes);
   void orthonormalize(Eigen::MatrixXd X);
-  void sweep(bool last);
-  void solveY(Sources block, const GramSums& grams, bool feed, Worker& worker);
+  void headStart();
+  void sweepAll();
+  [[nodiscard]] double quantileOfLargest() const;
+  [[nodiscard]] Eigen::Index modesFor(double error, double asked) const;
+  void sweep(Step step);
+  void solveY(Sources block, const GramSums& grams, Step step, Worker& worker);
+  void subtractModes(Sources chunk, Worker& worker);
+  void measure(Sources chunk, bool reweight, Worker& worker);
+  [[nodiscard]] Eigen::MatrixXf directions(std::int32_t source) const;
+  void moveWeights(std::int32_t source, const Eigen::VectorXf& errors, Eigen::Index column, Worker& worker);
   void addError(std::int32_t s, Eigen::Index column, const Eigen::MatrixXd& b, Worker& worker);
   void feedX(Sources chunk, Worker& worker);
   void solveX(const Eigen::MatrixXd& rhs);
@@ -57,14 +72,12 @@ class FarFieldFit {
   Eigen::MatrixXd moment_factor_;                        // C x C
   Eigen::VectorXd row_area_;                             // 3 Ns, sums to 3
   std::vector<std::int32_t> source_order_, node_order_;  // neighbours together
-  struct Neighbours {
-    std::vector<std::int32_t> sources;
-    std::vector<float> change;
-  };
-  std::vector<Neighbours> neighbours_;  // of each node: the sources whose weight there is not 1
-  std::vector<double> energies_;        // weighted squares of each source's field, negative: not known yet
-  Eigen::MatrixXd area_gram_;           // X^T diag(area) X, n x n
-  Eigen::MatrixXf area_X_;              // diag(area) X
+  std::vector<std::int32_t> active_;                     // the sources that sweeps go over, in order
+  Eigen::MatrixXf change_;                               // Ns x M: weight - 1, moved by sweeps
+  double mean_seen_{0.0};                                // mean error near the sources, of the last measure
+  std::vector<double> energies_;  // weighted squares of each source's field, negative: not known yet
+  Eigen::MatrixXd area_gram_;     // X^T diag(area) X, n x n
+  Eigen::MatrixXf area_X_;        // diag(area) X
   FarField result_;
   std::vector<Worker> workers_;
 };

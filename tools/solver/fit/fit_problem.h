@@ -31,8 +31,12 @@ struct FitProblem {
 };
 
 struct FitOptions {
-  int modes{120};  ///< n, >= 1
-  int sweeps{6};   ///< alternating-direction sweeps
+  int modes{120};       ///< n, >= 1; with an asked error the number to begin with
+  int sweeps{6};        ///< alternating-direction sweeps over all sources
+  int reweighted{0};    ///< how many of them, the last, also move the weights to where the errors are large
+  int head_start{0};    ///< sweeps before them over a quarter of the sources
+  double error{0.0};    ///< asked 95 % quantile of FarField::largest; 0: the modes are as many as given
+  int most_modes{400};  ///< with an asked error
   int workers{1};
   bool quiet{false};
 };
@@ -41,7 +45,11 @@ struct FitOptions {
 struct FarField {
   Eigen::MatrixXf X;  ///< 3 Ns x n, node-interleaved; orthonormal in the area-weighted product; by energy
   Eigen::MatrixXf Y;  ///< n x (M C), column position * C + k, m
-  std::vector<double> errors;  ///< after each sweep: RMS of the error over RMS of the field, in the weights
+  std::vector<double> errors;  ///< after each sweep over all sources: RMS of the error over RMS of the field,
+                               ///< in the weights of that sweep
+  std::vector<float>
+      largest;  ///< M: largest error that is seen at a node over abs(d), in 26 directions, abs(d)
+                ///< the ball's radius; where the near field is everything there is none
 };
 
 }  // namespace palpate::solver

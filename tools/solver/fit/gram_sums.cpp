@@ -28,27 +28,24 @@ void GramSums::formGrams(std::size_t first, std::size_t count, Work& work) const
   }
 }
 
-void GramSums::sum(std::span<const GramTerms> receivers, Work& work) const {
+void GramSums::sum(std::span<const std::int32_t> inputs, std::span<const std::int32_t> receivers,
+                   const Factor& factor, Work& work) const {
   constexpr std::size_t kInner = 256;  // matrices of one product
   const Index size = packedSize(columns_.rows());
-  work.marked.assign(static_cast<std::size_t>(columns_.cols() / width_), false);
-  for (const GramTerms& terms : receivers)
-    for (const std::int32_t i : terms.of) work.marked[static_cast<std::size_t>(i)] = true;
   work.wanted.clear();
-  for (std::size_t i = 0; i < work.marked.size(); ++i)
-    if (work.marked[i]) work.wanted.push_back(static_cast<std::int32_t>(i));
+  for (const std::int32_t i : inputs)
+    if (std::any_of(receivers.begin(), receivers.end(), [&](std::int32_t r) { return factor(i, r) != 0.0F; }))
+      work.wanted.push_back(i);
   work.sums.setZero(size, static_cast<Index>(receivers.size()));
   work.grams.resize(size, static_cast<Index>(std::min(kInner, work.wanted.size())));
-  std::vector<std::size_t> next(receivers.size(), 0);  // term of each receiver that comes next
   for (std::size_t first = 0; first < work.wanted.size(); first += kInner) {
     const std::size_t count = std::min(kInner, work.wanted.size() - first);
     formGrams(first, count, work);
-    work.factors.setZero(static_cast<Index>(count), work.sums.cols());
+    work.factors.resize(static_cast<Index>(count), work.sums.cols());
     for (std::size_t r = 0; r < receivers.size(); ++r)
-      for (std::size_t q = 0; q < count && next[r] < receivers[r].of.size(); ++q) {
-        if (receivers[r].of[next[r]] != work.wanted[first + q]) continue;
-        work.factors(static_cast<Index>(q), static_cast<Index>(r)) = receivers[r].factor[next[r]++];
-      }
+      for (std::size_t q = 0; q < count; ++q)
+        work.factors(static_cast<Index>(q), static_cast<Index>(r)) =
+            factor(work.wanted[first + q], receivers[r]);
     work.sums.noalias() += work.grams.leftCols(static_cast<Index>(count)) * work.factors;
   }
 }

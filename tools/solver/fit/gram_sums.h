@@ -3,16 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace palpate::solver {
-
-/// Which Gram matrices one receiver sums, and with which factors.
-struct GramTerms {
-  std::span<const std::int32_t> of;  ///< indices, ascending
-  std::span<const float> factor;     ///< of each
-};
 
 /// S_r = sum_i c_ri B_i B_i^T for many receivers r at once. Each B_i B_i^T is formed once a block of receivers, as a
 /// packed lower triangle; the sums of the block are one matrix product.                    docs/design.md, Parts
@@ -32,11 +27,16 @@ class GramSums {
     Eigen::MatrixXf sums;  ///< out: packed, one column for each receiver
     Eigen::MatrixXf grams, factors, square;
     std::vector<std::int32_t> wanted;
-    std::vector<bool> marked;
   };
 
-  /// Cost n (n + 1) x receivers x (matrices that any of them wants): receivers close together are cheap.
-  void sum(std::span<const GramTerms> receivers, Work& work) const;
+  /// c_ri. Called from several threads.
+  using Factor = std::function<float(std::int32_t i, std::int32_t r)>;
+
+  /// Cost n (n + 1) x receivers x (matrices with a factor that is not 0 for any of them): receivers close together are
+  /// cheap.
+  /// @param inputs, receivers  the i and r, as the factor knows them
+  void sum(std::span<const std::int32_t> inputs, std::span<const std::int32_t> receivers,
+           const Factor& factor, Work& work) const;
 
  private:
   void formGrams(std::size_t first, std::size_t count, Work& work) const;

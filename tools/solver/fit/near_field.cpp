@@ -32,6 +32,7 @@ FitWeights fitWeights(const PatchSurface& surface, const Vec3& x, double rho) {
     const double emphasis = far > 0.0 ? std::pow(3.0 * rho / r, 2.5) : 0.0;
     weights.nodes.push_back(static_cast<std::int32_t>(i));
     weights.change.push_back(static_cast<float>(far * far * emphasis - 1.0));
+    weights.shown.push_back(static_cast<float>(far));
   }
   return weights;
 }

@@ -24,6 +24,7 @@ struct NearNodes {
 struct FitWeights {
   std::vector<std::int32_t> nodes;  ///< surface nodes whose weight is not 1, ascending
   std::vector<float> change;        ///< weight - 1 of each: (1 - nearWindow(r))^2 g(r) - 1
+  std::vector<float> shown;         ///< share of the modes' error that is seen there: 1 - nearWindow(r)
 };
 
 /// g(r) = max(1, 3 rho / r)^2.5: a ring of large errors round the near field has little area, so least

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 
 #include "../boxes.h"
 #include "tools/solver/fit/gram_sums.h"
@@ -178,30 +179,25 @@ TEST_F(SteepFields, DoesNotDependOnTheUnitOfLength) {
 TEST(GramSums, EqualTheSumsOfTheMatrices) {
   constexpr Eigen::Index kN = 17, kWidth = 5, kCount = 600;
   const Eigen::MatrixXf columns = Eigen::MatrixXf::Random(kN, kWidth * kCount);
-  std::vector<std::vector<std::int32_t>> of(9);
-  std::vector<std::vector<float>> factor(of.size());
-  std::vector<GramTerms> terms;
-  for (std::size_t r = 0; r < of.size(); ++r) {
-    for (std::int32_t i = static_cast<std::int32_t>(r); i < kCount;
-         i += 1 + 7 * static_cast<std::int32_t>(r)) {
-      of[r].push_back(i);
-      factor[r].push_back(static_cast<float>(std::sin(3.0 * i + static_cast<double>(r))));
-    }
-    terms.push_back({of[r], factor[r]});
-  }
-  terms.push_back({});
+  const auto factor = [](std::int32_t i, std::int32_t r) {
+    if (r == 9 || (i - r) % (1 + 7 * r) != 0) return 0.0F;
+    return static_cast<float>(std::sin(3.0 * i + r));
+  };
+  std::vector<std::int32_t> inputs(kCount), receivers(10);
+  std::iota(inputs.begin(), inputs.end(), 0);
+  std::iota(receivers.begin(), receivers.end(), 0);
   GramSums::Work work;
-  GramSums(columns, kWidth).sum(terms, work);
+  GramSums(columns, kWidth).sum(inputs, receivers, factor, work);
   ASSERT_EQ(work.sums.cols(), 10);
-  for (std::size_t r = 0; r < terms.size(); ++r) {
+  for (const std::int32_t r : receivers) {
     Eigen::MatrixXd direct = Eigen::MatrixXd::Zero(kN, kN), sum;
     double size = 0.0;
-    for (std::size_t j = 0; j < terms[r].of.size(); ++j) {
-      const Eigen::MatrixXd B = columns.middleCols(terms[r].of[j] * kWidth, kWidth).cast<double>();
-      direct += double{terms[r].factor[j]} * B * B.transpose();
-      size += std::abs(double{terms[r].factor[j]}) * B.squaredNorm();
+    for (const std::int32_t i : inputs) {
+      const Eigen::MatrixXd B = columns.middleCols(i * kWidth, kWidth).cast<double>();
+      direct += double{factor(i, r)} * B * B.transpose();
+      size += std::abs(double{factor(i, r)}) * B.squaredNorm();
     }
-    addPacked(work.sums.col(static_cast<Eigen::Index>(r)).data(), Eigen::MatrixXd::Zero(kN, kN), sum);
+    addPacked(work.sums.col(r).data(), Eigen::MatrixXd::Zero(kN, kN), sum);
     for (Eigen::Index i = 0; i < kN; ++i)
       for (Eigen::Index j = 0; j <= i; ++j) EXPECT_NEAR(sum(i, j), direct(i, j), 1e-5 * size);
   }
