@@ -52,6 +52,10 @@ void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solv
   } else {
     provenance["sweeps"] = c.sweepsOrDefault();
     provenance["fit_errors"] = report.fit_errors;
+    if (c.method == solver::Method::kSeriesDisplacement) {
+      provenance["fit_p95"] = report.fit_p95;
+      provenance["fit_max"] = report.fit_max;
+    }
   }
   data.attributes.provenance = provenance.dump();
 }

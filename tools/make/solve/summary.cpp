@@ -69,6 +69,25 @@ void printTimes(const Json& seconds) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+void printFit(const Json& s) {
+  if (!s.contains("fit_p95")) return;
+  const double p95 = s["fit_p95"].get<double>(), asked = s["fit_asked"].get<double>();
+  const auto modes = s["modes"].get<std::size_t>();
+  std::fprintf(stderr,
+               "near field to %.2f mm (%.2g patch radii), %zu modes%s: largest error of the field %.2f %% "
+               "(p95), %.2f %% (max) of d",
+               1e3 * s["near_radius"].get<double>(),
+               s["near_radius"].get<double>() / s["patch_radius"].get<double>(), modes,
+               asked > 0.0 ? ", chosen by its error" : "", 100.0 * p95, 100.0 * s["fit_max"].get<double>());
+  if (asked > 0.0) std::fprintf(stderr, "; asked %.2f %%", 100.0 * asked);
+  std::fputc('\n', stderr);
+  if (asked > 0.0 && p95 > asked)
+    std::fprintf(stderr,
+                 "warning: %zu modes do not reach the asked error; a larger near_radius or patch_radius does "
+                 "with less\n",
+                 modes);
+}
+
 int wholeOr0(const Json& object, const char* key) {
   const Json* const member = object.find(key);
   return member == nullptr ? 0 : member->get<int>();
@@ -147,6 +166,12 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
   }
   if (isSeries(c.method)) {
     s["fit_error"] = report.fit_errors.back();
+    if (parameters == Parameters::kDisplacement) {
+      s["near_radius"] = data.attributes.near_radius;
+      s["fit_p95"] = report.fit_p95;
+      s["fit_max"] = report.fit_max;
+      s["fit_asked"] = report.fit_asked;
+    }
     return s;
   }
   s["load"] = loadOf(c, report);
@@ -166,6 +191,7 @@ void print(const Json& s) {
   if (s.contains("order")) std::fprintf(stderr, "order %d, ", s["order"].get<int>());
   std::fprintf(stderr, "%zu modes\n", s["modes"].get<std::size_t>());
   printTimes(s["seconds"]);
+  printFit(s);
   printRadius(s);
   std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
                1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());

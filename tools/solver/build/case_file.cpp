@@ -126,6 +126,7 @@ void readModel(const std::string& file, const toml::table& table, Case& c) {
   c.order = section.integer("order", 1, 7);
   c.modes = section.integer("modes", 1, 2000);
   c.near_radius = section.number("near_radius", 0.0, true, 1.0);
+  c.field_error = section.number("field_error", 0.0, false, 0.999);
   c.sweeps = section.integer("sweeps", 1, 1000);
   section.refuseTheRest();
 }

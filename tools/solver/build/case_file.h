@@ -66,19 +66,22 @@ struct Case {
   Method method{Method::kSeriesDisplacement};
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges
   std::optional<int> order;            ///< p, 1 to 7; absent: 3
-  std::optional<int> modes;            ///< n, 1 to 2000; absent: 120 beside a near field, else 167
-  std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 0.025
-  std::optional<int> sweeps;           ///< of the fit of the modes, 1 to 1000; absent: 6
+  std::optional<int> modes;            ///< n, 1 to 2000; absent: by field_error beside a near field, else 167
+  std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a
+  std::optional<double> field_error;   ///< largest error of the field over abs(d), (0, 1); absent: 0.01
+  std::optional<int> sweeps;  ///< of the fit of the modes, 1 to 1000; absent: 3 beside a near field, else 6
   LoadCase load;
   PgdCase pgd;
   std::string text;  ///< the case file as read, for the provenance
 
   [[nodiscard]] int orderOrDefault() const { return order.value_or(3); }
-  [[nodiscard]] int modesOrDefault() const {
-    return modes.value_or(method == Method::kSeriesDisplacement ? 120 : 167);
+  /// Of the load-driven methods.
+  [[nodiscard]] int modesOrDefault() const { return modes.value_or(167); }
+  [[nodiscard]] double nearRadiusOrDefault(double a) const { return near_radius.value_or(4.5 * a); }
+  [[nodiscard]] double fieldErrorOrDefault() const { return field_error.value_or(0.01); }
+  [[nodiscard]] int sweepsOrDefault() const {
+    return sweeps.value_or(method == Method::kSeriesDisplacement ? 3 : 6);
   }
-  [[nodiscard]] double nearRadiusOrDefault() const { return near_radius.value_or(0.025); }
-  [[nodiscard]] int sweepsOrDefault() const { return sweeps.value_or(6); }
   [[nodiscard]] bool nodalLoad() const { return load.node.value_or(false); }
 };
 

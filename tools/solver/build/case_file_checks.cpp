@@ -43,6 +43,8 @@ void checkKeys(const Case& c) {
   for (const Rule& rule : std::initializer_list<Rule>{
            {"model.order", c.order.has_value(), kSeries, "it is the degree of a series"},
            {"model.near_radius", c.near_radius.has_value(), kDisplacement, "its model is modes only"},
+           {"model.field_error", c.field_error.has_value(), kDisplacement,
+            "its modes are as many as model.modes"},
            {"model.sweeps", c.sweeps.has_value(), kSeries,
             "it fits no table of fields; pgd.sweeps sets the sweeps of a pair"},
            {"load.direction", direction, kPgd, any_load},
@@ -97,6 +99,8 @@ void checkCase(const Case& c) {
   if (c.pgd.hadamard.value_or(false) && c.pgd.block.value_or(1) > 1)
     throw CaseError("pgd.block = " + std::to_string(*c.pgd.block) +
                     " does not go with pgd.separation = \"hadamard\": such pairs are found one at a time");
+  if (c.modes && c.field_error)
+    throw CaseError("model.field_error does not go with model.modes: it chooses their number");
   if (c.nodalLoad() && c.patch_radius)
     throw CaseError("model.patch_radius does not go with load.kind = \"node\": such a load has no patch");
   if (c.pgd.greedy_pairs && *c.pgd.greedy_pairs < c.modesOrDefault())

@@ -22,6 +22,10 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Of the asked error, what the modes may take at positions; interpolation between them needs the rest.
+constexpr double kFitShare = 0.7;
+constexpr int kFewModes = 100;  ///< to begin with, where their number is not given
+
 std::string text(double x) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.4g", x);
@@ -49,18 +53,19 @@ class Builder {
   MonomialBasis basis_;        ///< of the fields
   MonomialBasis force_basis_;  ///< of the force; begins with the monomials of the fields
   SolverSetup setup_;
-  double d_ref_;  ///< half a patch width: the travel at which the fit weighs the orders
+  double d_ref_;        ///< half a patch width: the travel at which the fit weighs the orders
+  double near_radius_;  ///< rho, m
   std::vector<NearNodes> near_;
   modelfile::ModelData data_;
 };
 
 /// The near field is part of the model; this program and the server hold all of it in memory.
-void checkNearBytes(const Case& c, std::span<const NearNodes> near, int coefficients) {
+void checkNearBytes(double near_radius, std::span<const NearNodes> near, int coefficients) {
   constexpr double kMost = 2147483648.0;  // bytes
   double bytes = 0.0;
   for (const NearNodes& nodes : near) bytes += 12.0 * coefficients * static_cast<double>(nodes.nodes.size());
   if (bytes > kMost)
-    throw CaseError("model.near_radius = " + text(c.nearRadiusOrDefault()) + " m makes a near field of " +
+    throw CaseError("model.near_radius = " + text(near_radius) + " m makes a near field of " +
                     text(1e-6 * bytes) + " MB; the limit is " + text(1e-6 * kMost) + " MB");
 }
 
@@ -72,10 +77,11 @@ Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& o
       basis_(c.orderOrDefault()),
       force_basis_(SeriesSolver::answerOrder(c.orderOrDefault())),
       setup_(c, mesh),
-      d_ref_(0.5 * setup_.patch_radius) {
+      d_ref_(0.5 * setup_.patch_radius),
+      near_radius_(c.nearRadiusOrDefault(setup_.patch_radius)) {
   for (const std::int32_t node : setup_.positions.nodes)
-    near_.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], c.nearRadiusOrDefault()));
-  checkNearBytes(c, near_, basis_.size());
+    near_.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], near_radius_));
+  checkNearBytes(near_radius_, near_, basis_.size());
   const std::size_t coefficients = static_cast<std::size_t>(force_basis_.size());
   data_.contact_force.resize(setup_.positions.nodes.size() * coefficients * 3);
   data_.contact_domain_radius.resize(setup_.positions.nodes.size());
@@ -95,17 +101,25 @@ void Builder::fit(const FieldTable& table) {
   for (std::size_t s = 0; s < near_.size(); ++s) {
     const Vec3& place = setup_.surface.positions[at(setup_.positions.nodes[s])];
     // Large travel is rare and must not cost accuracy at small travel.
-    sources.push_back({place, fitWeights(setup_.surface, place, case_.nearRadiusOrDefault()),
+    sources.push_back({place, fitWeights(setup_.surface, place, near_radius_),
                        std::min(d_ref_, data_.contact_domain_radius[s]), d_ref_});
   }
   const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
   FitOptions options;
-  options.modes = case_.modesOrDefault();
+  report_.fit_asked = case_.modes ? 0.0 : kFitShare * case_.fieldErrorOrDefault();
+  options.error = report_.fit_asked;
+  options.modes = case_.modes.value_or(kFewModes);
+  options.head_start = 3;
   options.sweeps = case_.sweepsOrDefault();
+  options.reweighted = std::min(2, options.sweeps - 1);
   options.workers = options_.workers;
   options.quiet = options_.quiet;
   const FarField far = fitFarField(problem, options);
   report_.fit_errors = far.errors;
+  std::vector<float> largest = far.largest;
+  std::sort(largest.begin(), largest.end());
+  report_.fit_p95 = largest[largest.size() - 1 - largest.size() / 20];
+  report_.fit_max = largest.back();
   data_.modes_X.assign(far.X.data(), far.X.data() + far.X.size());
   data_.modes_Y.assign(far.Y.data(), far.Y.data() + far.Y.size());
   storeNearField(table, far);
@@ -163,7 +177,7 @@ modelfile::ModelData Builder::run() {
   storeAttributes(case_, setup_, a);
   a.order = basis_.order();
   a.force_order = force_basis_.order();
-  a.near_radius = case_.nearRadiusOrDefault();
+  a.near_radius = near_radius_;
   a.reference_displacement = d_ref_;
   return std::move(data_);
 }

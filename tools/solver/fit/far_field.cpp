@@ -125,7 +125,7 @@ Index FarFieldFit::modesFor(double error, double asked) const {
 /// A basis from a part of the sources, of as many modes as the asked error wants.
 void FarFieldFit::headStart() {
   constexpr double kReweightingGains = 0.75;  // of the error of plain sweeps
-  activate(headStride());
+  activate(options_.head_start > 0 ? headStride() : 1);
   sketch();
   for (int i = 1; i <= options_.head_start; ++i)
     sweep(i == options_.head_start ? Step::kMeasured : Step::kPlain);
@@ -133,7 +133,9 @@ void FarFieldFit::headStart() {
     sweep(Step::kLast);
     const double error = kReweightingGains * quantileOfLargest();
     if (error <= options_.error || modes_ >= options_.most_modes) break;
+    const Index before = modes_;
     grow(modesFor(error, options_.error));
+    if (modes_ == before) break;  // the table has no more
     for (int i = 0; i < 2; ++i) sweep(Step::kPlain);
   }
   activate(1);

@@ -146,7 +146,10 @@ TEST_F(CaseFile, ALoadPointsDownWhereNothingElseIsSaid) {
   EXPECT_EQ(readCase(write("mesh = \"a\"\n")).load.unitDirection(), Vec3(0.0, 0.0, -1.0));
 }
 TEST_F(CaseFile, LoadDrivenModelsHaveThePapersNumberOfPairs) {
-  EXPECT_EQ(readCase(write("mesh = \"a\"\n")).modesOrDefault(), 120);
+  const Case c = readCase(write("mesh = \"a\"\n"));
+  EXPECT_FALSE(c.modes.has_value());
+  EXPECT_DOUBLE_EQ(c.fieldErrorOrDefault(), 0.01);
+  EXPECT_DOUBLE_EQ(c.nearRadiusOrDefault(0.002), 0.009);  // follows the patch, no length of its own
   for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"})
     EXPECT_EQ(
         readCase(write("mesh = \"a\"\nmodel.method = \"" + std::string(method) + "\"\n")).modesOrDefault(),
@@ -195,8 +198,12 @@ TEST_F(CaseCheck, TheOrderIsThatOfASeries) {
     expectRefused(method, "model.order = 3", "model.order", "it is for series-displacement, series-force");
 }
 TEST_F(CaseCheck, OnlyTheThreePartModelHasANearField) {
-  for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"})
+  for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"}) {
     expectRefused(method, "model.near_radius = 0.02", "model.near_radius", "it is for series-displacement");
+    expectRefused(method, "model.field_error = 0.02", "model.field_error", "it is for series-displacement");
+  }
+  expectRefused("series-displacement", "model.field_error = 0.02\nmodel.modes = 9", "model.field_error",
+                "model.modes");
 }
 TEST_F(CaseCheck, ASeriesHoldsEveryLoad) {
   for (const char* method : {"series-displacement", "series-force"})

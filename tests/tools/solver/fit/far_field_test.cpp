@@ -7,12 +7,9 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numeric>
 
 #include "../boxes.h"
-#include "tools/solver/fit/gram_sums.h"
 #include "tools/solver/fit/normal_equations.h"
-#include "tools/solver/fit/spatial_order.h"
 
 namespace palpate::solver {
 namespace {
@@ -47,6 +44,12 @@ class SteepFields : public ::testing::Test {
     options.workers = workers;
     options.quiet = true;
     return fitFarField({table_, basis_, surface_.areas, surface_.positions, sources_, 1.0}, options);
+  }
+
+  /// 95 of 100 are not larger.
+  static double quantile(std::vector<float> list) {
+    std::sort(list.begin(), list.end());
+    return double{list[list.size() - 1 - list.size() / 20]};
   }
 
   /// Largest error at nodes outside rho, over all positions and coefficients.
@@ -85,6 +88,61 @@ TEST_F(SteepFields, SweepsImproveTheFit) {
   ASSERT_EQ(far.errors.size(), 7U);
   EXPECT_LT(far.errors.back(), 0.9 * far.errors.front());
   EXPECT_LE(far.errors.back(), far.errors[1] * 1.001);
+}
+
+TEST_F(SteepFields, MovedWeightsLowerTheLargestError) {
+  FitOptions options;
+  options.modes = 24;
+  options.sweeps = 4;
+  options.quiet = true;
+  const FitProblem problem{table_, basis_, surface_.areas, surface_.positions, sources_, 1.0};
+  const FarField plain = fitFarField(problem, options);
+  options.reweighted = 2;
+  const FarField moved = fitFarField(problem, options);
+  EXPECT_LT(quantile(moved.largest), 0.95 * quantile(plain.largest));
+}
+
+/// The reported errors are those of the modes, over all directions that were sampled.
+TEST_F(SteepFields, ReportsTheLargestErrorThatIsSeen) {
+  const FarField far = fit(24, 3);
+  const Eigen::Vector3d d = Eigen::Vector3d(1.0, -1.0, 1.0).normalized();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    std::vector<float> fields(table_.rows() * 3);
+    table_.read(s, fields);
+    const Eigen::Map<const Eigen::MatrixXf> A(fields.data(), far.X.rows(), 3);
+    const Eigen::MatrixXf rest = A - far.X * far.Y.middleCols(static_cast<Eigen::Index>(s) * 3, 3);
+    const Eigen::VectorXd u =
+        rest.cast<double>() * d.reverse();  // monomials of degree 1 as the basis has them
+    double largest = 0.0;
+    for (std::size_t i = 0; i < surface_.positions.size(); ++i)
+      largest =
+          std::max(largest, (1.0 - nearWindow((surface_.positions[i] - sources_[s].place).norm(), kRho)) *
+                                u.segment<3>(static_cast<Eigen::Index>(3 * i)).norm());
+    EXPECT_LE(largest, 1.0001 * double{far.largest[s]} + 1e-6);
+    least = std::min(least, largest / double{far.largest[s]});
+  }
+  EXPECT_GT(least, 0.02);
+}
+
+TEST_F(SteepFields, AsManyModesAsTheAskedErrorWants) {
+  FitOptions options;
+  options.modes = 10;
+  options.sweeps = 3;
+  options.head_start = 2;
+  options.reweighted = 1;
+  options.quiet = true;
+  const FitProblem problem{table_, basis_, surface_.areas, surface_.positions, sources_, 1.0};
+  for (const double asked : {0.05, 0.02}) {
+    options.error = asked;
+    const FarField far = fitFarField(problem, options);
+    EXPECT_LE(quantile(far.largest), asked);
+    EXPECT_GT(far.X.cols(), 10);
+    EXPECT_LT(far.X.cols(), options.most_modes);
+  }
+  options.error = 1e-9;
+  options.most_modes = 40;
+  EXPECT_EQ(fitFarField(problem, options).X.cols(), 40);
 }
 
 TEST_F(SteepFields, FarErrorIsSmallerThanWhatPlainModesLeave) {
@@ -174,62 +232,6 @@ TEST_F(SteepFields, DoesNotDependOnTheUnitOfLength) {
     const Eigen::MatrixXf u = far.X * far.Y, v = other.X * other.Y;
     EXPECT_LT((u * scale - v).norm(), 1e-3F * v.norm());
   }
-}
-
-TEST(GramSums, EqualTheSumsOfTheMatrices) {
-  constexpr Eigen::Index kN = 17, kWidth = 5, kCount = 600;
-  const Eigen::MatrixXf columns = Eigen::MatrixXf::Random(kN, kWidth * kCount);
-  const auto factor = [](std::int32_t i, std::int32_t r) {
-    if (r == 9 || (i - r) % (1 + 7 * r) != 0) return 0.0F;
-    return static_cast<float>(std::sin(3.0 * i + r));
-  };
-  std::vector<std::int32_t> inputs(kCount), receivers(10);
-  std::iota(inputs.begin(), inputs.end(), 0);
-  std::iota(receivers.begin(), receivers.end(), 0);
-  GramSums::Work work;
-  GramSums(columns, kWidth).sum(inputs, receivers, factor, work);
-  ASSERT_EQ(work.sums.cols(), 10);
-  for (const std::int32_t r : receivers) {
-    Eigen::MatrixXd direct = Eigen::MatrixXd::Zero(kN, kN), sum;
-    double size = 0.0;
-    for (const std::int32_t i : inputs) {
-      const Eigen::MatrixXd B = columns.middleCols(i * kWidth, kWidth).cast<double>();
-      direct += double{factor(i, r)} * B * B.transpose();
-      size += std::abs(double{factor(i, r)}) * B.squaredNorm();
-    }
-    addPacked(work.sums.col(r).data(), Eigen::MatrixXd::Zero(kN, kN), sum);
-    for (Eigen::Index i = 0; i < kN; ++i)
-      for (Eigen::Index j = 0; j <= i; ++j) EXPECT_NEAR(sum(i, j), direct(i, j), 1e-5 * size);
-  }
-}
-
-TEST(NormalEquations, AreRegularizedOrRefused) {
-  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(3, 3);
-  N.diagonal() << 1e-12, 2e-12, -1e-24;  // as rounding leaves it
-  const Eigen::Vector3d b(1e-12, 2e-12, 0.0), x0(0.0, 0.0, 7.0);
-  const Eigen::Vector3d x = NormalEquations(N, 1e-12, "node 4").solve(b, x0);
-  EXPECT_LT((x - Eigen::Vector3d(1.0, 1.0, 7.0)).cwiseAbs().maxCoeff(), 1e-4);
-  N(2, 2) = -1e-12;
-  try {
-    NormalEquations(N, 1e-12, "node 4");
-    FAIL() << "a matrix that is not positive definite";
-  } catch (const FitError& error) {
-    EXPECT_NE(std::string(error.what()).find("node 4"), std::string::npos) << error.what();
-  }
-}
-
-TEST(SpatialOrder, KeepsNeighboursTogether) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < 1024; ++i) places.emplace_back((i * 37) % 32, ((i * 37) % 1024) / 32, 0.0);
-  std::vector<std::int32_t> order = spatialOrder(places);
-  for (std::size_t first = 0; first < order.size(); first += 64)
-    for (std::size_t k = first; k < first + 64; ++k)
-      EXPECT_LE((places[static_cast<std::size_t>(order[k])] - places[static_cast<std::size_t>(order[first])])
-                    .cwiseAbs()
-                    .maxCoeff(),
-                8.0);
-  std::sort(order.begin(), order.end());
-  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], static_cast<std::int32_t>(i));
 }
 
 TEST(NearWindow, FallsSmoothlyFromOneToZero) {
