@@ -69,7 +69,7 @@ struct Case {
   std::optional<int> modes;            ///< n, 1 to 2000; absent: by field_error beside a near field, else 167
   std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a
   std::optional<double> field_error;   ///< largest error of the field over abs(d), (0, 1); absent: 0.01
-  std::optional<int> sweeps;  ///< of the fit of the modes, 1 to 1000; absent: 3 beside a near field, else 6
+  std::optional<int> sweeps;  ///< of the fit of the modes, 1 to 1000; absent: 2 beside a near field, else 6
   LoadCase load;
   PgdCase pgd;
   std::string text;  ///< the case file as read, for the provenance
@@ -80,7 +80,7 @@ struct Case {
   [[nodiscard]] double nearRadiusOrDefault(double a) const { return near_radius.value_or(4.5 * a); }
   [[nodiscard]] double fieldErrorOrDefault() const { return field_error.value_or(0.01); }
   [[nodiscard]] int sweepsOrDefault() const {
-    return sweeps.value_or(method == Method::kSeriesDisplacement ? 3 : 6);
+    return sweeps.value_or(method == Method::kSeriesDisplacement ? 2 : 6);
   }
   [[nodiscard]] bool nodalLoad() const { return load.node.value_or(false); }
 };

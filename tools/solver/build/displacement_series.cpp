@@ -111,7 +111,7 @@ void Builder::fit(const FieldTable& table) {
   options.modes = case_.modes.value_or(kFewModes);
   options.head_start = 3;
   options.sweeps = case_.sweepsOrDefault();
-  options.reweighted = std::min(2, options.sweeps - 1);
+  options.reweighted = std::min(2, options.sweeps);
   options.workers = options_.workers;
   options.quiet = options_.quiet;
   const FarField far = fitFarField(problem, options);

@@ -124,7 +124,7 @@ Index FarFieldFit::modesFor(double error, double asked) const {
 
 /// A basis from a part of the sources, of as many modes as the asked error wants.
 void FarFieldFit::headStart() {
-  constexpr double kReweightingGains = 0.75;  // of the error of plain sweeps
+  constexpr double kReweightingGains = 0.8;  // of the error of plain sweeps
   activate(options_.head_start > 0 ? headStride() : 1);
   sketch();
   for (int i = 1; i <= options_.head_start; ++i)
