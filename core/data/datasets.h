@@ -7,6 +7,9 @@
 
 namespace palpate {
 
+/// UTF-8, zeros behind it.
+using RegionName = std::array<char, 64>;
+
 /// One dataset of a model file (docs/model_file.md). T is the type of its numbers.
 /// Shape: a length is a number, a symbol that the first dataset with it defines, or one that reader and writer compute
 /// ("3 Ns", "Cf"). Row-major; empty entries end the shape.
@@ -23,7 +26,7 @@ struct Dataset {
 
 /// All datasets: the only place that spells their paths, types, shapes and units. Ns surface nodes, T triangles, M contact
 /// positions, C coefficients of the fields, Cf of the contact's force, n modes, K near nodes of a position, N volume
-/// nodes, V tetrahedra, F fixed nodes.
+/// nodes, V tetrahedra, F fixed nodes, R regions.
 namespace dataset {
 inline constexpr Dataset<double> kSurfacePositions{"surface/positions", {"Ns", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kSurfaceTriangles{"surface/triangles", {"T", "3"}, ""};
@@ -32,6 +35,8 @@ inline constexpr Dataset<std::int32_t> kPositionOfNode{"surface/position_of_node
 
 inline constexpr Dataset<std::int32_t> kContactNode{"contact/node", {"M"}, ""};
 inline constexpr Dataset<std::uint8_t> kContactAccessible{"contact/accessible", {"M"}, ""};
+/// Surface nodes of the triangles between contact positions: those of the surface.
+inline constexpr Dataset<std::int32_t> kContactTriangles{"contact/triangles", {"Tc", "3"}, ""};
 inline constexpr Dataset<double> kContactDomainRadius{"contact/domain_radius", {"M"}, "m, N or none"};
 /// "displacement" models only.
 inline constexpr Dataset<double> kContactForce{"contact/force", {"M", "Cf", "3"}, "N"};
@@ -57,6 +62,12 @@ inline constexpr Dataset<std::int64_t> kMeshNodeTag{"mesh/node_tag", {"N"}, ""};
 inline constexpr Dataset<std::int64_t> kMeshTetrahedronTag{"mesh/tetrahedron_tag", {"V"}, ""};
 inline constexpr Dataset<std::int32_t> kMeshFixed{"mesh/fixed", {"F"}, ""};
 inline constexpr Dataset<std::int32_t> kMeshSurfaceNode{"mesh/surface_node", {"Ns"}, ""};
+
+// Regions of another material than the attributes': all four, or none.
+inline constexpr Dataset<std::int32_t> kElementRegion{"mesh/element_region", {"V"}, ""};
+inline constexpr Dataset<RegionName> kRegionName{"regions/name", {"R"}, ""};
+inline constexpr Dataset<double> kRegionE{"regions/E", {"R"}, "Pa"};
+inline constexpr Dataset<double> kRegionNu{"regions/nu", {"R"}, ""};
 }  // namespace dataset
 
 }  // namespace palpate

@@ -54,19 +54,27 @@ H5FD_file_image_callbacks_t inPlace(const SealedImage& image) {
   return callbacks;
 }
 
-/// HDF5's name for T as a model file holds it.
+/// HDF5's type for T as a model file holds it.
 template <typename T>
-hid_t fileType() {
-  if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
-  if constexpr (std::is_same_v<T, float>) return H5T_IEEE_F32LE;
-  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_STD_I16LE;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
-  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_STD_U8LE;
+Hdf5Handle fileType() {
+  const auto of = [](hid_t type) { return Hdf5Handle(H5Tcopy(type), H5Tclose); };
+  if constexpr (std::is_same_v<T, double>) return of(H5T_IEEE_F64LE);
+  if constexpr (std::is_same_v<T, float>) return of(H5T_IEEE_F32LE);
+  if constexpr (std::is_same_v<T, std::int16_t>) return of(H5T_STD_I16LE);
+  if constexpr (std::is_same_v<T, std::int32_t>) return of(H5T_STD_I32LE);
+  if constexpr (std::is_same_v<T, std::int64_t>) return of(H5T_STD_I64LE);
+  if constexpr (std::is_same_v<T, std::uint8_t>) return of(H5T_STD_U8LE);
+  if constexpr (std::is_same_v<T, RegionName>) {
+    Hdf5Handle text = of(H5T_C_S1);
+    H5Tset_size(text.get(), sizeof(T));
+    H5Tset_strpad(text.get(), H5T_STR_NULLPAD);
+    return text;
+  }
 }
 
 std::string describeType(hid_t type) {
   const H5T_class_t kind = H5Tget_class(type);
+  if (kind == H5T_STRING) return "text";
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) return "neither integer nor floating point";
   const std::string order = H5Tget_order(type) == H5T_ORDER_BE ? "big-endian " : "little-endian ";
   const std::string sign = kind == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_NONE ? "unsigned " : "";
@@ -254,7 +262,7 @@ std::span<const T> Hdf5Reader::dataset(const Dataset<T>& what, Lengths& lengths)
   std::vector<Length*> shape;
   for (const char* symbol : what.shape)
     if (symbol != nullptr) shape.push_back(&lengths[symbol]);
-  checkType(path, handle.get(), fileType<T>());
+  checkType(path, handle.get(), fileType<T>().get());
   checkShape(path, handle.get(), shape);
   checkLayout(path, handle.get());
   const std::uint64_t limit = image_.bytes().size() / sizeof(T);
@@ -276,6 +284,7 @@ template std::span<const std::int16_t> Hdf5Reader::dataset(const Dataset<std::in
 template std::span<const std::int32_t> Hdf5Reader::dataset(const Dataset<std::int32_t>&, Lengths&) const;
 template std::span<const std::int64_t> Hdf5Reader::dataset(const Dataset<std::int64_t>&, Lengths&) const;
 template std::span<const std::uint8_t> Hdf5Reader::dataset(const Dataset<std::uint8_t>&, Lengths&) const;
+template std::span<const RegionName> Hdf5Reader::dataset(const Dataset<RegionName>&, Lengths&) const;
 
 Length& Lengths::operator[](const char* symbol) {
   const bool number = std::string_view(symbol).find_first_not_of("0123456789") == std::string_view::npos;

@@ -119,6 +119,32 @@ void checkScale(const std::string& name, std::span<const float> scale, const Che
                    "more than 0, at most " + digitsOf(double(kLargest)));
 }
 
+/// Coarser triangles between contact positions are for a later version.
+void checkContactTriangles(const ModelView& v, const Checker& check) {
+  const std::string name = dataset::kContactTriangles.name(),
+                    those = ", as " + dataset::kSurfaceTriangles.name() + " in this version";
+  check.require(v.contact_triangles.size() == v.surface_triangles.size(),
+                name + " has " + std::to_string(v.contact_triangles.size() / 3) + " triangles",
+                std::to_string(v.triangles()) + those);
+  for (std::size_t i = 0; i < v.contact_triangles.size(); ++i)
+    if (v.contact_triangles[i] != v.surface_triangles[i])
+      check.failAt(name, i, "is " + std::to_string(v.contact_triangles[i]),
+                   std::to_string(v.surface_triangles[i]) + those);
+}
+
+void checkRegions(const ModelView& v, const Checker& check) {
+  if (v.region_name.empty()) return;
+  check.indices(dataset::kElementRegion.name(), v.mesh_element_region, v.region_name.size());
+  for (std::size_t r = 0; r < v.region_name.size(); ++r) {
+    if (v.region_name[r].front() == '\0') check.failAt(dataset::kRegionName.name(), r, "is empty", "a name");
+    if (!(std::isfinite(v.region_E[r]) && v.region_E[r] > 0.0))
+      check.failAt(dataset::kRegionE.name(), r, "is " + digitsOf(v.region_E[r]), "more than 0 Pa");
+    if (!(v.region_nu[r] > -1.0 && v.region_nu[r] < 0.5))
+      check.failAt(dataset::kRegionNu.name(), r, "is " + digitsOf(v.region_nu[r]),
+                   "more than -1 and less than 0.5");
+  }
+}
+
 void checkFinite(const ModelView& v, const Checker& check) {
   check.finite(dataset::kSurfacePositions.name(), v.surface_positions);
   check.finite(dataset::kContactForce.name(), v.contact_force);
@@ -164,6 +190,7 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   checkFinite(v, check);
   check.indices(dataset::kSurfaceTriangles.name(), v.surface_triangles, v.surfaceNodes());
   checkTrianglesAtNodes(v, check);
+  checkContactTriangles(v, check);
   checkScale(dataset::kModesXScale.name(), v.modes_X_scale, check);
   checkScale(dataset::kModesYScale.name(), v.modes_Y_scale, check);
   checkScale(dataset::kNearScale.name(), v.near_scale, check);
@@ -177,6 +204,7 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   check.indices(dataset::kMeshTetrahedra.name(), v.mesh_tetrahedra, N);
   check.indices(dataset::kMeshFixed.name(), v.mesh_fixed, N);
   check.indices(dataset::kMeshSurfaceNode.name(), v.mesh_surface_node, N);
+  checkRegions(v, check);
 }
 
 }  // namespace palpate

@@ -31,6 +31,9 @@ const char* typeName(std::int64_t) {
 const char* typeName(std::uint8_t) {
   return "u8";
 }
+const char* typeName(const RegionName&) {
+  return "text64";
+}
 
 /// Adds one part after the other: a line that says how many bytes follow, then these.
 class ContentHash {
@@ -76,6 +79,8 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
   LengthTable size{{"Ns", Ns},
                    {"3 Ns", 3 * Ns},
                    {"T", v.triangles()},
+                   {"Tc", v.contact_triangles.size() / 3},
+                   {"R", v.region_name.size()},
                    {"M", M},
                    {"M + 1", M + 1},
                    {"C", C},

@@ -14,19 +14,22 @@
 // What a model consists of, each part once and in one order: the digest and the writer walk these lists.
 namespace palpate {
 
+/// Of the model file: what it holds and how.
+inline constexpr int kModelVersion = 3;
+
 /// Attributes that answers depend on, as a file has them. visit(name, value) gets texts, doubles, int32s and
 /// arrays of doubles. @param[in] a  force_order as in the file, not 0
 template <class Visit>
 void forEachAttribute(const ModelAttributes& a, Visit&& visit) {
   visit("format", std::string("palpate-model"));
-  visit("version", std::int32_t{a.parameters == Parameters::kDisplacement ? 1 : 2});
+  visit("version", std::int32_t{kModelVersion});
+  visit("parameters", std::string(toString(a.parameters)));
   visit("law", a.law);
   visit("E", a.E);
   visit("nu", a.nu);
   visit("patch_radius", a.patch_radius);
   visit("near_radius", a.near_radius);
   visit("reference_displacement", a.reference_displacement);
-  if (a.parameters != Parameters::kDisplacement) visit("parameters", std::string(toString(a.parameters)));
   if (a.parameters == Parameters::kLevel) {
     visit("load_direction", a.load_direction);
     visit("load", a.load);
@@ -46,6 +49,7 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
   visit(dataset::kPositionOfNode, v.position_of_node);
   visit(dataset::kContactNode, v.contact_node);
   visit(dataset::kContactAccessible, v.contact_accessible);
+  visit(dataset::kContactTriangles, v.contact_triangles);
   visit(dataset::kContactDomainRadius, v.contact_domain_radius);
   if (a.parameters == Parameters::kDisplacement) visit(dataset::kContactForce, v.contact_force);
   if (a.parameters != Parameters::kDisplacement) visit(dataset::kContactDisplacement, v.contact_displacement);
@@ -64,6 +68,11 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
   visit(dataset::kMeshTetrahedronTag, v.mesh_tetrahedron_tag);
   visit(dataset::kMeshFixed, v.mesh_fixed);
   visit(dataset::kMeshSurfaceNode, v.mesh_surface_node);
+  if (v.region_name.empty()) return;
+  visit(dataset::kElementRegion, v.mesh_element_region);
+  visit(dataset::kRegionName, v.region_name);
+  visit(dataset::kRegionE, v.region_E);
+  visit(dataset::kRegionNu, v.region_nu);
 }
 
 /// Lengths by the symbols of datasets.h.

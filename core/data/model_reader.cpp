@@ -5,22 +5,23 @@
 #include "core/data/datasets.h"
 #include "core/data/hdf5_reader.h"
 #include "core/data/model_checks.h"
+#include "core/data/model_content.h"
 
 namespace palpate {
 
 namespace {
 
-/// Version 1 is the displacement-driven model, version 2 the load-driven ones.
 Parameters readParameters(const Hdf5Reader& file) {
   if (const std::string format = file.text("format"); format != "palpate-model")
     file.fail("attribute format is \"" + format.substr(0, 40) + "\", expected \"palpate-model\"");
-  const int version = file.integer("version");
-  if (version == 1) return Parameters::kDisplacement;
-  if (version != 2) file.fail("attribute version is " + std::to_string(version) + ", expected 1 or 2");
+  if (const int version = file.integer("version"); version != kModelVersion)
+    file.fail("version " + std::to_string(version) + " of the model file; this program reads version " +
+              std::to_string(kModelVersion) + ": solve the organ again with palpate-solve");
   const std::string parameters = file.text("parameters");
-  for (const Parameters kind : {Parameters::kForce, Parameters::kLevel})
+  for (const Parameters kind : {Parameters::kDisplacement, Parameters::kForce, Parameters::kLevel})
     if (parameters == toString(kind)) return kind;
-  file.fail("attribute parameters is \"" + parameters.substr(0, 40) + "\", expected \"force\" or \"level\"");
+  file.fail("attribute parameters is \"" + parameters.substr(0, 40) +
+            "\", expected \"displacement\", \"force\" or \"level\"");
 }
 
 /// What differs between the kinds.
@@ -31,8 +32,7 @@ void readKind(const Hdf5Reader& file, ModelAttributes& a) {
     return;
   }
   a.order = file.integer("order");
-  const bool force_order = a.parameters == Parameters::kDisplacement || file.hasAttribute("force_order");
-  a.force_order = force_order ? file.integer("force_order") : a.order;
+  a.force_order = file.integer("force_order");
   if (a.parameters == Parameters::kForce) a.reference_force = file.number("reference_force");
 }
 
@@ -41,6 +41,7 @@ ModelAttributes readAttributes(const Hdf5Reader& file) {
   a.parameters = readParameters(file);
   a.law = file.text("law");
   a.provenance = file.text("provenance");
+  if (file.hasAttribute("certificate")) a.certificate = file.text("certificate");
   a.E = file.number("E");
   a.nu = file.number("nu");
   a.patch_radius = file.number("patch_radius");
@@ -51,11 +52,11 @@ ModelAttributes readAttributes(const Hdf5Reader& file) {
 }
 
 StoredDigests readDigests(const Hdf5Reader& file) {
-  for (const char* attribute : {"digest", "provenance_digest"})
-    if (!file.hasAttribute(attribute))
-      file.fail(std::string("attribute ") + attribute +
-                " is missing: the file is of an earlier palpate-solve, solve the model again");
-  return {file.text("digest"), file.text("provenance_digest")};
+  StoredDigests stored{file.text("digest"), file.text("provenance_digest"), {}, {}};
+  if (!file.hasAttribute("certificate")) return stored;
+  stored.certificate = file.text("certificate_digest");
+  stored.certified = file.text("certificate_of");
+  return stored;
 }
 
 std::uint64_t sizeOf(int order) {
@@ -91,6 +92,7 @@ void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size
   } else {
     v.contact_displacement = file.dataset(dataset::kContactDisplacement, size);
   }
+  v.contact_triangles = file.dataset(dataset::kContactTriangles, size);
   v.contact_domain_radius = file.dataset(dataset::kContactDomainRadius, size);
 }
 
@@ -117,6 +119,15 @@ void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.mesh_surface_node = file.dataset(dataset::kMeshSurfaceNode, size);
 }
 
+void readRegions(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  if (!file.hasDataset(dataset::kElementRegion.path) && !file.hasDataset(dataset::kRegionName.path)) return;
+  v.mesh_element_region = file.dataset(dataset::kElementRegion, size);
+  v.region_name = file.dataset(dataset::kRegionName, size);
+  v.region_E = file.dataset(dataset::kRegionE, size);
+  v.region_nu = file.dataset(dataset::kRegionNu, size);
+  if (v.region_name.empty()) file.fail(dataset::kRegionName.name() + " is empty, expected regions");
+}
+
 }  // namespace
 
 ModelContents readModel(const SealedImage& image, const std::string& name) {
@@ -135,6 +146,7 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
   readContact(file, a, size, contents.view);
   readFields(file, size, contents.view);
   readMesh(file, size, contents.view);
+  readRegions(file, size, contents.view);
   return contents;
 }
 

@@ -12,6 +12,8 @@ namespace palpate {
 struct StoredDigests {
   std::string content;
   std::string provenance;
+  std::string certificate;  ///< of its text; empty without one, as the next
+  std::string certified;    ///< of the content that it belongs to
 };
 
 /// What HDF5 says about a model: its attributes, and where its arrays lie in the image.

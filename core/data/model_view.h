@@ -8,13 +8,15 @@
 #include <string>
 #include <string_view>
 
+#include "core/data/datasets.h"
+
 namespace palpate {
 
 /// What is prescribed at the contact: the parameter of a model beside s.   docs/design.md, Reproduction, Series
 enum class Parameters {
-  kDisplacement,  ///< the patch displacement d: u(X; s, d), f(s, d); file version 1
-  kForce,         ///< the tool's force f: u(X; s, f), d(s, f); file version 2
-  kLevel          ///< the level t of a load of fixed direction: u(X; s, t), d(s, t); file version 2
+  kDisplacement,  ///< the patch displacement d: u(X; s, d), f(s, d); near field beside the modes
+  kForce,         ///< the tool's force f: u(X; s, f), d(s, f)
+  kLevel          ///< the level t of a load of fixed direction: u(X; s, t), d(s, t)
 };
 
 /// As the file names them: "displacement", "force", "level".
@@ -49,6 +51,8 @@ struct ModelAttributes {
   double reference_force{0.0};             ///< f_ref, N, > 0 for "force": polynomials are ones in f / f_ref
   std::array<double, 3> load_direction{};  ///< unit vector, for "level"
   double load{0.0};                        ///< N, > 0 for "level": f = t load load_direction
+  /// Text of a JSON object, what this content was found to hold to; empty: nothing is known
+  std::string certificate{};
 };
 
 /// The numbers of a model file where they lie in memory. Shapes are row-major; Ns surface nodes, T triangles,
@@ -62,7 +66,8 @@ struct ModelView {
   std::span<const std::int32_t> position_of_node;   ///< [Ns] contact position of a surface node, or -1
   std::span<const std::int32_t> contact_node;       ///< [M] surface node of a contact position
   std::span<const std::uint8_t>
-      contact_accessible;                        ///< [M] 1: accessible; 0: helper for interpolation beside it
+      contact_accessible;  ///< [M] 1: accessible; 0: helper for interpolation beside it
+  std::span<const std::int32_t> contact_triangles;  ///< [Tc][3] surface nodes, between contact positions
   std::span<const double> contact_force;         ///< [M][Cf][3] f_alpha d_ref^|alpha|, N; "displacement" only
   std::span<const double> contact_displacement;  ///< [M][C][3] d_alpha, m; "force" and "level" only
   std::span<const double> contact_domain_radius;  ///< [M] d_max, m, or f_max, N, or t_max
@@ -82,6 +87,10 @@ struct ModelView {
   std::span<const std::int64_t> mesh_tetrahedron_tag;  ///< [V]
   std::span<const std::int32_t> mesh_fixed;            ///< volume nodes
   std::span<const std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
+  std::span<const std::int32_t> mesh_element_region;   ///< [V] or empty: one material, that of the attributes
+  std::span<const RegionName> region_name;             ///< [R] or empty, as the next two
+  std::span<const double> region_E;                    ///< [R] Pa
+  std::span<const double> region_nu;                   ///< [R]
 
   [[nodiscard]] std::size_t surfaceNodes() const noexcept { return surface_mesh_tag.size(); }
   [[nodiscard]] std::size_t triangles() const noexcept { return surface_triangles.size() / 3; }

@@ -44,6 +44,13 @@ Digest verified(const ModelContents& contents, const std::string& name) {
           sha256(std::as_bytes(std::span<const char>(provenance))));
   const Digest digest = contentDigest(contents.attributes, contents.view);
   compare(name, "digest", contents.stored.content, digest);
+  if (contents.attributes.certificate.empty()) return digest;
+  compare(name, "certificate_digest", contents.stored.certificate,
+          sha256(std::as_bytes(std::span<const char>(contents.attributes.certificate))));
+  if (contents.stored.certified != digest.hex())
+    throw LoadError(name + ": the certificate belongs to the content " +
+                    contents.stored.certified.substr(0, 64) + ", the digest of this content is " +
+                    digest.hex());
   return digest;
 }
 

@@ -18,7 +18,7 @@ inline const modelfile::ModelData& goodData() {
   return data;
 }
 
-/// The same, driven by a load (files of version 2).
+/// The same of each kind.
 inline modelfile::ModelData goodData(Parameters parameters) {
   return syntheticModel({.subdivisions = 1, .modes = 2, .parameters = parameters});
 }

@@ -46,6 +46,7 @@ void checkContact(const ModelData& d, std::size_t M, std::size_t C) {
   expectSize(dataset::kContactDisplacement.name(), d.contact_displacement.size(),
              load_driven ? M * C * 3 : 0);
   expectSize(dataset::kContactDomainRadius.name(), d.contact_domain_radius.size(), M);
+  expectTuples(dataset::kContactTriangles.name(), d.contact_triangles.size(), 3);
 }
 
 void checkLevels(const ModelData& d, std::size_t C) {
@@ -67,6 +68,11 @@ void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t 
 void checkMesh(const ModelData& d) {
   expectSize(dataset::kMeshNodes.name(), d.mesh_nodes.size(), 3 * d.mesh_node_tag.size());
   expectSize(dataset::kMeshTetrahedra.name(), d.mesh_tetrahedra.size(), 4 * d.mesh_tetrahedron_tag.size());
+  const std::size_t R = d.region_name.size();
+  expectSize(dataset::kElementRegion.name(), d.mesh_element_region.size(),
+             R == 0 ? 0 : d.mesh_tetrahedron_tag.size());
+  expectSize(dataset::kRegionE.name(), d.region_E.size(), R);
+  expectSize(dataset::kRegionNu.name(), d.region_nu.size(), R);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ struct ModelData {
   std::vector<std::int32_t> position_of_node;    ///< [Ns] or -1
   std::vector<std::int32_t> contact_node;        ///< [M]
   std::vector<std::uint8_t> contact_accessible;  ///< [M] 0 or 1
+  std::vector<std::int32_t> contact_triangles;   ///< [Tc][3]; empty: those of the surface
   std::vector<double> contact_force;  ///< [M][Cf][3] N, Cf = size(force_order); "displacement" only
   std::vector<double>
       contact_displacement;  ///< [M][C][3] m, d_alpha(s) as the modes give it; "force", "level"
@@ -51,6 +52,10 @@ struct ModelData {
   std::vector<std::int64_t> mesh_tetrahedron_tag;  ///< [V]
   std::vector<std::int32_t> mesh_fixed;            ///< volume nodes
   std::vector<std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
+  std::vector<std::int32_t> mesh_element_region;   ///< [V] or empty: one material, that of the attributes
+  std::vector<RegionName> region_name;             ///< [R] or empty, as the next two
+  std::vector<double> region_E;                    ///< [R] Pa
+  std::vector<double> region_nu;                   ///< [R]
 };
 
 /// n, the number of modes; 0 without a surface.

@@ -25,41 +25,33 @@ namespace {
 
 constexpr hsize_t kAlignment = 4096;
 
-hid_t fileType(double) {
-  return H5T_IEEE_F64LE;
+/// Types of the file, which are those in memory too: little-endian.
+Hdf5Handle copyOf(hid_t type) {
+  return {H5Tcopy(type), H5Tclose};
 }
-hid_t fileType(float) {
-  return H5T_IEEE_F32LE;
+Hdf5Handle typeOf(double) {
+  return copyOf(H5T_IEEE_F64LE);
 }
-hid_t fileType(std::int16_t) {
-  return H5T_STD_I16LE;
+Hdf5Handle typeOf(float) {
+  return copyOf(H5T_IEEE_F32LE);
 }
-hid_t fileType(std::int32_t) {
-  return H5T_STD_I32LE;
+Hdf5Handle typeOf(std::int16_t) {
+  return copyOf(H5T_STD_I16LE);
 }
-hid_t fileType(std::int64_t) {
-  return H5T_STD_I64LE;
+Hdf5Handle typeOf(std::int32_t) {
+  return copyOf(H5T_STD_I32LE);
 }
-hid_t fileType(std::uint8_t) {
-  return H5T_STD_U8LE;
+Hdf5Handle typeOf(std::int64_t) {
+  return copyOf(H5T_STD_I64LE);
 }
-hid_t memoryType(double) {
-  return H5T_NATIVE_DOUBLE;
+Hdf5Handle typeOf(std::uint8_t) {
+  return copyOf(H5T_STD_U8LE);
 }
-hid_t memoryType(float) {
-  return H5T_NATIVE_FLOAT;
-}
-hid_t memoryType(std::int16_t) {
-  return H5T_NATIVE_INT16;
-}
-hid_t memoryType(std::int32_t) {
-  return H5T_NATIVE_INT32;
-}
-hid_t memoryType(std::int64_t) {
-  return H5T_NATIVE_INT64;
-}
-hid_t memoryType(std::uint8_t) {
-  return H5T_NATIVE_UINT8;
+Hdf5Handle typeOf(const RegionName&) {
+  Hdf5Handle text = copyOf(H5T_C_S1);
+  H5Tset_size(text.get(), sizeof(RegionName));
+  H5Tset_strpad(text.get(), H5T_STR_NULLPAD);
+  return text;
 }
 
 void require(bool good, const std::string& what) {
@@ -85,11 +77,12 @@ void makeGroup(const Hdf5Handle& file, const std::string& name) {
   require(group.valid(), name);
 }
 
-void makeGroups(const Hdf5Handle& file, const ModelAttributes& attributes) {
+void makeGroups(const Hdf5Handle& file, const ModelAttributes& attributes, bool regions) {
   for (const char* path : {dataset::kSurfacePositions.path, dataset::kContactNode.path, dataset::kModesX.path,
                            dataset::kNearNode.path, dataset::kMeshNodes.path})
     makeGroup(file, groupOf(path));
   if (attributes.parameters == Parameters::kLevel) makeGroup(file, groupOf(dataset::kLevelsZ.path));
+  if (regions) makeGroup(file, groupOf(dataset::kRegionName.path));
 }
 
 template <typename T>
@@ -104,28 +97,30 @@ void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, std::span<cons
   H5Pset_layout(creation.get(), H5D_CONTIGUOUS);
   H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(creation.get(), H5D_FILL_TIME_NEVER);  // every number is written below
+  const Hdf5Handle type = typeOf(T{});
   const Hdf5Handle dataset(
-      H5Dcreate2(file.get(), name, fileType(T{}), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+      H5Dcreate2(file.get(), name, type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
       H5Dclose);
   require(dataset.valid(), name);
   if (values.empty()) return;
-  require(H5Dwrite(dataset.get(), memoryType(T{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
+  require(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
 }
 
 template <typename T>
 void writeNumber(const Hdf5Handle& file, const char* name, T value) {
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle attribute(
-      H5Acreate2(file.get(), name, fileType(T{}), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  require(attribute.valid() && H5Awrite(attribute.get(), memoryType(T{}), &value) >= 0, name);
+  const Hdf5Handle type = typeOf(T{});
+  const Hdf5Handle attribute(H5Acreate2(file.get(), name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  require(attribute.valid() && H5Awrite(attribute.get(), type.get(), &value) >= 0, name);
 }
 
 void writeNumbers(const Hdf5Handle& file, const char* name, std::span<const double> values) {
   const hsize_t count = values.size();
   const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
   const Hdf5Handle attribute(
-      H5Acreate2(file.get(), name, fileType(double{}), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  require(attribute.valid() && H5Awrite(attribute.get(), memoryType(double{}), values.data()) >= 0, name);
+      H5Acreate2(file.get(), name, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  require(attribute.valid() && H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, values.data()) >= 0, name);
 }
 
 /// Variable length, so that a long provenance does not meet the 64 KiB limit of an object header.
@@ -153,18 +148,24 @@ struct AttributeWriter {
   }
 };
 
+/// A text that is not in the content's digest, and its own.
+void writeWithDigest(const Hdf5Handle& file, const std::string& name, const std::string& text) {
+  writeText(file, name.c_str(), text);
+  writeText(file, (name + "_digest").c_str(), sha256(std::as_bytes(std::span<const char>(text))).hex());
+}
+
 void writeContent(const Hdf5Handle& file, const ModelAttributes& a, const ModelView& v) {
   const LengthTable lengths = lengthsOf(a, v);
   forEachAttribute(a, AttributeWriter{file});
   forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, std::span<const T> values) {
     writeDataset(file, what, values, lengths);
   });
-  writeText(file, "digest", contentDigest(a, v).hex());
-}
-
-void writeProvenance(const Hdf5Handle& file, const std::string& text) {
-  writeText(file, "provenance", text);
-  writeText(file, "provenance_digest", sha256(std::as_bytes(std::span<const char>(text))).hex());
+  const std::string digest = contentDigest(a, v).hex();
+  writeText(file, "digest", digest);
+  writeWithDigest(file, "provenance", a.provenance);
+  if (a.certificate.empty()) return;
+  writeWithDigest(file, "certificate", a.certificate);
+  writeText(file, "certificate_of", digest);
 }
 
 ModelView viewOf(const ModelData& d, const PackedFields& fields) {
@@ -175,6 +176,7 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.position_of_node = d.position_of_node;
   v.contact_node = d.contact_node;
   v.contact_accessible = d.contact_accessible;
+  v.contact_triangles = d.contact_triangles.empty() ? d.surface_triangles : d.contact_triangles;
   v.contact_force = d.contact_force;
   v.contact_displacement = d.contact_displacement;
   v.contact_domain_radius = d.contact_domain_radius;
@@ -194,6 +196,10 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.mesh_tetrahedron_tag = d.mesh_tetrahedron_tag;
   v.mesh_fixed = d.mesh_fixed;
   v.mesh_surface_node = d.mesh_surface_node;
+  v.mesh_element_region = d.mesh_element_region;
+  v.region_name = d.region_name;
+  v.region_E = d.region_E;
+  v.region_nu = d.region_nu;
   return v;
 }
 
@@ -211,10 +217,9 @@ void writeAll(const std::string& path, const ModelData& data) {
   Hdf5Handle file = createFile(path);
   ModelAttributes attributes = data.attributes;
   attributes.force_order = forceOrder(attributes);
-  makeGroups(file, attributes);
+  makeGroups(file, attributes, !data.region_name.empty());
   const PackedFields fields = packFields(data);
   writeContent(file, attributes, viewOf(data, fields));
-  writeProvenance(file, attributes.provenance);
   require(file.closeNow(), path);
   sync(path);
 }

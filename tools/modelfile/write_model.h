@@ -7,7 +7,7 @@
 
 namespace palpate::modelfile {
 
-/// Writes a model file (docs/model_file.md): version 1 for "displacement", version 2 for "force" and "level".
+/// Writes a model file (docs/model_file.md).
 /// Contiguous, early-allocated, aligned to 4096 bytes.
 /// Written to `path.tmp-PID` beside the target, synced, renamed: a reader sees the old file or the new one,
 /// never a part.

@@ -38,13 +38,6 @@ TEST(LoadDriven, GivesBackEveryBitThatWasWritten) {
   }
 }
 
-TEST(LoadDriven, ForceOrderMayBeAbsent) {
-  const TemporaryFile file("load-driven-order.h5");
-  modelfile::writeModel(file.path(), goodData(Parameters::kForce));
-  deleteThing(file.path(), "force_order", nullptr);
-  EXPECT_EQ(MetaModel::load(file.path()).attributes().force_order, 3);
-}
-
 TEST(LoadDriven, SurvivesDamagedNumbers) {
   std::mt19937 random(3);
   int refused = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way in which a file of version 2, a load-driven model, can be wrong.
+// Every way in which a file of a load-driven model can be wrong.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -184,15 +184,14 @@ INSTANTIATE_TEST_SUITE_P(
     All, LoadDrivenRefusesFile,
     ::testing::Values(
         WrongFile{"UnknownKind", Parameters::kForce,
-                  "attribute parameters is \"torque\", expected \"force\" or \"level\"",
+                  "attribute parameters is \"torque\", expected \"displacement\", \"force\" or \"level\"",
                   [](const auto& p) { setText(p, "parameters", "torque"); }},
-        WrongFile{"DisplacementIsVersion1", Parameters::kForce,
-                  "attribute parameters is \"displacement\", expected",
+        WrongFile{"ReadAsDisplacement", Parameters::kForce, "/contact/force is missing",
                   [](const auto& p) { setText(p, "parameters", "displacement"); }},
         WrongFile{"KindIsNoText", Parameters::kForce, "attribute parameters is no readable text",
                   [](const auto& p) { setNumber(p, "parameters", H5T_NATIVE_INT, 1); }},
-        WrongFile{"ReadAsVersion1", Parameters::kForce, "/contact/force is missing",
-                  [](const auto& p) { setNumber(p, "version", H5T_NATIVE_INT, 1); }},
+        WrongFile{"NoForceOrder", Parameters::kForce, "attribute force_order is missing",
+                  [](const auto& p) { deleteThing(p, "force_order", nullptr); }},
         WrongFile{"ForceOrder", Parameters::kForce, "attribute force_order is 4, expected 3",
                   [](const auto& p) { setNumber(p, "force_order", H5T_NATIVE_INT, 4); }},
         WrongFile{"Order", Parameters::kForce, "attribute order is 8, expected 1 to 7",

@@ -24,8 +24,9 @@ Json bytesOfParts(const ModelView& v) {
   Json bytes;
   bytes["surface"] =
       bytesOf(v.surface_positions, v.surface_triangles, v.surface_mesh_tag, v.position_of_node);
-  bytes["contact_response"] = bytesOf(v.contact_node, v.contact_accessible, v.contact_force,
-                                      v.contact_displacement, v.contact_domain_radius, v.levels_Z);
+  bytes["contact_response"] =
+      bytesOf(v.contact_node, v.contact_accessible, v.contact_triangles, v.contact_force,
+              v.contact_displacement, v.contact_domain_radius, v.levels_Z);
   bytes["far_field"] = bytesOf(v.modes_X, v.modes_X_scale, v.modes_Y, v.modes_Y_scale);
   bytes["near_field"] = bytesOf(v.near_offset, v.near_node, v.near_field, v.near_scale);
   bytes["mesh"] = bytesOf(v.mesh_nodes, v.mesh_tetrahedra, v.mesh_node_tag, v.mesh_tetrahedron_tag,
