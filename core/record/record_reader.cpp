@@ -32,7 +32,9 @@ RecordReader::RecordReader(const std::filesystem::path& path)
   offset_ = magic.size();
   read(&version, sizeof version);
   if (version != kVersion)
-    refuse("version is " + std::to_string(version) + ", expected " + std::to_string(kVersion));
+    throw RecordError(path.string() + ": version " + std::to_string(version) +
+                      " of the recording; this program reads version " + std::to_string(kVersion) +
+                      ": record the session again");
   if (readBlock() != kHeaderBlock) refuse("expected the header");
   try {
     readFacts();
@@ -45,6 +47,8 @@ RecordReader::~RecordReader() = default;
 
 void RecordReader::readFacts() {
   ByteSource& in = block_->source();
+  in.get(facts_.engine.project);
+  in.get(facts_.engine.answers);
   in.get(facts_.model.bytes);
   in.get(facts_.started_ns);
   forEachConfigField(facts_.config, [&](const char*, auto& field) { in.get(field); });

@@ -14,6 +14,8 @@ namespace {
 
 Bytes bytesOf(const SessionFacts& facts) {
   Bytes bytes;
+  put(bytes, facts.engine.project);
+  put(bytes, facts.engine.answers);
   put(bytes, facts.model.bytes);
   put(bytes, facts.started_ns);
   forEachConfigField(facts.config, [&](const char*, const auto& field) { put(bytes, field); });

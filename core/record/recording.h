@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/data/sha256.h"
+#include "core/record/engine_version.h"
 #include "core/tick/step.h"
 
 namespace palpate::record {
@@ -37,6 +38,7 @@ struct SessionFacts {
   Digest model;                ///< of the content that the session ran on
   std::int64_t started_ns{0};  ///< wall clock, since 1970, ns; for people only
   StepConfig config;
+  EngineVersion engine{thisEngine()};
 };
 
 /// How a recording ends.

@@ -24,6 +24,7 @@ SessionFacts someFacts() {
   facts.started_ns = 1'700'000'000'000'000'000;
   facts.config.friction = std::numeric_limits<double>::infinity();
   facts.config.tools = 2;
+  facts.engine.answers = 77;
   return facts;
 }
 
@@ -130,6 +131,8 @@ TEST_F(Recording, IsReadAsItWasWritten) {
   EXPECT_EQ(reader.facts().model, someFacts().model);
   EXPECT_EQ(reader.facts().started_ns, someFacts().started_ns);
   EXPECT_EQ(reader.facts().config.tools, 2);
+  EXPECT_EQ(reader.facts().engine, someFacts().engine);
+  EXPECT_EQ(reader.facts().engine.text(), std::string(PALPATE_VERSION) + ", answers 77");
   EXPECT_TRUE(std::isinf(reader.facts().config.friction));
   RecordedTick tick;
   for (const RecordedTick& wanted : ticks) {
@@ -184,7 +187,7 @@ TEST_F(Recording, RefusesWhatItIsNot) {
   EXPECT_EQ(refusal(), "is no recording of palpate-server");
   write(someTicks(3));
   std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out).seekp(8).put(9);
-  EXPECT_NE(refusal().find("version is 9, expected 4"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("version 9 of the recording; this program reads version 5: record the session again"), std::string::npos) << refusal();
   write(someTicks(3));
   std::ofstream(path_, std::ios::app) << "more";
   EXPECT_NE(refusal().find("something follows the end"), std::string::npos) << refusal();

@@ -20,7 +20,7 @@ struct Options {
 void addOptions(program::Options line, Options& options) {
   line.add("FILE", &options.file, "recording of palpate-server --record").required();
   line.add("--model", &options.model, "the model file that the session ran on").required().valueName("FILE");
-  line.flag("--partial", &options.partial, "replay what is there, although ticks or the end are missing");
+  line.flag("--partial", &options.partial, "replay what is there, although ticks or the end are missing, or of another engine");
   line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 
@@ -38,6 +38,8 @@ program::Json jsonOf(const Findings& findings, const record::SessionFacts& facts
           {"seconds", findings.seconds},
           {"missing", findings.missing},
           {"truncated", findings.truncated},
+          {"other_engine", findings.other_engine},
+          {"engine", facts.engine.text()},
           {"differing_ticks", findings.differing},
           {"first_difference", first},
           {"largest_force_N", findings.largest_force},
@@ -50,6 +52,7 @@ void print(const Findings& findings) {
   if (findings.missing > 0)
     std::cout << findings.missing << " ticks are missing: compared from another state\n";
   if (findings.truncated) std::cout << "the recording has no end: compared as far as it goes\n";
+  if (findings.other_engine) std::cout << "recorded with another engine: its answers may be other ones\n";
   if (findings.differing == 0) {
     std::cout << "identical, bit for bit\n";
     return;

@@ -101,6 +101,14 @@ void requireFit(const record::SessionFacts& facts, const MetaModel& model) {
     throw RecordError("the recording's header: " + complaint->sentence());
 }
 
+void noteEngine(const record::SessionFacts& facts, Demand demand, Findings& findings) {
+  findings.other_engine = !(facts.engine == record::thisEngine());
+  if (findings.other_engine && demand == Demand::kWhole)
+    throw RecordError("recorded with engine " + facts.engine.text() + ", this is engine " +
+                      record::thisEngine().text() +
+                      ": the bits need not be the same (--partial replays all the same)");
+}
+
 void requireRange(const record::RecordedTick& tick) {
   if (tick.input.has_settings == 0) return;
   for (std::size_t tool = 0; tool < tick.input.settings.size(); ++tool)
@@ -129,9 +137,10 @@ Findings replay(record::RecordReader& recording, const MetaModel& model, Demand 
   // 1. The same model and parameters, and a new state.
   const record::SessionFacts& facts = recording.facts();
   requireFit(facts, model);
+  Findings findings;
+  noteEngine(facts, demand, findings);
   Workspace work(model, facts.config);
   // 2. Tick by tick.
-  Findings findings;
   StepResult result;
   record::RecordedTick tick;
   std::uint64_t expected = 0;

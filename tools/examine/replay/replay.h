@@ -27,18 +27,19 @@ struct Findings {
   double seconds{0.0};         ///< of the session, the sum of its ticks' dt
   double largest_force{0.0};   ///< N, as recorded
   std::optional<Difference> first;
-  bool truncated{false};  ///< the file has no end
+  bool truncated{false};     ///< the file has no end
+  bool other_engine{false};  ///< another version gave the recorded answers
 };
 
 /// What a recording must be.
 enum class Demand {
-  kWhole,   ///< every tick from the first on, and an end
-  kPartial  ///< any part of it; after a gap the engine's state may differ, so differences are expected
+  kWhole,   ///< every tick from the first on, and an end, of this engine's version
+  kPartial  ///< any part of it, of any engine; after a gap, or of another engine, differences are expected
 };
 
 /// Runs a session's inputs through step() again, from a new Workspace, without threads or clocks, and compares each
 /// result with the recorded one bit for bit, field by field.
-/// @throw record::RecordError  damaged; another model; under kWhole also a missing tick or a missing end
+/// @throw record::RecordError  damaged; another model; under kWhole also another engine, a missing tick or a missing end
 /// Real-time: no.
 [[nodiscard]] Findings replay(record::RecordReader& recording, const MetaModel& model, Demand demand);
 

@@ -47,7 +47,7 @@ TEST(Together, TinyTouchesAreAsNewtonSays) {
   const JointErrors coupled = coupledErrors(answer, touches, truth, box.organ);
   const JointErrors superposed = superposedErrors(answer, touches, truth, box.organ);
   for (std::size_t a = 0; a < 2; ++a) {
-    EXPECT_LT(coupled.force[a], 1e-4) << "tool " << a + 1;  // the model's field is in single precision
+    EXPECT_LT(coupled.force[a], 2.5e-4) << "tool " << a + 1;  // the field is rounded to 16 bits
     EXPECT_GT(superposed.force[a], 0.1) << "tool " << a + 1;
   }
   EXPECT_LT(coupled.field.max, 2.5e-4);  // two fields that are rounded to 16 bits and partly cancel

@@ -94,6 +94,21 @@ TEST_F(Replay, FindsAnInputThatWasAnother) {
   EXPECT_EQ(findings.first->tick, 200U);
 }
 
+TEST_F(Replay, PromisesNothingOfAnotherEngine) {
+  EXPECT_FALSE(replayed().other_engine);
+  facts_.engine.answers += 1;
+  EXPECT_TRUE(replayed(Demand::kPartial).other_engine);
+  try {
+    (void)replayed();
+    ADD_FAILURE() << "the bits of another engine were promised";
+  } catch (const record::RecordError& error) {
+    EXPECT_NE(std::string(error.what()).find("recorded with engine " + facts_.engine.text() + ", this is engine " +
+                                             record::thisEngine().text()),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(Replay, RefusesAnotherModel) {
   facts_.model.bytes.back() ^= 1U;  // its id begins as that of the model
   EXPECT_THROW((void)replayed(), record::RecordError);
