@@ -187,7 +187,10 @@ TEST_F(Recording, RefusesWhatItIsNot) {
   EXPECT_EQ(refusal(), "is no recording of palpate-server");
   write(someTicks(3));
   std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out).seekp(8).put(9);
-  EXPECT_NE(refusal().find("version 9 of the recording; this program reads version 5: record the session again"), std::string::npos) << refusal();
+  EXPECT_NE(
+      refusal().find("version 9 of the recording; this program reads version 5: record the session again"),
+      std::string::npos)
+      << refusal();
   write(someTicks(3));
   std::ofstream(path_, std::ios::app) << "more";
   EXPECT_NE(refusal().find("something follows the end"), std::string::npos) << refusal();

@@ -20,7 +20,8 @@ struct Options {
 void addOptions(program::Options line, Options& options) {
   line.add("FILE", &options.file, "recording of palpate-server --record").required();
   line.add("--model", &options.model, "the model file that the session ran on").required().valueName("FILE");
-  line.flag("--partial", &options.partial, "replay what is there, although ticks or the end are missing, or of another engine");
+  line.flag("--partial", &options.partial,
+            "replay what is there, although ticks or the end are missing, or of another engine");
   line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 

@@ -102,8 +102,9 @@ TEST_F(Replay, PromisesNothingOfAnotherEngine) {
     (void)replayed();
     ADD_FAILURE() << "the bits of another engine were promised";
   } catch (const record::RecordError& error) {
-    EXPECT_NE(std::string(error.what()).find("recorded with engine " + facts_.engine.text() + ", this is engine " +
-                                             record::thisEngine().text()),
+    EXPECT_NE(std::string(error.what())
+                  .find("recorded with engine " + facts_.engine.text() + ", this is engine " +
+                        record::thisEngine().text()),
               std::string::npos)
         << error.what();
   }
