@@ -38,8 +38,7 @@ std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, cons
   return accessible;
 }
 
-/// Free nodes in the order of the mesh, then the clamped nodes: these never move, and the packed modes leave
-/// them out.
+/// Free nodes in the order of the mesh, then the clamped nodes, which never move.
 void clampedLast(const FeModel& model, mesh::BoundarySurface& boundary) {
   std::vector<int> order(boundary.nodes.size()), place(boundary.nodes.size());
   std::iota(order.begin(), order.end(), 0);
