@@ -54,14 +54,6 @@ void MonomialBasis::evaluate(const Vec3& x, std::span<double> values) const noex
   });
 }
 
-void MonomialBasis::products(const Vec3& x, std::span<const double> values,
-                             std::span<double> products) const noexcept PALPATE_NONBLOCKING {
-  const std::array<double, 3> factor{x.x(), x.y(), x.z()};
-  forEachProduct(order_ + 1, [&](std::size_t k, std::size_t from, std::size_t axis) {
-    products[k - 3] = factor[axis] * values[from];
-  });
-}
-
 void MonomialBasis::gradient(const Vec3& x, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING {
   std::array<Vec4, kMaxCoefficients> all;
   jets(x, all);

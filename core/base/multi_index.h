@@ -44,10 +44,6 @@ class MonomialBasis {
 
   /// values[k] = x^alpha_k. @param[out] values  size() numbers. Real-time: yes.
   void evaluate(const Vec3& x, std::span<double> values) const noexcept PALPATE_NONBLOCKING;
-  /// products[k] = x^alpha_{k+3}, 2 <= |alpha| <= order() + 1. @param  values  evaluate() at x
-  /// @param[out] products  size(order() + 1) - 3 numbers. Real-time: yes.
-  void products(const Vec3& x, std::span<const double> values,
-                std::span<double> products) const noexcept PALPATE_NONBLOCKING;
   /// gradient[k] = d(x^alpha_k)/dx. @param[out] gradient  size() vectors. Real-time: yes.
   void gradient(const Vec3& x, std::span<Vec3> gradient) const noexcept PALPATE_NONBLOCKING;
   /// jets[k] = x^alpha_k, d/dx, d/dy, d/dz of it. @param[out] jets  size() of them. Real-time: yes.

@@ -42,7 +42,7 @@ Vec3 shown(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   const Response& response = contact.coupled.response;
   Vec3 d = response.displacement;
   if (contact.carried.constant != Vec3::Zero()) {
-    const double most = response.domain_radius + contact.carried.constant.norm();
+    const double most = response.series_radius + contact.carried.constant.norm();
     d = contact.coupled.displacement;
     d *= std::min(1.0, most / std::max(d.norm(), most));
   }

@@ -49,7 +49,7 @@ bool Equilibrium::balance() noexcept PALPATE_NONBLOCKING {
   if (slides() && status != ResponseStatus::kNoAnswer) energy_slope_ = energySlope(patch, carried);
   contact_.normal = frame_.normal;
   contact_.imposed = g;
-  contact_.flags = kInContact | (status == ResponseStatus::kClamped ? kBeyondDomain : 0);
+  contact_.flags = kInContact | (status == ResponseStatus::kBeyond ? kBeyondDomain : 0);
   return status != ResponseStatus::kNoAnswer;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/symmetric_eigen.h"
 
@@ -10,58 +11,65 @@ namespace palpate {
 
 namespace {
 
-/// The y of (A + sigma) y = T, and 1 / |y| with its slope, which is nearly linear in sigma.
+/// The y of (A + sigma) y = T, and what of it friction depends on.
 class Shifted {
  public:
-  Shifted(const Vec2& T, const Mat2& A) noexcept PALPATE_NONBLOCKING : eigen_(symmetricEigen<Mat2>(A)),
-                                                                       T_(eigen_.vectors.transpose() * T) {}
-  struct Inverse {
-    double value, slope;
+  Shifted(const Vec2& T, const Mat2& A, const Vec2& growth) noexcept PALPATE_NONBLOCKING
+      : eigen_(symmetricEigen<Mat2>(A)),
+        T_(eigen_.vectors.transpose() * T),
+        growth_(eigen_.vectors.transpose() * growth) {}
+  /// 1 / |y|, nearly linear in sigma, and growth . y; each with its slope.
+  struct Way {
+    double inverse, inverse_slope, grown, grown_slope;
   };
-  [[nodiscard]] Inverse inverseLength(double sigma) const noexcept PALPATE_NONBLOCKING {
-    const double a = 1.0 / (eigen_.values[0] + sigma), b = 1.0 / (eigen_.values[1] + sigma);
-    const double x = square(T_[0] * a), y = square(T_[1] * b);
-    const double q = 1.0 / std::sqrt(x + y);
-    return {q, q * q * q * (x * a + y * b)};
+  [[nodiscard]] Way at(double sigma) const noexcept PALPATE_NONBLOCKING {
+    const Vec2 a(1.0 / (eigen_.values[0] + sigma), 1.0 / (eigen_.values[1] + sigma));
+    const Vec2 y = T_.cwiseProduct(a), rate = -y.cwiseProduct(a);
+    const double q = 1.0 / y.norm();
+    return {q, -q * q * q * y.dot(rate), growth_.dot(y), growth_.dot(rate)};
   }
-  [[nodiscard]] double length(double sigma) const noexcept PALPATE_NONBLOCKING { return part(sigma).norm(); }
   [[nodiscard]] Vec2 way(double sigma) const noexcept PALPATE_NONBLOCKING {
-    return eigen_.vectors * part(sigma);
+    return eigen_.vectors * Vec2(T_[0] / (eigen_.values[0] + sigma), T_[1] / (eigen_.values[1] + sigma));
   }
   [[nodiscard]] double stiffest() const noexcept PALPATE_NONBLOCKING { return eigen_.values[1]; }
 
  private:
-  [[nodiscard]] static double square(double x) noexcept PALPATE_NONBLOCKING { return x * x; }
-  [[nodiscard]] Vec2 part(double sigma) const noexcept PALPATE_NONBLOCKING {
-    return {T_[0] / (eigen_.values[0] + sigma), T_[1] / (eigen_.values[1] + sigma)};
-  }
   SymmetricEigen<Mat2> eigen_;
-  Vec2 T_;
+  Vec2 T_, growth_;
 };
 
-/// The sigma where |y| sigma = h. Divided by |y| that is sigma - F q - drag max(0, 1 - free_way q) = 0 with q = 1 / |y|: two
-/// pieces, each nearly linear, so Newton's method ends after a few steps (as for a trust region: J. J. More, D. C. Sorensen,
-/// SIAM J. Sci. Stat. Comput. 4 (1983) 553-572). A step that leaves the bracket halves it instead.
-double sigmaOf(const Shifted& shifted, double friction, double size,
-               const Holding& holding) noexcept PALPATE_NONBLOCKING {
+/// The sigma where |y| sigma = h. Divided by |y| that is sigma - F q - drag max(0, 1 - free_way q) = 0 with q = 1 / |y| and
+/// F = max(0, friction + growth . y): pieces that are nearly linear, so Newton's method ends after a few steps (as for a trust
+/// region: J. J. More, D. C. Sorensen, SIAM J. Sci. Stat. Comput. 4 (1983) 553-572). A step that leaves the bracket halves it
+/// instead. There is a root: at sigma = 0 the left side is not positive, and in the end it grows where |T| is more than F.
+double sigmaOf(const Shifted& shifted, double size, const Holding& holding) noexcept PALPATE_NONBLOCKING {
   constexpr int kMostSteps = 30;
   constexpr double kTolerance = 1e-10;  // of sigma
-  double low = 0.0, high = holding.drag + friction * (shifted.stiffest() + holding.drag) / (size - friction);
-  double sigma = high;
+  const double at_rest = std::max(0.0, holding.friction);
+  double low = 0.0, high = std::numeric_limits<double>::infinity();
+  double sigma = holding.drag + at_rest * (shifted.stiffest() + holding.drag) / (size - at_rest);
   for (int i = 0; i < kMostSteps; ++i) {
-    const auto [q, slope] = shifted.inverseLength(sigma);
-    const double beyond = 1.0 - holding.free_way * q;
-    double left = sigma - friction * q, rise = 1.0 - friction * slope;
+    const Shifted::Way y = shifted.at(sigma);
+    const double friction = holding.friction + y.grown, beyond = 1.0 - holding.free_way * y.inverse;
+    double left = sigma, rise = 1.0;
+    if (friction > 0.0) {
+      left -= friction * y.inverse;
+      rise -= friction * y.inverse_slope + y.grown_slope * y.inverse;
+    }
     if (beyond > 0.0) {
       left -= holding.drag * beyond;
-      rise += holding.drag * holding.free_way * slope;
+      rise += holding.drag * holding.free_way * y.inverse_slope;
     }
     if (std::abs(left) <= kTolerance * sigma) return sigma;
     (left < 0.0 ? low : high) = sigma;
     const double next = sigma - left / rise;
-    sigma = next > low && next < high ? next : 0.5 * (low + high);
+    if (next > low && next < high)
+      sigma = next;
+    else
+      sigma = high < std::numeric_limits<double>::infinity() ? 0.5 * (low + high)
+                                                             : 2.0 * low + shifted.stiffest();
   }
-  return high;
+  return sigma;
 }
 
 }  // namespace
@@ -71,18 +79,10 @@ double Holding::at(const Vec2& y) const noexcept PALPATE_NONBLOCKING {
 }
 
 Vec2 wayAgainst(const Holding& holding, const Vec2& T, const Mat2& A) noexcept PALPATE_NONBLOCKING {
-  constexpr int kRounds = 3;  // friction follows from y
   const double size = T.norm();
-  const Shifted shifted(T, A);
-  Vec2 y = Vec2::Zero();
-  for (int i = 0; i < kRounds; ++i) {
-    const double friction = std::max(0.0, holding.friction + holding.growth.dot(y));
-    if (!(size > friction)) return Vec2::Zero();
-    const bool is_free = friction == 0.0 && shifted.length(0.0) <= holding.free_way;
-    y = shifted.way(is_free ? 0.0 : sigmaOf(shifted, friction, size, holding));
-    if (holding.growth == Vec2::Zero()) break;
-  }
-  return y;
+  if (!(size > std::max(0.0, holding.friction))) return Vec2::Zero();
+  const Shifted shifted(T, A, holding.growth);
+  return shifted.way(sigmaOf(shifted, size, holding));
 }
 
 }  // namespace palpate

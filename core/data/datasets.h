@@ -25,8 +25,9 @@ struct Dataset {
 };
 
 /// All datasets: the only place that spells their paths, types, shapes and units. Ns surface nodes, T triangles, M contact
-/// positions, C coefficients of the fields, Cf of the contact's force, n modes, K near nodes of a position, N volume
-/// nodes, V tetrahedra, F fixed nodes, R regions.
+/// positions, C coefficients of the fields, Cm of those that modes and near fields have (of a "displacement" model without the
+/// first degree, which nodal Green's functions give), Cf of the contact's force, G nodes that carry load, P places of the
+/// patch's stiffness, n modes, K near nodes of a position, N volume nodes, V tetrahedra, F fixed nodes, R regions.
 namespace dataset {
 inline constexpr Dataset<double> kSurfacePositions{"surface/positions", {"Ns", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kSurfaceTriangles{"surface/triangles", {"T", "3"}, ""};
@@ -38,8 +39,11 @@ inline constexpr Dataset<std::uint8_t> kContactAccessible{"contact/accessible", 
 /// Surface nodes of the triangles between contact positions: those of the surface.
 inline constexpr Dataset<std::int32_t> kContactTriangles{"contact/triangles", {"Tc", "3"}, ""};
 inline constexpr Dataset<double> kContactDomainRadius{"contact/domain_radius", {"M"}, "m, N or none"};
+inline constexpr Dataset<double> kContactSeriesRadius{"contact/series_radius", {"M"}, "m"};
 /// "displacement" models only.
 inline constexpr Dataset<double> kContactForce{"contact/force", {"M", "Cf", "3"}, "N"};
+/// "displacement" models only: xx xy xz yy yz zz of K_s, each with its gradient over the surface, at SmoothPlaces.
+inline constexpr Dataset<double> kContactStiffness{"contact/stiffness", {"P", "6", "4"}, "N/m, N/m^2"};
 /// "force" and "level" models only.
 inline constexpr Dataset<double> kContactDisplacement{"contact/displacement", {"M", "C", "3"}, "m"};
 /// "level" models only.
@@ -48,13 +52,22 @@ inline constexpr Dataset<double> kLevelsZ{"levels/Z", {"C", "L + 1"}, ""};
 // Fields are whole numbers; a number is its block's scale times these, and has the scale's unit.
 inline constexpr Dataset<std::int16_t> kModesX{"modes/X", {"n", "3 Ns"}, ""};
 inline constexpr Dataset<float> kModesXScale{"modes/X_scale", {"n"}, ""};
-inline constexpr Dataset<std::int16_t> kModesY{"modes/Y", {"M", "C", "n"}, ""};
-inline constexpr Dataset<float> kModesYScale{"modes/Y_scale", {"M", "C"}, "m"};
+inline constexpr Dataset<std::int16_t> kModesY{"modes/Y", {"M", "Cm", "n"}, ""};
+inline constexpr Dataset<float> kModesYScale{"modes/Y_scale", {"M", "Cm"}, "m"};
 
 inline constexpr Dataset<std::int64_t> kNearOffset{"near/offset", {"M + 1"}, ""};
 inline constexpr Dataset<std::int32_t> kNearNode{"near/node", {"sum K"}, ""};
-inline constexpr Dataset<std::int16_t> kNearField{"near/field", {"3 C sum K"}, ""};
-inline constexpr Dataset<float> kNearScale{"near/scale", {"M", "C"}, "m"};
+inline constexpr Dataset<std::int16_t> kNearField{"near/field", {"3 Cm sum K"}, ""};
+inline constexpr Dataset<float> kNearScale{"near/scale", {"M", "Cm"}, "m"};
+
+// Nodal Green's functions, of "displacement" models only: amplitudes of the modes and near field by unit loads.
+inline constexpr Dataset<std::int32_t> kGreenNode{"green/node", {"G"}, ""};
+inline constexpr Dataset<std::int16_t> kGreenY{"green/Y", {"G", "3", "n"}, ""};
+inline constexpr Dataset<float> kGreenYScale{"green/Y_scale", {"G", "3"}, "m/N"};
+inline constexpr Dataset<std::int64_t> kGreenOffset{"green/offset", {"G + 1"}, ""};
+inline constexpr Dataset<std::int32_t> kGreenNearNode{"green/near_node", {"sum Kg"}, ""};
+inline constexpr Dataset<std::int16_t> kGreenNear{"green/near", {"9 sum Kg"}, ""};
+inline constexpr Dataset<float> kGreenNearScale{"green/near_scale", {"G", "3"}, "m/N"};
 
 inline constexpr Dataset<double> kMeshNodes{"mesh/nodes", {"N", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kMeshTetrahedra{"mesh/tetrahedra", {"V", "4"}, ""};

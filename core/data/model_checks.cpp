@@ -43,6 +43,14 @@ void checkDomain(Parameters parameters, std::span<const double> radius, const Ch
   }
 }
 
+/// The force goes at least as far as it and the fields do together.
+void checkSeries(std::span<const double> series, std::span<const double> domain, const Checker& check) {
+  for (std::size_t m = 0; m < series.size(); ++m)
+    if (!(series[m] >= domain[m]))
+      check.failAt(dataset::kContactSeriesRadius.name(), m, "is " + digitsOf(series[m]),
+                   "at least " + dataset::kContactDomainRadius.name() + " = " + digitsOf(domain[m]));
+}
+
 /// Patches and mixtures look at all triangles round a node, for each of its neighbours.
 void checkTrianglesAtNodes(const ModelView& v, const Checker& check) {
   constexpr int kMost = 1024;
@@ -76,38 +84,45 @@ void checkPositions(const ModelView& v, const Checker& check) {
       "the " + std::to_string(v.positions()) + " of " + dataset::kContactNode.name() + ", each once");
 }
 
-void checkNear(const ModelView& v, const Checker& check) {
-  const auto end = static_cast<std::int64_t>(v.near_node.size());
-  const auto Ns = static_cast<std::int64_t>(v.surfaceNodes());
-  check.require(v.near_offset.front() == 0,
-                dataset::kNearOffset.name() + " begins with " + std::to_string(v.near_offset.front()), "0");
-  for (std::size_t m = 0; m + 1 < v.near_offset.size(); ++m) {
-    const std::int64_t first = v.near_offset[m], last = v.near_offset[m + 1];
-    if (last < first || last > end || last - first > Ns)
-      check.failAt(dataset::kNearOffset.name(), m + 1, "is " + std::to_string(last),
+/// Nodes near something, a block for each: where the blocks begin, and that none lists a node twice: a block that did would move
+/// it twice in the field and once in a query of that node.
+struct NearLists {
+  std::string offset_name, node_name;
+  std::span<const std::int64_t> offset;
+  std::span<const std::int32_t> node;
+};
+
+void checkNear(const NearLists& near, std::size_t surface_nodes, const Checker& check) {
+  const auto end = static_cast<std::int64_t>(near.node.size());
+  check.require(near.offset.front() == 0,
+                near.offset_name + " begins with " + std::to_string(near.offset.front()), "0");
+  for (std::size_t m = 0; m + 1 < near.offset.size(); ++m) {
+    const std::int64_t first = near.offset[m], last = near.offset[m + 1];
+    if (last < first || last > end || last - first > static_cast<std::int64_t>(surface_nodes))
+      check.failAt(near.offset_name, m + 1, "is " + std::to_string(last),
                    "at least " + std::to_string(first) + ", at most " + std::to_string(end) +
                        " and no more than one entry for each surface node");
   }
-  check.require(v.near_offset.back() == end,
-                dataset::kNearOffset.name() + " ends with " + std::to_string(v.near_offset.back()),
-                "the length of " + dataset::kNearNode.name() + ", " + std::to_string(end));
-  check.indices(dataset::kNearNode.name(), v.near_node, v.surfaceNodes());
+  check.require(near.offset.back() == end,
+                near.offset_name + " ends with " + std::to_string(near.offset.back()),
+                "the length of " + near.node_name + ", " + std::to_string(end));
+  check.indices(near.node_name, near.node, surface_nodes);
+  std::vector<std::size_t> last(surface_nodes, near.offset.size());  // block that had the node last; none yet
+  for (std::size_t m = 0; m + 1 < near.offset.size(); ++m)
+    for (auto i = static_cast<std::size_t>(near.offset[m]); i < static_cast<std::size_t>(near.offset[m + 1]);
+         ++i) {
+      const auto node = static_cast<std::size_t>(near.node[i]);
+      if (std::exchange(last[node], m) == m)
+        check.failAt(near.node_name, i, "is " + std::to_string(node) + " again",
+                     "each node once in block " + std::to_string(m));
+    }
 }
 
-/// A block that lists a node twice would move it twice in the field and once in a query of that node.
-void checkNearOnce(const ModelView& v, const Checker& check) {
-  std::vector<std::size_t> last(v.surfaceNodes(),
-                                v.positions());  // position that had the node last; none yet
-  for (std::size_t m = 0; m < v.positions(); ++m) {
-    const auto first = static_cast<std::size_t>(v.near_offset[m]);
-    const auto end = static_cast<std::size_t>(v.near_offset[m + 1]);
-    for (std::size_t i = first; i < end; ++i) {
-      const auto node = static_cast<std::size_t>(v.near_node[i]);
-      if (std::exchange(last[node], m) == m)
-        check.failAt(dataset::kNearNode.name(), i, "is " + std::to_string(node) + " again",
-                     "each node once at position " + std::to_string(m));
-    }
-  }
+/// Green's functions belong to nodes of the surface.
+void checkGreens(const ModelView& v, const Checker& check) {
+  check.indices(dataset::kGreenNode.name(), v.green_node, v.surfaceNodes());
+  checkNear({dataset::kGreenOffset.name(), dataset::kGreenNearNode.name(), v.green_offset, v.green_near_node},
+            v.surfaceNodes(), check);
 }
 
 /// Of fields: above zero, and so that every number is finite.
@@ -148,8 +163,10 @@ void checkRegions(const ModelView& v, const Checker& check) {
 void checkFinite(const ModelView& v, const Checker& check) {
   check.finite(dataset::kSurfacePositions.name(), v.surface_positions);
   check.finite(dataset::kContactForce.name(), v.contact_force);
+  check.finite(dataset::kContactStiffness.name(), v.contact_stiffness);
   check.finite(dataset::kContactDisplacement.name(), v.contact_displacement);
   check.finite(dataset::kContactDomainRadius.name(), v.contact_domain_radius);
+  check.finite(dataset::kContactSeriesRadius.name(), v.contact_series_radius);
   check.finite(dataset::kMeshNodes.name(), v.mesh_nodes);
 }
 
@@ -194,10 +211,14 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   checkScale(dataset::kModesXScale.name(), v.modes_X_scale, check);
   checkScale(dataset::kModesYScale.name(), v.modes_Y_scale, check);
   checkScale(dataset::kNearScale.name(), v.near_scale, check);
+  checkScale(dataset::kGreenYScale.name(), v.green_Y_scale, check);
+  checkScale(dataset::kGreenNearScale.name(), v.green_near_scale, check);
   checkPositions(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
-  checkNear(v, check);
-  checkNearOnce(v, check);
+  checkSeries(v.contact_series_radius, v.contact_domain_radius, check);
+  checkNear({dataset::kNearOffset.name(), dataset::kNearNode.name(), v.near_offset, v.near_node},
+            v.surfaceNodes(), check);
+  if (a.parameters == Parameters::kDisplacement) checkGreens(v, check);
   checkLoadDriven(a, v, check);
   const std::size_t N = v.mesh_node_tag.size();
   check.require(N > 0, dataset::kMeshNodes.name() + " is empty", "the volume mesh");

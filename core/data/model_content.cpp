@@ -86,12 +86,19 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
                    {"C", C},
                    {"n", v.modes()},
                    {"sum K", v.near_node.size()},
-                   {"3 C sum K", v.near_field.size()},
+                   {"3 Cm sum K", v.near_field.size()},
                    {"N", v.mesh_node_tag.size()},
                    {"V", v.mesh_tetrahedron_tag.size()},
                    {"F", v.mesh_fixed.size()}};
   if (level) size["L + 1"] = C == 0 ? 0 : v.levels_Z.size() / C;
-  if (a.parameters == Parameters::kDisplacement) size["Cf"] = sizeOf(a.force_order);
+  size["Cm"] = modeCoefficients(a, C);
+  if (a.parameters != Parameters::kDisplacement) return size;
+  size["Cf"] = sizeOf(a.force_order);
+  size["P"] = v.contact_stiffness.size() / kStiffnessNumbers;
+  size["G"] = v.green_node.size();
+  size["G + 1"] = v.green_offset.size();
+  size["sum Kg"] = v.green_near_node.size();
+  size["9 sum Kg"] = v.green_near.size();
   return size;
 }
 

@@ -51,7 +51,11 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
   visit(dataset::kContactAccessible, v.contact_accessible);
   visit(dataset::kContactTriangles, v.contact_triangles);
   visit(dataset::kContactDomainRadius, v.contact_domain_radius);
-  if (a.parameters == Parameters::kDisplacement) visit(dataset::kContactForce, v.contact_force);
+  if (a.parameters == Parameters::kDisplacement) {
+    visit(dataset::kContactForce, v.contact_force);
+    visit(dataset::kContactStiffness, v.contact_stiffness);
+    visit(dataset::kContactSeriesRadius, v.contact_series_radius);
+  }
   if (a.parameters != Parameters::kDisplacement) visit(dataset::kContactDisplacement, v.contact_displacement);
   if (a.parameters == Parameters::kLevel) visit(dataset::kLevelsZ, v.levels_Z);
   visit(dataset::kModesX, v.modes_X);
@@ -62,6 +66,15 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
   visit(dataset::kNearNode, v.near_node);
   visit(dataset::kNearField, v.near_field);
   visit(dataset::kNearScale, v.near_scale);
+  if (a.parameters == Parameters::kDisplacement) {
+    visit(dataset::kGreenNode, v.green_node);
+    visit(dataset::kGreenY, v.green_Y);
+    visit(dataset::kGreenYScale, v.green_Y_scale);
+    visit(dataset::kGreenOffset, v.green_offset);
+    visit(dataset::kGreenNearNode, v.green_near_node);
+    visit(dataset::kGreenNear, v.green_near);
+    visit(dataset::kGreenNearScale, v.green_near_scale);
+  }
   visit(dataset::kMeshNodes, v.mesh_nodes);
   visit(dataset::kMeshTetrahedra, v.mesh_tetrahedra);
   visit(dataset::kMeshNodeTag, v.mesh_node_tag);

@@ -89,6 +89,8 @@ void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size
   if (a.parameters == Parameters::kDisplacement) {
     size.define("Cf", sizeOf(a.force_order));
     v.contact_force = file.dataset(dataset::kContactForce, size);
+    v.contact_stiffness = file.dataset(dataset::kContactStiffness, size);
+    v.contact_series_radius = file.dataset(dataset::kContactSeriesRadius, size);
   } else {
     v.contact_displacement = file.dataset(dataset::kContactDisplacement, size);
   }
@@ -105,9 +107,21 @@ void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   size.define("M + 1", size.value("M") + 1);
   v.near_offset = file.dataset(dataset::kNearOffset, size);
   v.near_node = file.dataset(dataset::kNearNode, size);
-  size.define("3 C sum K", 3 * size.value("C") * size.value("sum K"));
+  size.define("3 Cm sum K", 3 * size.value("Cm") * size.value("sum K"));
   v.near_field = file.dataset(dataset::kNearField, size);
   v.near_scale = file.dataset(dataset::kNearScale, size);
+}
+
+void readGreens(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  v.green_node = file.dataset(dataset::kGreenNode, size);
+  v.green_Y = file.dataset(dataset::kGreenY, size);
+  v.green_Y_scale = file.dataset(dataset::kGreenYScale, size);
+  size.define("G + 1", size.value("G") + 1);
+  v.green_offset = file.dataset(dataset::kGreenOffset, size);
+  v.green_near_node = file.dataset(dataset::kGreenNearNode, size);
+  size.define("9 sum Kg", 9 * size.value("sum Kg"));
+  v.green_near = file.dataset(dataset::kGreenNear, size);
+  v.green_near_scale = file.dataset(dataset::kGreenNearScale, size);
 }
 
 void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
@@ -143,8 +157,10 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
     readLevels(file, size, contents.view);
   else
     size.define("C", sizeOf(a.order));
+  size.define("Cm", modeCoefficients(a, size.value("C")));
   readContact(file, a, size, contents.view);
   readFields(file, size, contents.view);
+  if (a.parameters == Parameters::kDisplacement) readGreens(file, size, contents.view);
   readMesh(file, size, contents.view);
   readRegions(file, size, contents.view);
   return contents;

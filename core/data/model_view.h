@@ -55,6 +55,18 @@ struct ModelAttributes {
   std::string certificate{};
 };
 
+/// Numbers of the patch's stiffness at one place: 6 entries of K, each with its gradient.
+inline constexpr std::size_t kStiffnessNumbers = 24;
+/// Coefficients of degree 1.
+inline constexpr std::size_t kLinearCoefficients = 3;
+
+/// Of `coefficients` of the fields those that modes and near fields have: nodal Green's functions give degree 1 of a
+/// "displacement" model.
+[[nodiscard]] constexpr std::size_t modeCoefficients(const ModelAttributes& a,
+                                                     std::size_t coefficients) noexcept {
+  return a.parameters == Parameters::kDisplacement ? coefficients - kLinearCoefficients : coefficients;
+}
+
 /// The numbers of a model file where they lie in memory. Shapes are row-major; Ns surface nodes, T triangles,
 /// M contact positions, C coefficients of the fields (size(order), or the number of level functions), Cf =
 /// size(force_order), L steps of the level, n modes, N volume nodes, V tetrahedra. Borrowed: valid as long as
@@ -70,7 +82,10 @@ struct ModelView {
   std::span<const std::int32_t> contact_triangles;  ///< [Tc][3] surface nodes, between contact positions
   std::span<const double> contact_force;         ///< [M][Cf][3] f_alpha d_ref^|alpha|, N; "displacement" only
   std::span<const double> contact_displacement;  ///< [M][C][3] d_alpha, m; "force" and "level" only
+  std::span<const double>
+      contact_stiffness;  ///< [places][6][4] K_s at rest, N/m, each entry with its gradient
   std::span<const double> contact_domain_radius;  ///< [M] d_max, m, or f_max, N, or t_max
+  std::span<const double> contact_series_radius;  ///< [M] of a "displacement" model: r_max, m, at least d_max
   std::span<const double> levels_Z;               ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::size_t level_functions{0};                 ///< C of a "level" model, else 0
   std::span<const std::int16_t> modes_X;          ///< [n][Ns][3] dimensionless, over their scale
@@ -81,6 +96,13 @@ struct ModelView {
   std::span<const std::int32_t> near_node;        ///< [sum K] surface nodes
   std::span<const std::int16_t> near_field;       ///< per position [C][K_m][3], windowed, over their scale
   std::span<const float> near_scale;              ///< [M][C] m
+  std::span<const std::int32_t> green_node;       ///< [G] surface nodes that carry load; "displacement" only
+  std::span<const std::int16_t> green_Y;          ///< [G][3][n] amplitudes by load, over their scale
+  std::span<const float> green_Y_scale;           ///< [G][3] m/N
+  std::span<const std::int64_t> green_offset;     ///< [G+1] prefix sums of the near nodes' counts
+  std::span<const std::int32_t> green_near_node;  ///< [sum K] surface nodes
+  std::span<const std::int16_t> green_near;       ///< per node [3][K][3], windowed, over their scale
+  std::span<const float> green_near_scale;        ///< [G][3] m/N
   std::span<const double> mesh_nodes;             ///< [N][3] m
   std::span<const std::int32_t> mesh_tetrahedra;  ///< [V][4]
   std::span<const std::int64_t> mesh_node_tag;    ///< [N]

@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
-#include "core/base/kernels.h"
+#include "core/base/index.h"
 #include "core/base/length.h"
 
 namespace palpate {
+
+namespace {
+
+constexpr std::size_t kLinear = kLinearCoefficients;  // PatchStiffness's
+constexpr std::size_t kLinearNumbers = 3 * kLinear;
+
+}  // namespace
 
 Vec3 ContactSeries::value(const Vec3& p) const noexcept PALPATE_NONBLOCKING {
   std::array<double, MonomialBasis::kMaxCoefficients> phi;
@@ -32,7 +38,6 @@ void ContactSeries::evaluate(const Vec3& p, Vec3& value, Mat3& gradient) const n
   sum(jets, value, gradient);
 }
 
-/// One row of value and gradient for each component: whole vectors, nothing is stored on the way.
 void ContactSeries::sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept PALPATE_NONBLOCKING {
   Vec4 x = Vec4::Zero(), y = Vec4::Zero(), z = Vec4::Zero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(functions_->size()); ++k) {
@@ -80,33 +85,26 @@ ContactResponse::ContactResponse(const ModelView& view, const ModelAttributes& a
     : functions_(view, attributes, attributes.force_order),
       coefficient_(attributes.parameters == Parameters::kDisplacement ? view.contact_force
                                                                       : view.contact_displacement),
-      limit_(view.contact_domain_radius),
+      limit_(attributes.parameters == Parameters::kDisplacement ? view.contact_series_radius
+                                                                : view.contact_domain_radius),
+      domain_radius_(view.contact_domain_radius),
       harmonic_(attributes.parameters != Parameters::kDisplacement) {
   if (attributes.parameters == Parameters::kDisplacement) copyRows();
 }
 
-/// The energy int_0^1 f_b(tau d) . d dtau goes term by term: d_axis (d / d_ref)^alpha has the degree |alpha| + 1, and
-/// some terms meet.
 void ContactResponse::copyRows() {
-  const MonomialBasis& basis = functions_.basis();
-  const std::size_t width = 3 * static_cast<std::size_t>(basis.size());
-  std::vector<std::pair<std::size_t, double>> goes(width);  // where to, and divided by what
-  for (std::size_t entry = 0; entry < width; ++entry) {
-    MultiIndex alpha = basis[static_cast<int>(entry / 3)];
-    ++alpha[entry % 3];
-    goes[entry] = {static_cast<std::size_t>(MonomialBasis::positionOf(alpha) - 3),
-                   double(alpha[0] + alpha[1] + alpha[2])};
-  }
-  force_lines_ = lines(width);
-  energy_lines_ = lines(static_cast<std::size_t>(MonomialBasis::size(basis.order() + 1) - 3));
-  rows_.resize(limit_.size() * (force_lines_ + energy_lines_));
+  const std::size_t width = 3 * index(functions_.size()), numbers = width - kLinearNumbers;
+  lines_ = (numbers + kPerLine - 1) / kPerLine;
+  rows_.resize(limit_.size() * lines_);
   for (std::size_t b = 0; b < limit_.size(); ++b) {
-    double* const row = rows_[b * (force_lines_ + energy_lines_)].number.data();
-    const std::span<const double> c = coefficient_.subspan(b * width, width);
-    std::copy(c.begin(), c.end(), row);
-    for (std::size_t entry = 0; entry < width; ++entry)
-      row[8 * force_lines_ + goes[entry].first] += c[entry] / goes[entry].second;
+    const std::span<const double> c = coefficient_.subspan(b * width + kLinearNumbers, numbers);
+    if (!c.empty()) std::copy(c.begin(), c.end(), rows_[b * lines_].number.begin());
   }
+}
+
+Rows ContactResponse::rowsOf(const Stencil& stencil) const noexcept PALPATE_NONBLOCKING {
+  return {rows_.empty() ? nullptr : rows_.front().number.data(), rowLength(), stencil.position.data(),
+          stencil.count};
 }
 
 ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
@@ -121,41 +119,47 @@ ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE
     }
   }
   series.limit_ = limit(mix);
+  series.domain_radius_ = domainRadius(mix);
   return series;
 }
 
-ContactSeries ContactResponse::at(const Stencil& stencil, double limit) const noexcept PALPATE_NONBLOCKING {
+ContactSeries ContactResponse::at(const Stencil& stencil, const Mat3& stiffness,
+                                  const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
   ContactSeries series(functions_);
-  mixRows({rows(), 8 * (force_lines_ + energy_lines_), stencil.position.data(), stencil.count},
-          stencil.weight.data(), 8 * force_lines_, series.coefficient_.front().data());
-  series.limit_ = limit;
+  mixRows(rowsOf(stencil), stencil.weight.data(), rowLength(), series.coefficient_[kLinear].data());
+  for (std::size_t k = 0; k < 3; ++k)
+    series.coefficient_[k] = functions_.reference() * stiffness.col(static_cast<Eigen::Index>(k));
+  series.limit_ = limit(mix);
+  series.domain_radius_ = domainRadius(mix);
   return series;
 }
 
-Vec3 ContactResponse::energySlope(const Stencil& stencil, const Vec3& d,
-                                  double limit) const noexcept PALPATE_NONBLOCKING {
+Vec3 ContactResponse::energySlope(const Stencil& stencil, const std::array<Mat3, 3>& stiffness_slope,
+                                  const Vec3& d, double limit) const noexcept PALPATE_NONBLOCKING {
   const double length = lengthOf(d), beyond = length > limit ? length / limit : 1.0;
-  const Vec3 x = d / (beyond * functions_.reference());
-  std::array<double, MonomialBasis::kMaxCoefficients> phi;
-  constexpr std::size_t kMost = MonomialBasis::size(MonomialBasis::kMaxOrder + 1);
-  std::array<double, 8 * lines(kMost)> products;
-  std::fill_n(products.begin() + std::ptrdiff_t(8 * energy_lines_) - 8, 8, 0.0);
-  functions_.basis().evaluate(x, phi);
-  functions_.basis().products(x, phi, products);
-  std::array<double, Stencil::kMost> W;  // over d_ref
-  dotRows(
-      {rows() + 8 * force_lines_, 8 * (force_lines_ + energy_lines_), stencil.position.data(), stencil.count},
-      products.data(), 8 * energy_lines_, W.data());
+  const Vec3 at = d / beyond;
+  std::array<double, MonomialBasis::kMaxCoefficients> share;
+  functions_.energyShares(at, share);
+  std::array<Vec3, MonomialBasis::kMaxCoefficients + 2> product;  // as ContactSeries::coefficient_
+  const auto size = index(functions_.size());
+  for (std::size_t k = kLinear; k < size; ++k) product[k] = share[k] * at;
+  for (std::size_t k = size; k < product.size(); ++k) product[k].setZero();
+  std::array<double, Stencil::kMost> W;
+  dotRows(rowsOf(stencil), product[kLinear].data(), rowLength(), W.data());
   Vec3 slope = Vec3::Zero();
   for (std::size_t b = 0; b < stencil.count; ++b) slope += W[b] * stencil.slope[b];
-  return functions_.reference() * beyond * beyond * slope;
+  slope *= beyond * beyond;
+  for (std::size_t k = 0; k < 3; ++k)
+    slope[static_cast<Eigen::Index>(k)] += 0.5 * d.dot(stiffness_slope[k] * d);
+  return slope;
 }
 
-double ContactResponse::limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
+double ContactResponse::meanOf(std::span<const double> radius,
+                               const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
   double sum = 0.0;
   for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b) {
-    const double limit = limit_[static_cast<std::size_t>(mix.position[b])];
-    sum += mix.weight[b] * (harmonic_ ? 1.0 / limit : limit);
+    const double one = radius[static_cast<std::size_t>(mix.position[b])];
+    sum += mix.weight[b] * (harmonic_ ? 1.0 / one : one);
   }
   return harmonic_ ? 1.0 / sum : sum;
 }

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "core/base/contact_point.h"
+#include "core/base/index.h"
+#include "core/base/kernels.h"
 #include "core/base/multi_index.h"
+#include "core/base/prefetch.h"
 #include "core/base/types.h"
 #include "core/data/model_view.h"
 #include "core/data/parameter_functions.h"
@@ -31,8 +34,10 @@ class ContactSeries {
   /// W(d) = int_0^1 f(tau d) . d dtau of a "displacement" model, J: the energy that the patch has stored, whose
   /// gradient f is (docs/design.md, Series). Cost O(C). Real-time: yes.
   [[nodiscard]] double energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING;
-  /// |p| up to which the answer is trusted: d_max in m, f_max in N, or t_max.
+  /// |p| up to which the polynomials run: r_max in m, f_max in N, or t_max.
   [[nodiscard]] double limit() const noexcept { return limit_; }
+  /// |p| up to which the answer is trusted: d_max in m, which is at most r_max, f_max in N, or t_max.
+  [[nodiscard]] double domainRadius() const noexcept { return domain_radius_; }
   /// L of a "level" model, else 0.
   [[nodiscard]] int levelSteps() const noexcept { return functions_->levelSteps(); }
 
@@ -43,9 +48,9 @@ class ContactSeries {
   void sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept PALPATE_NONBLOCKING;
 
   const ParameterFunctions* functions_;
-  std::array<Vec3, MonomialBasis::kMaxCoefficients + 1>
-      coefficient_;  // the first size(); room for whole lines
-  double limit_{0.0};
+  std::array<Vec3, MonomialBasis::kMaxCoefficients + 2>
+      coefficient_;  // the first size(); room for whole vectors
+  double limit_{0.0}, domain_radius_{0.0};
 };
 
 /// The contact's own answer. Of a "displacement" model it is not truncated to the modes (docs/design.md, Series, Parts), of
@@ -57,33 +62,49 @@ class ContactResponse {
 
   /// The series at s, mixed linearly. Borrows this object. Cost O(C). Real-time: yes.
   [[nodiscard]] ContactSeries at(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
-  /// The series at s, mixed as the stencil says. @param limit  of |p|. Real-time: yes.
-  [[nodiscard]] ContactSeries at(const Stencil& stencil, double limit) const noexcept PALPATE_NONBLOCKING;
-  /// dW/dlambda at fixed d of a "displacement" model, J: sum_b d omega_b/dlambda W_b(d); only its part along changes
-  /// that keep the sum of the weights has a meaning. Beyond `limit` W continues with degree 2. Cost about 1.4 C for
-  /// each position of the stencil. Real-time: yes.
-  [[nodiscard]] Vec3 energySlope(const Stencil& stencil, const Vec3& d,
-                                 double limit) const noexcept PALPATE_NONBLOCKING;
-  /// ContactSeries::limit() alone: the lambda-weighted mean of d_max; of f_max and t_max the harmonic one,
+  /// The series at s of a "displacement" model: degree 1 from the patch's own stiffness, the others mixed as the stencil says.
+  /// @param mix  for the radii. Real-time: yes.
+  [[nodiscard]] ContactSeries at(const Stencil& stencil, const Mat3& stiffness,
+                                 const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
+  /// dW/dlambda at fixed d of a "displacement" model, J: d . dK/dlambda d / 2 + sum_b d omega_b/dlambda W_b(d), W_b of degree
+  /// 3 and more; only its part along changes that keep the sum of the weights has a meaning. Beyond `limit` W continues with
+  /// degree 2. Cost about 1.4 C for each position of the stencil. Real-time: yes.
+  [[nodiscard]] Vec3 energySlope(const Stencil& stencil, const std::array<Mat3, 3>& stiffness_slope,
+                                 const Vec3& d, double limit) const noexcept PALPATE_NONBLOCKING;
+  /// ContactSeries::limit() alone: the lambda-weighted mean of r_max; of f_max and t_max the harmonic one,
   /// 1 / sum_b lambda_b / limit_b, which a small one governs. Real-time: yes.
-  [[nodiscard]] double limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] double limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
+    return meanOf(limit_, mix);
+  }
+  /// ContactSeries::domainRadius() alone. Real-time: yes.
+  [[nodiscard]] double domainRadius(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
+    return meanOf(domain_radius_, mix);
+  }
+  /// Asks the cache for what the mix with a position reads. Real-time: yes.
+  void expect(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
+    prefetch(rows_.data() + index(position) * lines_, lines_ * sizeof(Line));
+  }
 
  private:
   /// Numbers that come into the processor's cache together.
+  static constexpr std::size_t kPerLine = 8;
   struct alignas(64) Line {
-    std::array<double, 8> number{};
+    std::array<double, kPerLine> number{};
   };
-  [[nodiscard]] static constexpr std::size_t lines(std::size_t numbers) noexcept { return (numbers + 7) / 8; }
   void copyRows();
-  [[nodiscard]] const double* rows() const noexcept { return rows_.front().number.data(); }
+  [[nodiscard]] double meanOf(std::span<const double> radius,
+                              const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] Rows rowsOf(const Stencil& stencil) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] std::size_t rowLength() const noexcept PALPATE_NONBLOCKING { return kPerLine * lines_; }
 
   ParameterFunctions functions_;
-  std::span<const double> coefficient_;  // [M][size][3]
-  std::span<const double> limit_;        // [M]
-  bool harmonic_;                        // the mean of the limits
-  std::size_t force_lines_{0}, energy_lines_{0};
-  // [M] of a "displacement" model, filled up with zeros: lines with its coefficient_, then lines with energy_k,
-  // W_b(d) = d_ref sum_k energy_k x^alpha_{k+3}, x = d / d_ref, N
+  std::span<const double> coefficient_;    // [M][size][3]
+  std::span<const double> limit_;          // [M]
+  std::span<const double> domain_radius_;  // [M]
+  bool harmonic_;                          // the mean of the limits
+  std::size_t lines_{0};                   // of a row
+  // [M] of a "displacement" model: coefficient_ from degree 2 on, filled up with zeros. The energy is summed from them too: a
+  // tick whose cache is cold waits for memory, not for products
   std::vector<Line> rows_;
 };
 

@@ -9,75 +9,182 @@
 
 namespace palpate {
 
-FieldScratch::FieldScratch(const MetaModel& model)
-    : amplitudes(static_cast<std::size_t>(model.farField().modes())),
-      near_block(static_cast<std::size_t>(model.nearField().scratchSize())) {}
-
 namespace {
 
-/// Visits the sources that the model answers: add(mix, phi, gain).
-template <typename Add>
-void forEachAnswered(const MetaModel& model, std::span<const FieldSource> sources,
-                     Add&& add) noexcept PALPATE_NONBLOCKING {
-  for (const FieldSource& source : sources) {
-    const PositionMix mix = model.surface().mix(source.s);
-    if (mix.count == 0) continue;
-    const Vec3 p = clampToDomain(source.parameter, model.response().limit(mix));
-    std::array<double, MonomialBasis::kMaxCoefficients> all;
-    const std::span<double> phi(all.data(), static_cast<std::size_t>(model.functions().size()));
-    model.functions().evaluate(p, phi);
-    add(mix, std::span<const double>(phi), source.gain);
-  }
+template <std::size_t... I>
+std::array<TouchPatch, sizeof...(I)> touchPatches(const MetaModel& model, std::index_sequence<I...> /*all*/) {
+  return {((void)I, TouchPatch(model))...};
 }
 
-std::array<std::int32_t, 3> cornersOf(const MetaModel& model, const ContactPoint& point) noexcept {
+using Functions = std::array<double, MonomialBasis::kMaxCoefficients>;
+
+/// One source that the model answers.
+struct Answered {
+  PositionMix mix;
+  Vec3 parameter;                 // within the domain
+  std::span<const double> phi;    // all of its functions,
+  std::span<const double> modes;  // those that modes and near fields of positions have
+};
+
+/// @return false where the model has no answer
+bool answer(const MetaModel& model, const FieldSource& source, Functions& values,
+            Answered& out) noexcept PALPATE_NONBLOCKING {
+  out.mix = model.surface().mix(source.s);
+  if (out.mix.count == 0) return false;
+  out.parameter = clampToDomain(source.parameter, model.response().limit(out.mix));
+  const auto size = static_cast<std::size_t>(model.functions().size());
+  model.functions().evaluate(out.parameter, std::span(values).first(size));
+  out.phi = std::span(values).first(size);
+  out.modes = out.phi.last(modeCoefficients(model.attributes(), size));
+  return true;
+}
+
+bool isDisplaced(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
+  return model.attributes().parameters == Parameters::kDisplacement;
+}
+
+Vec3 loadOf(const MetaModel& model, const ContactPoint& s, const Vec3& d) noexcept PALPATE_NONBLOCKING {
+  PatchStiffness::Value stiffness;
+  model.stiffness().at(model.surface(), s, stiffness);
+  return stiffness.K * d;
+}
+
+std::array<std::int32_t, 3> cornersOf(const MetaModel& model,
+                                      const ContactPoint& point) noexcept PALPATE_NONBLOCKING {
   const std::int32_t* const corner = model.view().surface_triangles.data() + 3 * index(point.triangle);
   return {corner[0], corner[1], corner[2]};
 }
 
+/// What the others add at a point: the modes, and near fields where they reach.
+Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, const ContactPoint& point,
+              FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  const bool displaced = isDisplaced(model);
+  const std::array<std::int32_t, 3> corners = cornersOf(model, point);
+  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
+  Vec3 u = Vec3::Zero();
+  for (const FieldSource& source : sources) {
+    Functions values;
+    Answered at;
+    if ((displaced && source.s == point) || !answer(model, source, values, at)) continue;
+    const Stencil stencil = fieldStencil(model, source.s);
+    for (std::size_t b = 0; b < stencil.count; ++b) {
+      const double weight = source.gain * stencil.weight[b];
+      model.amplitudes().add(stencil.position[b], at.modes, weight, scratch.amplitudes);
+      for (std::size_t k = 0; k < 3; ++k)
+        u += weight * point.barycentric[k] * model.nearField().at(stencil.position[b], at.modes, corners[k]);
+    }
+    if (!displaced) continue;
+    const Vec3 f = source.gain * loadOf(model, source.s, at.parameter);
+    const TouchPatch& from = scratch.touchAt(model, source.s);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const std::span<const float> load = from.load(static_cast<std::size_t>(axis));
+      for (std::size_t k = 0; k < load.size(); ++k)
+        scratch.amplitudes[k] += static_cast<float>(f[axis]) * load[k];
+    }
+    const double apart =
+        model.surface().distanceToCorners(point.triangle, model.surface().position(source.s));
+    if (apart > model.reachOfPatches() + model.linearField().reach()) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      scratch.weight[index(corners[k])][0] = static_cast<float>(point.barycentric[k]);
+    for (std::size_t i = 0; i < from.nodes().count; ++i)
+      u += from.nodes().weight[i] *
+           (model.linearField().nearBetween(from.nodes().node[i], scratch.weight)[0] * f);
+    for (const std::int32_t corner : corners) scratch.weight[index(corner)].setZero();
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    u += point.barycentric[k] * model.farField().at(scratch.amplitudes, corners[k]);
+  return u;
+}
+
 }  // namespace
 
-void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources,
-                    std::span<float> y) noexcept PALPATE_NONBLOCKING {
-  std::fill(y.begin(), y.end(), 0.0F);
-  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
-    model.farField().addAmplitudes(mix, phi, gain, y);
-  });
+FieldScratch::FieldScratch(const MetaModel& model)
+    : amplitudes(static_cast<std::size_t>(model.farField().modes())),
+      near_block(std::max(model.nearField().blockSize(), model.linearField().blockSize())),
+      patch(model.patches().room()),
+      weight(index(model.surface().nodes()), Eigen::Vector4f::Zero()),
+      touches(touchPatches(model, std::make_index_sequence<kMaxTools + 1>{})) {}
+
+const TouchPatch& FieldScratch::touchAt(const MetaModel& model,
+                                        const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
+  std::size_t place = 0;  // of the patch itself, else of the one to give up
+  for (std::size_t i = 0; i < touches.size() && !(touches[place].s() == s); ++i)
+    if (touches[i].s() == s || asked[i] < asked[place]) place = i;
+  asked[place] = ++questions;
+  touches[place].moveTo(model, s);  // nothing to do where it is there
+  return touches[place];
 }
 
-void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
-             std::span<float> u) noexcept PALPATE_NONBLOCKING {
-  model.farField().expand(scratch.amplitudes, u);
-  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
-    model.nearField().add(mix, phi, gain, scratch.near_block, u);
-  });
-}
-
-void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, const FieldScratch& scratch,
-             std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    u[i] = Vec3::Zero();
-    if (points[i].triangle < 0) continue;
-    const std::array<std::int32_t, 3> corners = cornersOf(model, points[i]);
-    for (std::size_t k = 0; k < 3; ++k)
-      u[i] += points[i].barycentric[k] * model.farField().at(scratch.amplitudes, corners[k]);
-  }
-  forEachAnswered(model, sources, [&](const PositionMix& mix, std::span<const double> phi, double gain) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points[i].triangle < 0) continue;
-      const std::array<std::int32_t, 3> corners = cornersOf(model, points[i]);
-      for (std::size_t b = 0; b < index(mix.count); ++b)
-        for (std::size_t k = 0; k < 3; ++k)
-          u[i] += gain * mix.weight[b] * points[i].barycentric[k] *
-                  model.nearField().at(mix.position[b], phi, corners[k]);
-    }
-  });
+Stencil fieldStencil(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
+  return isDisplaced(model) ? model.mixing().at(model.surface(), s) : linearStencil(model.surface().mix(s));
 }
 
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING {
-  findAmplitudes(model, sources, scratch.amplitudes);
-  fieldOf(model, sources, scratch, u);
+  Functions values;
+  Answered at;
+  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
+  for (const FieldSource& source : sources) {
+    if (!answer(model, source, values, at)) continue;
+    const Stencil stencil = fieldStencil(model, source.s);
+    for (std::size_t b = 0; b < stencil.count; ++b)
+      model.amplitudes().add(stencil.position[b], at.modes, source.gain * stencil.weight[b],
+                             scratch.amplitudes);
+    if (!isDisplaced(model)) continue;
+    model.patches().at(source.s, false, scratch.patch);
+    model.linearField().addAmplitudes(scratch.patch, source.gain * loadOf(model, source.s, at.parameter),
+                                      scratch.amplitudes);
+  }
+  model.farField().expand(scratch.amplitudes, u);
+  for (const FieldSource& source : sources) {
+    if (!answer(model, source, values, at)) continue;
+    const Stencil stencil = fieldStencil(model, source.s);
+    for (std::size_t b = 0; b < stencil.count; ++b)
+      model.nearField().add(stencil.position[b], at.modes, source.gain * stencil.weight[b],
+                            scratch.near_block, u);
+    if (!isDisplaced(model)) continue;
+    model.patches().at(source.s, false, scratch.patch);
+    model.linearField().addNear(scratch.patch, source.gain * loadOf(model, source.s, at.parameter),
+                                scratch.near_block, u);
+  }
+}
+
+void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+             std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
+  const bool displaced = isDisplaced(model);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    u[i] = Vec3::Zero();
+    if (points[i].triangle < 0) continue;
+    bool others = !displaced;
+    for (const FieldSource& source : sources) {
+      Functions values;
+      Answered at;
+      if (displaced && !(source.s == points[i])) others = true;
+      if (!displaced || !(source.s == points[i]) || !answer(model, source, values, at)) continue;
+      u[i] += source.gain * model.dimple().at(model.places(), source.s, at.mix, at.parameter, at.modes);
+    }
+    if (others) u[i] += othersAt(model, sources, points[i], scratch);
+  }
+}
+
+std::array<Mat3, 4> complianceBetween(const MetaModel& model, const TouchPatch& from, const TouchPatch& to,
+                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  std::array<Mat3, 4> out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const TouchPatch::Averages moved = to.ofModes(from.load(axis));
+    for (std::size_t k = 0; k < out.size(); ++k) out[k].col(Eigen::Index(axis)) = moved[k];
+  }
+  const double apart = (model.surface().position(from.s()) - model.surface().position(to.s())).norm();
+  if (apart > 2.0 * model.reachOfPatches() + model.linearField().reach()) return out;
+  const PatchNodes& nodes = to.nodes();
+  for (std::size_t j = 0; j < nodes.count; ++j)
+    scratch.weight[index(nodes.node[j])] << static_cast<float>(nodes.weight[j]), nodes.slope[j].cast<float>();
+  for (std::size_t i = 0; i < from.nodes().count; ++i) {
+    const std::array<Mat3, 4> near = model.linearField().nearBetween(from.nodes().node[i], scratch.weight);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] += from.nodes().weight[i] * near[k];
+  }
+  for (std::size_t j = 0; j < nodes.count; ++j) scratch.weight[index(nodes.node[j])].setZero();
+  return out;
 }
 
 }  // namespace palpate

@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/base/contact_point.h"
+#include "core/base/max_tools.h"
 #include "core/base/types.h"
 #include "core/model/meta_model.h"
+#include "core/model/touch_patch.h"
 
 namespace palpate {
 
 /// Scratch of the field evaluation; one per thread, allocated before the loop.
 struct FieldScratch {
   explicit FieldScratch(const MetaModel& model);
-  std::vector<float> amplitudes;  ///< [n] y, m
-  std::vector<float> near_block;  ///< NearField::scratchSize()
+  std::vector<float> amplitudes;        ///< [n] y, m
+  std::vector<float> near_block;        ///< the largest of the near fields
+  PatchNodes patch;                     ///< of the tool that is being evaluated
+  std::vector<Eigen::Vector4f> weight;  ///< [Ns] of a patch's nodes; zero between uses
+  /// Patches of tools, as they were used last: a tool that sticks finds its own again.
+  std::array<TouchPatch, kMaxTools + 1> touches;
+  std::array<std::uint64_t, kMaxTools + 1> asked{};  ///< the how many-th question each answered last
+  std::uint64_t questions{0};
+
+  /// The patch at s, in the place of the one that was not asked for the longest: the reference holds while fewer than
+  /// kMaxTools + 1 others are asked for. Real-time: yes.
+  const TouchPatch& touchAt(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING;
 };
 
 /// One tool's part in a field.
@@ -28,24 +42,26 @@ struct FieldSource {
   }
 };
 
+/// The contact positions that answer for the field of a touch at s, and their weights: mixed as the force is, by the cubic over
+/// the triangle; of a load-driven model as its contact's displacement is, linearly. Real-time: yes.
+[[nodiscard]] Stencil fieldStencil(const MetaModel& model,
+                                   const ContactPoint& s) noexcept PALPATE_NONBLOCKING;
+
 /// Displacement of the surface nodes, far plus near field, superposed over the tools (docs/design.md, Parts).
-/// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Real-time: yes.
+/// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Cost O(n Ns). Real-time: yes.
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;
 
-// evaluateField() in two parts: a tick reports the field where its tools are before it evaluates the rest.
-
-/// @param[out] y  [n] amplitudes of the modes, m. Cost O(C n). Real-time: yes.
-void findAmplitudes(const MetaModel& model, std::span<const FieldSource> sources,
-                    std::span<float> y) noexcept PALPATE_NONBLOCKING;
-
-/// The whole field. @param scratch  its amplitudes found  @param[out] u  [Ns][3] m. Cost O(n Ns). Real-time: yes.
-void fieldOf(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
-             std::span<float> u) noexcept PALPATE_NONBLOCKING;
-
-/// The field at points of the surface. @param scratch  its amplitudes found  @param points  triangle -1: zero there
-/// @param[out] u  [points] m. Cost O(points n + sources points (C + K_m)). Real-time: yes.
-void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, const FieldScratch& scratch,
+/// The field where tools are, m. A tool's own part comes from a table (ContactDimple), within 1 % of |d| of what
+/// evaluateField() gives there. @param points  triangle -1: zero there  @param[out] u  [points]
+/// Cost O(points C), and with others beside O(points sources (C n + K)). Real-time: yes.
+void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING;
+
+/// What one patch does to another at rest: displacement of `to` by unit forces on `from`, column by force, and its
+/// derivatives by the barycentric weights of `to`, m/N. Of a "displacement" model. Cost O(k K + n). Real-time: yes.
+[[nodiscard]] std::array<Mat3, 4> complianceBetween(const MetaModel& model, const TouchPatch& from,
+                                                    const TouchPatch& to,
+                                                    FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

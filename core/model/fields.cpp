@@ -15,27 +15,32 @@ namespace {
 
 using Weights = std::array<float, MonomialBasis::kMaxCoefficients>;
 
-/// Coefficients up to the last that is not zero: a linear field costs no more.
-std::size_t used(std::span<const double> phi) noexcept {
-  std::size_t count = phi.size();
-  while (count > 0 && phi[count - 1] == 0.0) --count;
+/// Rows up to the last whose weight is not zero: a linear field costs no more.
+std::size_t used(std::span<const double> weight) noexcept {
+  std::size_t count = weight.size();
+  while (count > 0 && weight[count - 1] == 0.0) --count;
   return count;
 }
 
-/// Weight of each coefficient of one contact position.
-Weights scaled(std::span<const double> phi, double factor) noexcept {
-  Weights weight;
-  for (std::size_t k = 0; k < phi.size(); ++k) weight[k] = static_cast<float>(factor * phi[k]);
-  return weight;
+/// Weight of each row of one source.
+Weights scaled(std::span<const double> weight, double factor) noexcept {
+  Weights scaled;
+  for (std::size_t k = 0; k < weight.size(); ++k) scaled[k] = static_cast<float>(factor * weight[k]);
+  return scaled;
 }
 
 }  // namespace
 
+void Amplitudes::add(std::int32_t source, std::span<const double> weight, double factor,
+                     std::span<float> y) const noexcept PALPATE_NONBLOCKING {
+  const Weights row = scaled(weight, factor);
+  const std::size_t first = index(source) * rows_;
+  addRows({Y_.data() + first * modes_, scale_.data() + first, used(weight), modes_}, row.data(), y.data());
+}
+
 SeparatedField::SeparatedField(const ModelView& view)
     : X_(view.modes_X),
-      Y_(view.modes_Y),
       X_scale_(view.modes_X_scale),
-      Y_scale_(view.modes_Y_scale),
       modes_(static_cast<int>(view.modes())),
       by_node_(X_.size()) {
   const std::size_t n = view.modes(), numbers = 3 * view.surfaceNodes();
@@ -43,16 +48,6 @@ SeparatedField::SeparatedField(const ModelView& view)
     for (std::size_t i = 0; i < numbers; ++i)
       by_node_[i * n + k] = X_scale_[k] * static_cast<float>(X_[k * numbers + i]);
   chooseKernels();
-}
-
-void SeparatedField::addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
-                                   std::span<float> y) const noexcept PALPATE_NONBLOCKING {
-  const std::size_t n = y.size();
-  for (std::size_t b = 0; b < index(mix.count); ++b) {
-    const Weights weight = scaled(phi, gain * mix.weight[b]);
-    const std::size_t first = index(mix.position[b]) * phi.size();
-    addRows({Y_.data() + first * n, Y_scale_.data() + first, used(phi), n}, weight.data(), y.data());
-  }
 }
 
 void SeparatedField::expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
@@ -66,52 +61,87 @@ Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPA
   return {u[0], u[1], u[2]};
 }
 
-NearField::NearField(const ModelView& view)
-    : offset_(view.near_offset), node_(view.near_node), field_(view.near_field), scale_(view.near_scale) {
-  std::int64_t most = 0;
-  for (std::size_t m = 0; m + 1 < offset_.size(); ++m) most = std::max(most, offset_[m + 1] - offset_[m]);
-  scratch_size_ = static_cast<int>(3 * most) + static_cast<int>(view.surfaceNodes());
+void SeparatedField::addNode(int node, float weight, std::span<float> x) const noexcept PALPATE_NONBLOCKING {
+  const float* const from = by_node_.data() + index(node) * x.size();
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += weight * from[i];
 }
 
-std::span<const std::int32_t> NearField::nodes(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
-  const std::size_t m = index(position), first = index(offset_[m]);
-  return node_.subspan(first, index(offset_[m + 1]) - first);
+NearField::NearField(const Arrays& arrays, std::size_t rows) : arrays_(arrays), rows_(rows) {
+  for (std::size_t m = 0; m + 1 < arrays.offset.size(); ++m)
+    block_size_ = std::max(block_size_, 3 * index(arrays.offset[m + 1] - arrays.offset[m]));
 }
 
-NearField::Block NearField::block(std::int32_t position, std::span<const double> phi, double factor,
+std::span<const std::int32_t> NearField::nodes(std::int32_t source) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t m = index(source), first = index(arrays_.offset[m]);
+  return arrays_.node.subspan(first, index(arrays_.offset[m + 1]) - first);
+}
+
+NearField::Block NearField::block(std::int32_t source, std::span<const double> weight, double factor,
                                   std::span<float> scratch) const noexcept PALPATE_NONBLOCKING {
-  const std::size_t m = index(position);
-  const std::size_t first = index(offset_[m]), nodes = index(offset_[m + 1]) - first;
-  const std::span<float> u = scratch.first(3 * nodes);
+  const std::size_t m = index(source);
+  const std::span<const std::int32_t> list = nodes(source);
+  const std::span<float> u = scratch.first(3 * list.size());
   std::fill(u.begin(), u.end(), 0.0F);
-  const Weights weight = scaled(phi, factor);
-  const std::int16_t* const field = field_.data() + 3 * phi.size() * first;
-  addRows({field, scale_.data() + m * phi.size(), used(phi), 3 * nodes}, weight.data(), u.data());
-  return {node_.subspan(first, nodes), u};
+  const Weights row = scaled(weight, factor);
+  const std::int16_t* const field = arrays_.field.data() + 3 * rows_ * index(arrays_.offset[m]);
+  addRows({field, arrays_.scale.data() + m * rows_, used(weight), u.size()}, row.data(), u.data());
+  return {list, u};
 }
 
-Vec3 NearField::at(std::int32_t position, std::span<const double> phi,
+Vec3 NearField::at(std::int32_t source, std::span<const double> weight,
                    std::int32_t node) const noexcept PALPATE_NONBLOCKING {
-  const std::span<const std::int32_t> list = nodes(position);
+  const std::span<const std::int32_t> list = nodes(source);
   const auto place = std::find(list.begin(), list.end(), node) - list.begin();
   Vec3 u = Vec3::Zero();
   if (place == std::ssize(list)) return u;
-  const std::size_t m = index(position);
-  const std::int16_t* field = field_.data() + 3 * (phi.size() * index(offset_[m]) + index(place));
-  for (std::size_t k = 0; k < used(phi); ++k, field += 3 * list.size()) {
-    const double weight = phi[k] * double(scale_[m * phi.size() + k]);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) u[axis] += weight * field[axis];
+  const std::size_t m = index(source);
+  const std::int16_t* field = arrays_.field.data() + 3 * (rows_ * index(arrays_.offset[m]) + index(place));
+  for (std::size_t k = 0; k < used(weight); ++k, field += 3 * list.size()) {
+    const double factor = weight[k] * double(arrays_.scale[m * rows_ + k]);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) u[axis] += factor * field[axis];
   }
   return u;
 }
 
-void NearField::add(const PositionMix& mix, std::span<const double> phi, double gain,
+void NearField::add(std::int32_t source, std::span<const double> weight, double factor,
                     std::span<float> scratch, std::span<float> u) const noexcept PALPATE_NONBLOCKING {
-  for (std::size_t b = 0; b < index(mix.count); ++b) {
-    const Block near = block(mix.position[b], phi, gain * mix.weight[b], scratch);
-    for (std::size_t i = 0; i < near.nodes.size(); ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) u[3 * index(near.nodes[i]) + axis] += near.u[3 * i + axis];
+  const Block near = block(source, weight, factor, scratch);
+  for (std::size_t i = 0; i < near.nodes.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) u[3 * index(near.nodes[i]) + axis] += near.u[3 * i + axis];
+}
+
+std::array<Mat3, 4> NearField::weighted(
+    std::int32_t source, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t m = index(source);
+  const std::span<const std::int32_t> list = nodes(source);
+  const std::int16_t* const field = arrays_.field.data() + 9 * index(arrays_.offset[m]);
+  std::array<Eigen::Vector4f, 9> sum;  // [load][axis]
+  sum.fill(Eigen::Vector4f::Zero());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Eigen::Vector4f& w = weight[index(list[i])];
+    if (w[0] == 0.0F) continue;
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sum[3 * r + axis] += float(field[3 * (r * list.size() + i) + axis]) * w;
   }
+  std::array<Mat3, 4> out;
+  for (std::size_t k = 0; k < out.size(); ++k)
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        out[k](Eigen::Index(axis), Eigen::Index(r)) =
+            double(arrays_.scale[3 * m + r]) * double(sum[3 * r + axis][Eigen::Index(k)]);
+  return out;
+}
+
+double NearField::reach(std::span<const std::int32_t> source, std::span<const double> positions) const {
+  const auto at = [&](std::int32_t node) {
+    return Vec3(Eigen::Map<const Vec3>(positions.data() + 3 * index(node)));
+  };
+  double farthest = 0.0;
+  for (std::size_t m = 0; m < source.size(); ++m)
+    for (const std::int32_t node : nodes(static_cast<std::int32_t>(m)))
+      farthest = std::max(farthest, (at(node) - at(source[m])).norm());
+  return farthest;
 }
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,63 +13,87 @@
 
 namespace palpate {
 
-/// The far field, and all of a load-driven model's:                       docs/design.md, Reproduction, Parts
-///   u(X; s, p) = sum_k X_k(X) y_k,   y_k = sum_b lambda_b sum_alpha phi_alpha(p) Y_{k,alpha}(p_b)
-/// Linear in y: the y of several tools add up before the one product with X. Borrows the model's arrays.
+/// Amplitudes of the modes, a block of rows for each source: Y of contact positions, or of nodes under unit loads. Borrows.
+class Amplitudes {
+ public:
+  /// @param Y  [sources][rows][n]  @param scale  [sources][rows]
+  Amplitudes(std::span<const std::int16_t> Y, std::span<const float> scale, std::size_t rows,
+             std::size_t modes)
+      : Y_(Y), scale_(scale), rows_(rows), modes_(modes) {}
+
+  /// y += factor * sum_r weight[r] * row r. @param weight  [rows]  @param y  [n]. Real-time: yes.
+  void add(std::int32_t source, std::span<const double> weight, double factor,
+           std::span<float> y) const noexcept PALPATE_NONBLOCKING;
+
+ private:
+  std::span<const std::int16_t> Y_;
+  std::span<const float> scale_;
+  std::size_t rows_, modes_;
+};
+
+/// The modes, u(X) = sum_k X_k(X) y_k, m (docs/design.md, Reproduction, Parts). Linear in y: the y of several tools add up
+/// before the one product with X. Borrows the model's arrays.
 class SeparatedField {
  public:
   explicit SeparatedField(const ModelView& view);
 
   [[nodiscard]] int modes() const noexcept { return modes_; }
-  /// y += gain * (the mode amplitudes of one tool), m.
-  /// @param phi  [C] ParameterFunctions at p, @param y  [n]. Cost O(C n). Real-time: yes.
-  void addAmplitudes(const PositionMix& mix, std::span<const double> phi, double gain,
-                     std::span<float> y) const noexcept PALPATE_NONBLOCKING;
   /// u = X^T y, m. @param u  [Ns][3]. Cost O(n Ns). Real-time: yes.
   void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   /// u of one surface node, m, as expand() gives it but for rounding. Cost O(n). Real-time: yes.
   [[nodiscard]] Vec3 at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING;
+  /// x += weight X(node). @param x  [3][n]. Cost O(n). Real-time: yes.
+  void addNode(int node, float weight, std::span<float> x) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  std::span<const std::int16_t> X_, Y_;
-  std::span<const float> X_scale_, Y_scale_;
+  std::span<const std::int16_t> X_;
+  std::span<const float> X_scale_;
   int modes_;
   std::vector<float> by_node_;  // [Ns][3][n] X, so that one node's numbers lie together
 };
 
-/// The near field: what the modes miss close to s, already windowed to zero at the near radius (docs/design.md, Parts).
+/// A near field: what the modes miss close to each source, already windowed to zero at the near radius (docs/design.md, Parts).
+/// Borrows.
 class NearField {
  public:
-  explicit NearField(const ModelView& view);
+  struct Arrays {
+    std::span<const std::int64_t> offset;  ///< [sources + 1]
+    std::span<const std::int32_t> node;    ///< [sum K]
+    std::span<const std::int16_t> field;   ///< per source [rows][K][3]
+    std::span<const float> scale;          ///< [sources][rows]
+  };
+  NearField(const Arrays& arrays, std::size_t rows);
 
-  /// The near block of one contact position; borrowed from the model and the scratch.
+  /// The near block of one source; borrowed from the model and the scratch.
   struct Block {
-    std::span<const std::int32_t> nodes;  ///< [K_m] surface nodes
-    std::span<const float> u;             ///< [K_m][3] m
+    std::span<const std::int32_t> nodes;  ///< [K] surface nodes
+    std::span<const float> u;             ///< [K][3] m
   };
 
-  /// Surface nodes that a position's block moves. Real-time: yes.
-  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t position) const noexcept PALPATE_NONBLOCKING;
-  /// Numbers of scratch: 3 * the largest K_m for a block, then Ns for weights of its nodes.
-  [[nodiscard]] int scratchSize() const noexcept { return scratch_size_; }
-  /// sum_alpha phi_alpha U_alpha of one position times `factor`. @param phi  [C] ParameterFunctions at p
-  /// @param scratch  scratchSize(), its beginning overwritten. Real-time: yes.
-  [[nodiscard]] Block block(std::int32_t position, std::span<const double> phi, double factor,
+  /// Surface nodes that a source's block moves. Real-time: yes.
+  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t source) const noexcept PALPATE_NONBLOCKING;
+  /// Numbers of scratch for a block: 3 * the largest K.
+  [[nodiscard]] std::size_t blockSize() const noexcept { return block_size_; }
+  /// factor * sum_r weight[r] * row r. @param weight  [rows]
+  /// @param scratch  blockSize(), its beginning overwritten. Real-time: yes.
+  [[nodiscard]] Block block(std::int32_t source, std::span<const double> weight, double factor,
                             std::span<float> scratch) const noexcept PALPATE_NONBLOCKING;
-  /// What block() gives at one node, m; zero where the block has it not. Cost O(C + K_m). Real-time: yes.
-  [[nodiscard]] Vec3 at(std::int32_t position, std::span<const double> phi,
+  /// What block() gives at one node, m; zero where the block has it not. Cost O(rows + K). Real-time: yes.
+  [[nodiscard]] Vec3 at(std::int32_t source, std::span<const double> weight,
                         std::int32_t node) const noexcept PALPATE_NONBLOCKING;
-  /// u += gain * (the near blocks of one tool), m.
-  /// @param phi  [C] ParameterFunctions at p, @param scratch  scratchSize(), @param u  [Ns][3]. Real-time: yes.
-  void add(const PositionMix& mix, std::span<const double> phi, double gain, std::span<float> scratch,
+  /// u += a block. @param scratch  blockSize(), @param u  [Ns][3]. Real-time: yes.
+  void add(std::int32_t source, std::span<const double> weight, double factor, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;
+  /// Of three rows, column r: the sum over the block's nodes, weighted four times. @param weight  [Ns]. Real-time: yes.
+  [[nodiscard]] std::array<Mat3, 4> weighted(
+      std::int32_t source, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING;
+  /// The farthest of a block's nodes from its source, over all blocks, m. @param source  [sources] surface nodes
+  [[nodiscard]] double reach(std::span<const std::int32_t> source, std::span<const double> positions) const;
 
  private:
-  std::span<const std::int64_t> offset_;
-  std::span<const std::int32_t> node_;
-  std::span<const std::int16_t> field_;
-  std::span<const float> scale_;
-  int scratch_size_{0};
+  Arrays arrays_;
+  std::size_t rows_;
+  std::size_t block_size_{0};
 };
 
 }  // namespace palpate

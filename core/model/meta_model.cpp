@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "core/base/index.h"
 #include "core/data/available_memory.h"
+#include "core/data/datasets.h"
 #include "core/data/model_checks.h"
 #include "core/data/model_content.h"
 #include "core/data/model_reader.h"
 #include "core/data/try_in_child.h"
+#include "core/surface/surface_distance.h"
 
 namespace palpate {
 
@@ -21,20 +25,63 @@ void compare(const std::string& name, const char* what, const std::string& store
                     stored.substr(0, 64) + ": it was damaged or changed after it was written");
 }
 
-/// At most about what the model's tables take beside the copy: modes node by node in float32, their averages over
-/// patches and the patches themselves, the contact's answer in rows, and the refined surface with its
-/// search tree.
+/// At most about what the model's tables take beside the copy: modes node by node, what is near the nodes that patches are
+/// centred at, the stiffness of patches over triangles, the contact's answer in rows, dimples, and the refined surface with
+/// its search tree.
 std::uint64_t bytesOfTables(const ModelView& v) {
   constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have
   constexpr std::uint64_t kPerNode =
       2200;  // of a surface that has more after one refinement, while it is made
-  constexpr std::uint64_t kPerEntry =
-      3 * sizeof(float);  // of a patch: node and weight, one of them there twice as it grows
+  constexpr std::uint64_t kPerEntry = 2 * 16;  // of a patch, twice as its list grows
   const std::uint64_t entries = std::min<std::uint64_t>(
-      PatchAverage::kMostTogether, v.positions() * std::min(v.surfaceNodes(), PatchAverage::kMostNodes));
-  const std::uint64_t averages = 3 * sizeof(float) * v.positions() * v.modes();
-  return 2 * v.modes_X.size_bytes() + averages + v.contact_force.size_bytes() +
+      ContactPatches::kMostTogether, v.positions() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));
+  return 2 * v.modes_X.size_bytes() + v.triangles() * sizeof(SmoothCubic<6>) +
+         v.contact_stiffness.size_bytes() + v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
          v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries;
+}
+
+/// By surface node: whether it may carry load.
+std::vector<std::uint8_t> freeNodes(const ModelView& view) {
+  std::vector<std::uint8_t> fixed(view.mesh_nodes.size() / 3, 0), free;
+  for (const std::int32_t node : view.mesh_fixed) fixed[index(node)] = 1;
+  for (const std::int32_t node : view.mesh_surface_node) free.push_back(fixed[index(node)] == 0 ? 1 : 0);
+  return free;
+}
+
+/// The nodes of all triangles where the model answers, also of those that have a corner without a contact position.
+std::vector<std::int32_t> centresOf(const ModelView& view) {
+  std::vector<std::uint8_t> in(view.surfaceNodes(), 0);
+  for (std::size_t t = 0; t < view.triangles(); ++t) {
+    const std::span<const std::int32_t> corner = view.surface_triangles.subspan(3 * t, 3);
+    const auto answers = [&](std::int32_t node) { return view.position_of_node[index(node)] >= 0; };
+    if (std::any_of(corner.begin(), corner.end(), answers))
+      for (const std::int32_t node : corner) in[index(node)] = 1;
+  }
+  std::vector<std::int32_t> nodes;
+  for (std::size_t i = 0; i < in.size(); ++i)
+    if (in[i] != 0) nodes.push_back(static_cast<std::int32_t>(i));
+  return nodes;
+}
+
+ContactPatches patchesOf(const ModelView& view, const ModelAttributes& attributes) {
+  constexpr double kLeastRadius = 1e-9;  // m; below, its square vanishes, and no mesh is that fine
+  return {SurfaceGraph(view.surface_positions, view.surface_triangles), freeNodes(view),
+          std::max(attributes.patch_radius, kLeastRadius), centresOf(view)};
+}
+
+/// Each node that a patch may load has its Green's function: without it the field would lack what it carries.
+void checkLoadedNodes(const ModelView& view, const ContactPatches& patches) {
+  std::vector<std::uint8_t> loaded(view.surfaceNodes(), 0);
+  for (const std::int32_t centre : view.contact_node) patches.markNear(centre, loaded);
+  for (const std::int32_t node : view.green_node) loaded[index(node)] = 0;
+  const auto without = std::find(loaded.begin(), loaded.end(), 1) - loaded.begin();
+  if (without < std::ssize(loaded))
+    throw std::invalid_argument(dataset::kGreenNode.name() + " lacks node " + std::to_string(without) +
+                                ", expected every node that contact patches load");
+}
+
+std::size_t modeRows(const ModelView& view) {
+  return view.modes_Y_scale.size() / view.positions();
 }
 
 /// The content is what the writer wrote. @return its digest
@@ -71,6 +118,14 @@ MetaModel MetaModel::load(const std::filesystem::path& path) {
   }
 }
 
+void MetaModel::expect(const ContactPoint& s, const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
+  contact_surface_.expect(fine.triangle);
+  for (const std::int32_t position : mixing_.expect(s.triangle)) response_.expect(position);
+  stiffness_.expect(s.triangle);
+  surface_.expect(s.triangle);
+  dimple_.expect(places_.of(s.triangle));
+}
+
 MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view,
                      const Digest& digest)
     : image_(std::move(image)),
@@ -79,11 +134,21 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
       digest_(digest),
       functions_(view_, attributes_, attributes_.order),
       surface_(view_),
+      places_(view_.surface_positions, view_.surface_triangles, view_.position_of_node),
       contact_surface_(view_, surface_),
       response_(view_, attributes_),
+      stiffness_(view_, attributes_, places_),
       mixing_(view_, surface_),
+      patches_(patchesOf(view_, attributes_)),
       far_field_(view_),
-      near_field_(view_),
-      patch_average_(view_, attributes_) {}
+      amplitudes_(view_.modes_Y, view_.modes_Y_scale, modeRows(view_), view_.modes()),
+      near_field_({view_.near_offset, view_.near_node, view_.near_field, view_.near_scale}, modeRows(view_)),
+      near_reach_(near_field_.reach(view_.contact_node, view_.surface_positions)),
+      linear_field_(view_) {
+  if (attributes_.parameters != Parameters::kDisplacement) return;
+  checkLoadedNodes(view_, patches_);
+  dimple_ = ContactDimple(
+      {view_, patches_, stiffness_, surface_, far_field_, amplitudes_, near_field_, linear_field_}, places_);
+}
 
 }  // namespace palpate

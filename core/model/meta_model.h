@@ -11,11 +11,15 @@
 #include "core/data/parameter_functions.h"
 #include "core/data/sealed_image.h"
 #include "core/data/sha256.h"
+#include "core/model/contact_dimple.h"
 #include "core/model/contact_response.h"
 #include "core/model/fields.h"
-#include "core/model/patch_average.h"
+#include "core/model/linear_field.h"
+#include "core/model/patch_stiffness.h"
 #include "core/model/smooth_mixing.h"
+#include "core/surface/contact_patches.h"
 #include "core/surface/contact_surface.h"
+#include "core/surface/smooth_places.h"
 #include "core/surface/surface_mesh.h"
 
 namespace palpate {
@@ -43,12 +47,29 @@ class MetaModel {
   /// What tools slide on.
   [[nodiscard]] const ContactSurface& contactSurface() const noexcept { return contact_surface_; }
   [[nodiscard]] const ContactResponse& response() const noexcept { return response_; }
+  /// Degree 1 of the contact's answer, of a "displacement" model.
+  [[nodiscard]] const PatchStiffness& stiffness() const noexcept { return stiffness_; }
   /// How the contact's answers are mixed between contact positions.
   [[nodiscard]] const SmoothMixing& mixing() const noexcept { return mixing_; }
   [[nodiscard]] const SeparatedField& farField() const noexcept { return far_field_; }
+  /// Of contact positions, by functions; of a "displacement" model those of orders two and more.
+  [[nodiscard]] const Amplitudes& amplitudes() const noexcept { return amplitudes_; }
   [[nodiscard]] const NearField& nearField() const noexcept { return near_field_; }
-  /// What a contact patch feels of a field, for tools that press together.
-  [[nodiscard]] const PatchAverage& patchAverage() const noexcept { return patch_average_; }
+  /// Degree 1 of a "displacement" model's field.
+  [[nodiscard]] const LinearField& linearField() const noexcept { return linear_field_; }
+  /// The field at a tool's own anchor, of a "displacement" model.
+  [[nodiscard]] const ContactDimple& dimple() const noexcept { return dimple_; }
+  /// The nodes that a tool holds, wherever it is.
+  [[nodiscard]] const ContactPatches& patches() const noexcept { return patches_; }
+  /// How far their nodes are from their middle at most, m.
+  [[nodiscard]] double reachOfPatches() const noexcept { return 3.0 * attributes_.patch_radius; }
+  /// How far near fields of contact positions reach at most, m.
+  [[nodiscard]] double reachOfNearFields() const noexcept { return near_reach_; }
+  /// Asks the cache for what a tick of a contact reads, so that it comes together and not piece by piece. @param s, fine  the
+  /// anchor, of the rest surface and of the contact surface, in a triangle. Real-time: yes.
+  void expect(const ContactPoint& s, const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
+  /// Where smooth functions of the contact position are known.
+  [[nodiscard]] const SmoothPlaces& places() const noexcept { return places_; }
   /// Size of the file and of its copy in memory, bytes.
   [[nodiscard]] std::size_t bytes() const noexcept { return image_.bytes().size(); }
   /// True when the copy is locked into memory, so that the loop meets no page fault.
@@ -63,12 +84,18 @@ class MetaModel {
   Digest digest_;
   ParameterFunctions functions_;
   SurfaceMesh surface_;
+  SmoothPlaces places_;
   ContactSurface contact_surface_;
   ContactResponse response_;
+  PatchStiffness stiffness_;
   SmoothMixing mixing_;
+  ContactPatches patches_;
   SeparatedField far_field_;
+  Amplitudes amplitudes_;
   NearField near_field_;
-  PatchAverage patch_average_;
+  double near_reach_;
+  LinearField linear_field_;
+  ContactDimple dimple_;
 };
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/index.h"
+#include "core/base/prefetch.h"
 
 namespace palpate {
 
@@ -33,16 +34,18 @@ Cubic cubicAt(const std::array<double, 3>& l) noexcept PALPATE_NONBLOCKING {
   return cubic;
 }
 
-void mixLinearly(const PositionMix& mix, Stencil& stencil) noexcept PALPATE_NONBLOCKING {
+}  // namespace
+
+Stencil linearStencil(const PositionMix& mix) noexcept PALPATE_NONBLOCKING {
+  Stencil stencil;
   stencil.count = index(mix.count);
   for (std::size_t b = 0; b < stencil.count; ++b) {
     stencil.position[b] = mix.position[b];
     stencil.weight[b] = mix.weight[b];
     stencil.slope[b].setZero();
   }
+  return stencil;
 }
-
-}  // namespace
 
 SmoothMixing::SmoothMixing(const ModelView& view, const SurfaceMesh& surface)
     : triangles_(view.surface_triangles), position_of_node_(view.position_of_node) {
@@ -106,13 +109,18 @@ void SmoothMixing::addTriangle(const ModelView& view, std::size_t triangle,
   }
 }
 
+std::span<const std::int32_t> SmoothMixing::expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING {
+  const First& first = first_[index(triangle)];
+  const First& end = first_[index(triangle) + 1];
+  prefetch(shares_.data() + first.share, (end.share - first.share) * sizeof(Share));
+  return std::span(positions_).subspan(first.position, end.position - first.position);
+}
+
 Stencil SmoothMixing::at(const SurfaceMesh& surface,
                          const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
-  Stencil stencil;  // returned on every path, so that it is not copied
-  if (s.triangle < 0 || s.triangle >= surface.triangles() || !surface.complete(s.triangle)) {
-    mixLinearly(surface.mix(s), stencil);
-    return stencil;
-  }
+  if (s.triangle < 0 || s.triangle >= surface.triangles() || !surface.complete(s.triangle))
+    return linearStencil(surface.mix(s));
+  Stencil stencil;
   const Cubic cubic = cubicAt(s.barycentric);
   const First& first = first_[index(s.triangle)];
   const First& end = first_[index(s.triangle) + 1];

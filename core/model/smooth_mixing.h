@@ -23,6 +23,9 @@ struct Stencil {
   std::array<Vec3, kMost> slope;             ///< d omega_b / d lambda, the triangle's barycentric weights, 1
 };
 
+/// The positions and weights of a linear mix; without slopes. Real-time: yes.
+[[nodiscard]] Stencil linearStencil(const PositionMix& mix) noexcept PALPATE_NONBLOCKING;
+
 /// Interpolation between contact positions, smooth enough to feel no kinks.             docs/design.md, Parts
 ///   c(s) = sum_b omega_b(s) c_b:  over each triangle the cubic that has the nodes' values and gradients, the gradient
 ///   at a node being the mean, by area, of those of the linear interpolation in the triangles round it. The Bezier
@@ -38,6 +41,8 @@ class SmoothMixing {
   /// @param surface  as in the constructor. Cost some 20 positions. Real-time: yes.
   [[nodiscard]] Stencil at(const SurfaceMesh& surface,
                            const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
+  /// Asks the cache for what at() reads in a triangle. @return the positions that answer there. Real-time: yes.
+  std::span<const std::int32_t> expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
 
  private:
   struct Part {

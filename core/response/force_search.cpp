@@ -128,7 +128,7 @@ double radiusAlong(const ContactSeries& series, const Vec3& f,
 ResponseStatus noNumber(Response& out) noexcept PALPATE_NONBLOCKING {
   out = Response{};
   out.force.setConstant(std::numeric_limits<double>::quiet_NaN());
-  return ResponseStatus::kClamped;
+  return ResponseStatus::kBeyond;
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ ResponseStatus answerToForce(const ContactSeries& series, const Vec3& f,
   out.stiffness.setZero();
   if (isPositiveDefinite(compliance)) out.stiffness = compliance.inverse();
   out.domain_radius = radiusAlong(series, out.force, out.stiffness);
-  return checked(lengthOf(f) > series.limit() ? ResponseStatus::kClamped : ResponseStatus::kOk, out);
+  return checked(lengthOf(f) > series.limit() ? ResponseStatus::kBeyond : ResponseStatus::kOk, out);
 }
 
 ResponseStatus findForce(const ContactSeries& series, const Vec3& d, Budget& budget,
@@ -165,7 +165,7 @@ ResponseStatus findForce(const ContactSeries& series, const Vec3& d, Budget& bud
   if (!found) {  // the force stays where nothing comes nearer
     out.stiffness.setZero();
     out.domain_radius = out.displacement.norm();
-    return ResponseStatus::kClamped;
+    return ResponseStatus::kBeyond;
   }
   if (status == ResponseStatus::kOk || !out.force.allFinite()) return status;
   const Mat3 projection = projectionGradient(f, series.limit());

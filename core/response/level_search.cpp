@@ -78,7 +78,7 @@ ResponseStatus answerToLevel(const ContactSeries& series, const ModelAttributes&
                              Response& out) noexcept PALPATE_NONBLOCKING {
   const double used = t > 0.0 ? std::min(t, series.limit()) : 0.0;  // NaN is at rest
   const double slope = directionOf(attributes).dot(series.gradient({used, 0.0, 0.0}).col(0));
-  const ResponseStatus status = used == t ? ResponseStatus::kOk : ResponseStatus::kClamped;
+  const ResponseStatus status = used == t ? ResponseStatus::kOk : ResponseStatus::kBeyond;
   return settle(series, attributes, used, slope, status, out);
 }
 
@@ -88,9 +88,9 @@ ResponseStatus findLevel(const ContactSeries& series, const ModelAttributes& att
   const LevelSearch search(series, e);
   const double wanted = e.dot(d);
   if (d == Vec3::Zero()) return answerToLevel(series, attributes, 0.0, out);
-  if (!(wanted > 0.0)) return settle(series, attributes, 0.0, 0.0, ResponseStatus::kClamped, out);
+  if (!(wanted > 0.0)) return settle(series, attributes, 0.0, 0.0, ResponseStatus::kBeyond, out);
   if (!(wanted <= search.along(series.limit())))
-    return settle(series, attributes, series.limit(), 0.0, ResponseStatus::kClamped, out);
+    return settle(series, attributes, series.limit(), 0.0, ResponseStatus::kBeyond, out);
   double slope = 0.0;
   const double t = search.find(wanted, slope);
   return settle(series, attributes, t, slope, ResponseStatus::kOk, out);

@@ -46,9 +46,9 @@ class PushingPart {
   Vec3 values_;
 };
 
-/// Force and its derivative beyond the domain, |d| > d_max:
+/// Force and its derivative where the polynomials end, |d| > r_max:
 ///   f = f(e) + P(e) (d - e),   df/dd = P + (K + B - P) de/dd,   B_j = dP/de_j (d - e)
-/// e the point of the domain's edge towards d, K = df/dd there, P its pushing part.
+/// e the point of that edge towards d, K = df/dd there, P its pushing part.
 void continueTo(const ContactSeries& series, const Vec3& d, Response& out) noexcept PALPATE_NONBLOCKING {
   const Vec3 edge = clampToDomain(d, series.limit()), beyond = d - edge;
   std::array<Mat3, 3> turn;
@@ -67,25 +67,35 @@ ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, 
                                     Response& out) noexcept PALPATE_NONBLOCKING {
   constexpr double kFar = 1e3;                // m; beyond every domain, and what follows is finite
   constexpr int kInside = 1, kContinued = 4;  // evaluations; second derivatives and eigenvalues cost more
-  out.domain_radius = series.limit();
-  out.displacement = clampToDomain(d, out.domain_radius);
+  out.domain_radius = series.domainRadius();
+  out.series_radius = series.limit();
+  out.displacement = clampToDomain(d, out.series_radius);
   out.parameter = out.displacement;
-  if (!(lengthOf(d) > out.domain_radius)) {
+  const double length = lengthOf(d);
+  if (length > out.series_radius) {
+    budget.spend(kContinued);
+    continueTo(series, clampToDomain(d, kFar), out);
+  } else {
     budget.spend(kInside);
     series.evaluate(d, out.force, out.stiffness);
-    return ResponseStatus::kOk;
   }
-  budget.spend(kContinued);
-  continueTo(series, clampToDomain(d, kFar), out);
-  return ResponseStatus::kClamped;
+  return length > out.domain_radius ? ResponseStatus::kBeyond : ResponseStatus::kOk;
 }
 
 /// Loads are mixed linearly: what is mixed there is not the derivative of an energy.
-ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s,
-                       const Stencil& stencil) noexcept PALPATE_NONBLOCKING {
+ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s, const Stencil& stencil,
+                       const Mat3& stiffness) noexcept PALPATE_NONBLOCKING {
   const PositionMix mix = model.surface().mix(s);
   if (model.attributes().parameters != Parameters::kDisplacement) return model.response().at(mix);
-  return model.response().at(stencil, model.response().limit(mix));
+  return model.response().at(stencil, stiffness, mix);
+}
+
+PatchStiffness::Value stiffnessAt(const MetaModel& model,
+                                  const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
+  PatchStiffness::Value value;
+  if (model.attributes().parameters == Parameters::kDisplacement)
+    model.stiffness().at(model.surface(), s, value);
+  return value;
 }
 
 }  // namespace
@@ -93,11 +103,12 @@ ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s,
 PatchResponse::PatchResponse(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING
     : model_(model),
       stencil_(model.mixing().at(model.surface(), s)),
-      series_(seriesAt(model, s, stencil_)) {}
+      stiffness_(stiffnessAt(model, s)),
+      series_(seriesAt(model, s, stencil_, stiffness_.K)) {}
 
 Vec3 PatchResponse::energySlope(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
   if (model_.attributes().parameters != Parameters::kDisplacement) return Vec3::Zero();
-  return model_.response().energySlope(stencil_, d, series_.limit());
+  return model_.response().energySlope(stencil_, stiffness_.slope, d, series_.limit());
 }
 
 double PatchResponse::energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
@@ -114,16 +125,14 @@ ResponseStatus PatchResponse::at(const Vec3& d, Budget& budget,
   constexpr int kLevelSearch = 20;  // evaluations, at most
   out = Response{};
   if (stencil_.count == 0) return ResponseStatus::kNoAnswer;
-  switch (model_.attributes().parameters) {
-    case Parameters::kDisplacement:
-      return answerToDisplacement(series_, d, budget, out);
-    case Parameters::kForce:
-      return findForce(series_, d, budget, out);
-    case Parameters::kLevel:
-      budget.spend(kLevelSearch);
-      return findLevel(series_, model_.attributes(), d, out);
-  }
-  return ResponseStatus::kNoAnswer;
+  const Parameters parameters = model_.attributes().parameters;
+  if (parameters == Parameters::kDisplacement) return answerToDisplacement(series_, d, budget, out);
+  if (parameters == Parameters::kLevel) budget.spend(kLevelSearch);
+  const ResponseStatus status = parameters == Parameters::kForce
+                                    ? findForce(series_, d, budget, out)
+                                    : findLevel(series_, model_.attributes(), d, out);
+  out.series_radius = out.domain_radius;
+  return status;
 }
 
 ResponseStatus respond(const MetaModel& model, const ContactPoint& s, const Vec3& d,
@@ -138,8 +147,11 @@ ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, cons
   const Parameters parameters = model.attributes().parameters;
   if (mix.count == 0 || parameters == Parameters::kDisplacement) return ResponseStatus::kNoAnswer;
   const ContactSeries series = model.response().at(mix);
-  return parameters == Parameters::kForce ? answerToForce(series, load, out)
-                                          : answerToLevel(series, model.attributes(), load.x(), out);
+  const ResponseStatus status = parameters == Parameters::kForce
+                                    ? answerToForce(series, load, out)
+                                    : answerToLevel(series, model.attributes(), load.x(), out);
+  out.series_radius = out.domain_radius;
+  return status;
 }
 
 void evaluateField(const MetaModel& model, const ContactPoint& s, const Vec3& d, FieldScratch& scratch,

@@ -7,8 +7,8 @@ std::string_view toString(ResponseStatus status) noexcept {
   switch (status) {
     case ResponseStatus::kOk:
       return "ok";
-    case ResponseStatus::kClamped:
-      return "clamped";
+    case ResponseStatus::kBeyond:
+      return "beyond_domain";
     case ResponseStatus::kNoAnswer:
       return "not_accessible";
   }

@@ -7,18 +7,20 @@
 
 namespace palpate {
 
-enum class ResponseStatus { kOk, kClamped, kNoAnswer };
+enum class ResponseStatus { kOk, kBeyond, kNoAnswer };
 
-/// "ok", "clamped", "not_accessible".
+/// "ok", "beyond_domain", "not_accessible".
 [[nodiscard]] std::string_view toString(ResponseStatus status) noexcept;
 
 /// What the organ answers to a patch displacement, before release, friction and limits.
 struct Response {
   Vec3 force = Vec3::Zero();         ///< f, of the tool on the organ, W, N
   Mat3 stiffness = Mat3::Zero();     ///< df/dd, N/m; beyond the domain that of the continued force
-  Vec3 displacement = Vec3::Zero();  ///< the d that the fields show: clamped to the domain, m
+  Vec3 displacement = Vec3::Zero();  ///< the d that the fields show: no longer than series_radius, m
   double domain_radius{0.0};         ///< d_max(s), m; of a load-driven model that along the load's direction
-  Vec3 parameter = Vec3::Zero();     ///< what evaluateField() takes: the clamped d, m; f, N; or (t, 0, 0)
+  double series_radius{
+      0.0};  ///< r_max(s) >= d_max(s), m: the polynomials run up to it; load-driven: d_max(s)
+  Vec3 parameter = Vec3::Zero();  ///< what evaluateField() takes: the clamped d, m; f, N; or (t, 0, 0)
 };
 
 }  // namespace palpate

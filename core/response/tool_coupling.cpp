@@ -14,152 +14,144 @@ namespace palpate {
 
 namespace {
 
-/// P_to of the near field. Where no near node lies in the patch no block is evaluated.
-Vec3 averagedNear(const MetaModel& model, const PositionMix& from, std::span<const double> phi, double gain,
-                  const PositionMix& to, std::span<float> scratch) noexcept PALPATE_NONBLOCKING {
-  const NearField& near = model.nearField();
-  const std::span<float> weight = scratch.last(index(model.surface().nodes()));
-  const auto positions = std::span(from.position).first(index(from.count));
-  const auto meets = [&](std::int32_t b) noexcept PALPATE_NONBLOCKING {
-    return model.patchAverage().meets(b, to);
-  };
-  if (std::none_of(positions.begin(), positions.end(), meets)) return Vec3::Zero();
-  for (const std::int32_t b : positions)
-    for (const std::int32_t node : near.nodes(b)) weight[index(node)] = 0.0F;  // no other is read
-  model.patchAverage().addWeights(to, weight);
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (std::size_t k = 0; k < positions.size(); ++k) {
-    const auto weighs = [&](std::int32_t node) noexcept PALPATE_NONBLOCKING {
-      return weight[index(node)] > 0.0F;
-    };
-    const std::span<const std::int32_t> nodes = near.nodes(positions[k]);
-    if (std::none_of(nodes.begin(), nodes.end(), weighs)) continue;
-    const NearField::Block block = near.block(positions[k], phi, gain * from.weight[k], scratch);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      sum += weight[index(nodes[i])] * Eigen::Map<const Eigen::Vector3f>(block.u.data() + 3 * i);
-  }
-  return sum.cast<double>();
+/// Whether the near field of a position may reach a patch.
+bool meets(const MetaModel& model, std::int32_t position, const TouchPatch& to) noexcept PALPATE_NONBLOCKING {
+  const auto node = index(model.view().contact_node[index(position)]);
+  const Vec3 X = Eigen::Map<const Vec3>(model.view().surface_positions.data() + 3 * node);
+  const double apart = model.surface().distanceToCorners(to.s().triangle, X);
+  return apart <= model.reachOfPatches() + model.reachOfNearFields();
 }
 
-/// P_to of the field sum_alpha phi_alpha U_alpha.
-Vec3 averaged(const MetaModel& model, const PositionMix& from, std::span<const double> phi, double gain,
-              const PositionMix& to, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+/// What modes and near fields of positions move a patch by, orders of two and more of a "displacement" model, everything of the
+/// others: its average, and that by the weights' slopes. @param phi  functions of these
+TouchPatch::Averages averaged(const MetaModel& model, const ContactPoint& s, std::span<const double> phi,
+                              const TouchPatch& to, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  const Stencil from = fieldStencil(model, s);
   std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
-  model.farField().addAmplitudes(from, phi, gain, scratch.amplitudes);
-  return model.patchAverage().ofModes(to, scratch.amplitudes) +
-         averagedNear(model, from, phi, gain, to, scratch.near_block);
+  for (std::size_t b = 0; b < from.count; ++b)
+    model.amplitudes().add(from.position[b], phi, from.weight[b], scratch.amplitudes);
+  TouchPatch::Averages sum = to.ofModes(scratch.amplitudes);
+  if (phi.empty()) return sum;
+  const PatchNodes& nodes = to.nodes();
+  for (std::size_t j = 0; j < nodes.count; ++j)
+    scratch.weight[index(nodes.node[j])] << static_cast<float>(nodes.weight[j]), nodes.slope[j].cast<float>();
+  for (std::size_t b = 0; b < from.count; ++b) {
+    if (!meets(model, from.position[b], to)) continue;
+    const auto weighs = [&](std::int32_t node) noexcept PALPATE_NONBLOCKING {
+      return scratch.weight[index(node)][0] > 0.0F;
+    };
+    const std::span<const std::int32_t> list = model.nearField().nodes(from.position[b]);
+    if (std::none_of(list.begin(), list.end(), weighs)) continue;
+    const NearField::Block block =
+        model.nearField().block(from.position[b], phi, from.weight[b], scratch.near_block);
+    Eigen::Matrix<float, 3, 4> near = Eigen::Matrix<float, 3, 4>::Zero();
+    for (std::size_t i = 0; i < list.size(); ++i)
+      near += Eigen::Map<const Eigen::Vector3f>(block.u.data() + 3 * i) *
+              scratch.weight[index(list[i])].transpose();
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += near.col(Eigen::Index(k)).cast<double>();
+  }
+  for (std::size_t j = 0; j < nodes.count; ++j) scratch.weight[index(nodes.node[j])].setZero();
+  return sum;
+}
+
+/// What a source of a field does to a patch elsewhere, and how that changes as the patch moves: by lambda.
+TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, const TouchPatch& to,
+                             FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  TouchPatch::Averages moved;
+  for (Vec3& part : moved) part.setZero();
+  const PositionMix from = model.surface().mix(source.s);
+  if (from.count == 0 || to.nodes().count == 0) return moved;
+  const Vec3 p = clampToDomain(source.parameter, model.response().limit(from));
+  std::array<double, MonomialBasis::kMaxCoefficients> all;
+  const auto size = index(model.functions().size());
+  model.functions().evaluate(p, std::span(all).first(size));
+  moved = averaged(model, source.s,
+                   std::span(all).first(size).last(modeCoefficients(model.attributes(), size)), to, scratch);
+  if (model.attributes().parameters == Parameters::kDisplacement) {
+    PatchStiffness::Value stiffness;
+    model.stiffness().at(model.surface(), source.s, stiffness);
+    const auto compliance = complianceBetween(model, scratch.touchAt(model, source.s), to, scratch);
+    for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += compliance[k] * (stiffness.K * p);
+  }
+  for (Vec3& part : moved) part *= source.gain;
+  return moved;
 }
 
 /// What one tool moves the others' patches by, and its derivative. The organ is asked once, however many others there are.
 class Influence {
  public:
   Influence(const MetaModel& model, const ContactPoint& s, const Vec3& d,
-            double h) noexcept PALPATE_NONBLOCKING : model_(model),
-                                                     s_(s),
-                                                     d_(d),
-                                                     h_(h),
-                                                     own_(ownPart(model, s, d)) {
+            double h) noexcept PALPATE_NONBLOCKING
+      : model_(model),
+        s_(s),
+        d_(clampToDomain(d, model.response().limit(model.surface().mix(s)))),
+        h_(h),
+        own_(ownPart(model, s, d)) {
     const bool displaced = model.attributes().parameters == Parameters::kDisplacement;
     if (displaced) differentiate();
     for (std::size_t i = 0; !displaced && i < 3; ++i)
       beside_[i] = ownPart(model, s, d + h * Vec3::Unit(static_cast<Eigen::Index>(i)));
   }
 
-  /// P_at u(s, d), m.
-  [[nodiscard]] Vec3 on(const ContactPoint& at, FieldScratch& scratch) const noexcept PALPATE_NONBLOCKING {
-    return patchDisplacement(model_, own_, at, scratch);
-  }
-
-  /// P_at du/dd, 3 x 3; of a load-driven model by differences of length h. @param moved  on(at)
-  [[nodiscard]] Mat3 slopeOn(const ContactPoint& at, const Vec3& moved,
-                             FieldScratch& scratch) const noexcept PALPATE_NONBLOCKING {
-    const PositionMix from = model_.surface().mix(s_), to = model_.surface().mix(at);
-    Mat3 slope = Mat3::Zero();
-    if (from.count == 0 || to.count == 0) return slope;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      if (model_.attributes().parameters == Parameters::kDisplacement) {
-        const std::span<const double> phi(slope_[index(i)].data(), index(model_.functions().size()));
-        slope.col(i) = averaged(model_, from, phi, 1.0, to, scratch);
-      } else {
-        slope.col(i) = (patchDisplacement(model_, beside_[index(i)], at, scratch) - moved) / h_;
-      }
+  /// P_at u(s, d), m, and P_at du/dd, 3 x 3; of a load-driven model by differences of length h.
+  void on(const TouchPatch& at, FieldScratch& scratch, Vec3& moved,
+          Mat3& slope) const noexcept PALPATE_NONBLOCKING {
+    moved = movedBy(model_, own_, at, scratch)[0];
+    slope.setZero();
+    if (model_.surface().mix(s_).count == 0 || at.nodes().count == 0) return;
+    if (model_.attributes().parameters != Parameters::kDisplacement) {
+      for (std::size_t i = 0; i < 3; ++i)
+        slope.col(Eigen::Index(i)) = (movedBy(model_, beside_[i], at, scratch)[0] - moved) / h_;
+      return;
     }
-    return slope;
+    slope = complianceBetween(model_, scratch.touchAt(model_, s_), at, scratch)[0] * stiffness_.K;
+    for (std::size_t i = 0; i < 3; ++i)
+      slope.col(Eigen::Index(i)) += averaged(model_, s_, std::span(slope_[i]).first(bends_), at, scratch)[0];
   }
 
  private:
   void differentiate() noexcept PALPATE_NONBLOCKING {
-    const PositionMix from = model_.surface().mix(s_);
     std::array<Vec3, MonomialBasis::kMaxCoefficients> all;
     const std::span<Vec3> gradient(all.data(), index(model_.functions().size()));
-    model_.functions().gradient(clampToDomain(d_, model_.response().limit(from)), gradient);
-    for (std::size_t k = 0; k < gradient.size(); ++k)
+    model_.functions().gradient(d_, gradient);
+    bends_ = gradient.size() - kLinearCoefficients;
+    for (std::size_t k = 0; k < bends_; ++k)
       for (std::size_t i = 0; i < 3; ++i)
-        slope_[i][k] = gradient[k][static_cast<Eigen::Index>(i)] / model_.functions().reference();
+        slope_[i][k] =
+            gradient[k + kLinearCoefficients][static_cast<Eigen::Index>(i)] / model_.functions().reference();
+    model_.stiffness().at(model_.surface(), s_, stiffness_);
   }
 
   const MetaModel& model_;
   const ContactPoint& s_;
-  const Vec3& d_;
+  Vec3 d_;  // within the domain
   double h_;
   FieldSource own_;
   std::array<FieldSource, 3> beside_;  // at d + h e_i, of a load-driven model
-  std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3> slope_;  // dphi/dd_i
+  PatchStiffness::Value stiffness_;
+  std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3>
+      slope_;             // dphi/dd_i of orders two and more
+  std::size_t bends_{0};  // how many
 };
-
-/// Points half a patch's width from one, two of them across: to and from along each tangent.
-std::array<ContactPoint, 4> surround(const MetaModel& model,
-                                     const ContactPoint& at) noexcept PALPATE_NONBLOCKING {
-  const double h = 0.5 * model.attributes().patch_radius;
-  const Mat32 tangent = model.surface().frame(at).tangent;
-  std::array<ContactPoint, 4> ends{at, at, at, at};
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    const Vec3 way = (i % 2 == 0 ? h : -h) * tangent.col(static_cast<Eigen::Index>(i / 2));
-    (void)model.surface().move(ends[i], way, Reach::kAccessible);
-  }
-  return ends;
-}
 
 }  // namespace
 
 Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source, const ContactPoint& at,
                        FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  const PositionMix from = model.surface().mix(source.s), to = model.surface().mix(at);
-  if (from.count == 0 || to.count == 0) return Vec3::Zero();
-  std::array<double, MonomialBasis::kMaxCoefficients> all;
-  const std::span<double> phi(all.data(), index(model.functions().size()));
-  model.functions().evaluate(clampToDomain(source.parameter, model.response().limit(from)), phi);
-  return averaged(model, from, phi, source.gain, to, scratch);
+  if (model.surface().mix(at).count == 0) return Vec3::Zero();
+  return movedBy(model, source, scratch.touchAt(model, at), scratch)[0];
 }
 
 Mat3 patchDisplacementSlope(const MetaModel& model, std::span<const FieldSource> sources,
                             const ContactPoint& at, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  const auto ends = surround(model, at);
-  std::array<Vec3, 4> u;
-  std::fill(u.begin(), u.end(), Vec3(Vec3::Zero()));
-  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
-  std::array<double, MonomialBasis::kMaxCoefficients> all;
-  const std::span<double> phi(all.data(), index(model.functions().size()));
+  if (model.surface().mix(at).count == 0) return Mat3::Zero();
+  const TouchPatch& to = scratch.touchAt(model, at);
+  Mat3 by_lambda = Mat3::Zero();
   for (const FieldSource& source : sources) {
-    const PositionMix from = model.surface().mix(source.s);
-    if (from.count == 0) continue;
-    model.functions().evaluate(clampToDomain(source.parameter, model.response().limit(from)), phi);
-    model.farField().addAmplitudes(from, phi, source.gain, scratch.amplitudes);
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      u[i] += averagedNear(model, from, phi, source.gain, model.surface().mix(ends[i]), scratch.near_block);
+    const TouchPatch::Averages moved = movedBy(model, source, to, scratch);
+    for (std::size_t k = 0; k < 3; ++k) by_lambda.col(Eigen::Index(k)) += moved[k + 1];
   }
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    u[i] += model.patchAverage().ofModes(model.surface().mix(ends[i]), scratch.amplitudes);
-  Mat32 way, change;
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const auto to = static_cast<std::size_t>(2 * k);
-    way.col(k) = model.surface().position(ends[to]) - model.surface().position(ends[to + 1]);
-    change.col(k) = u[to] - u[to + 1];
-  }
-  const Mat2 square = way.transpose() * way;
-  const double least = 1e-3 * square.trace() * square.trace();
-  if (!(square.determinant() > least)) return Mat3::Zero();  // in a corner of the accessible part
-  return change * square.inverse() * way.transpose();
+  return by_lambda * model.surface().slopes(at.triangle);
 }
 
 FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
@@ -168,7 +160,7 @@ FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
   const ResponseStatus status = respond(model, s, d, response);
   FieldSource source{s, response.parameter, 1.0};
   const double answered = response.displacement.norm();
-  if (status == ResponseStatus::kClamped && answered > 0.0 &&
+  if (status == ResponseStatus::kBeyond && answered > 0.0 &&
       model.attributes().parameters != Parameters::kLevel)
     source.gain = d.norm() / answered;
   return source;  // without an answer its parameter is zero, and so is the field
@@ -191,9 +183,11 @@ void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, s
     const Influence of(model, s[b], d[b], 0.01 * length);
     for (std::size_t a = 0; a < tools; ++a) {
       if (a == b) continue;
-      const Vec3 u = of.on(s[a], scratch);
+      Vec3 u;
+      Mat3 change;
+      of.on(scratch.touchAt(model, s[a]), scratch, u, change);
       moved[a] += u;
-      slope.setPart(a, b, of.slopeOn(s[a], u, scratch));
+      slope.setPart(a, b, change);
     }
   }
   const SmallSquare inverse = dampedInverse(slope);

@@ -21,9 +21,8 @@ namespace palpate {
                                      const ContactPoint& at,
                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
 
-/// How the sum of patchDisplacement() changes as the patch moves over the rest surface: de/dX, 3 x 3, zero along its normal.
-/// A difference over the patch's own width, so that it has no steps where the sum, mixed linearly, has kinks.
-/// Cost of 4 patchDisplacement() for each source. Real-time: yes. Threads: one per scratch.
+/// How the sum of patchDisplacement() changes as the patch moves over the rest surface: de/dX, 3 x 3, zero along its
+/// triangle's normal. Cost of a patchDisplacement() for each source. Real-time: yes. Threads: one per scratch.
 [[nodiscard]] Mat3 patchDisplacementSlope(const MetaModel& model, std::span<const FieldSource> sources,
                                           const ContactPoint& at,
                                           FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;

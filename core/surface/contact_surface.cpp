@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/prefetch.h"
+
 namespace palpate {
 
 namespace {
@@ -194,20 +196,25 @@ ContactPoint ContactSurface::rest(const ContactPoint& fine) const noexcept PALPA
 
 TangentFrame ContactSurface::frame(const SurfaceMesh& rest,
                                    const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
-  TangentFrame frame = mesh_->frame(fine);
+  TangentFrame frame = mesh_->place(fine);
   Mat3 normal = Mat3::Zero(), to_rest = Mat3::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     const Slope& slope = slopes_[index(triangles_[3 * index(fine.triangle) + k])];
     normal += fine.barycentric[k] * slope.normal.cast<double>();
     to_rest += fine.barycentric[k] * slope.rest.cast<double>();
   }
-  const Mat3 weights = rest.slopes(this->rest(fine).triangle);
+  const Mat3 weights = rest.slopes(fine.triangle >> (2 * levels_));
   for (Eigen::Index i = 0; i < 2; ++i) {
     const Vec3 turning = normal * frame.tangent.col(i);
     frame.turning.col(i) = turning - frame.normal * frame.normal.dot(turning);
     frame.rates.col(i) = weights * to_rest * frame.tangent.col(i);
   }
   return frame;
+}
+
+void ContactSurface::expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING {
+  mesh_->expect(triangle);
+  for (std::size_t k = 0; k < 3; ++k) prefetch(slopes_[index(triangles_[3 * index(triangle) + k])]);
 }
 
 ContactPoint ContactSurface::fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING {

@@ -38,6 +38,8 @@ class ContactSurface {
   /// @param rest  the surface that this one was made from. Real-time: yes.
   [[nodiscard]] TangentFrame frame(const SurfaceMesh& rest,
                                    const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
+  /// Asks the cache for what frame() reads of a fine triangle. Real-time: yes.
+  void expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// The fine point that belongs to one of the rest surface. Real-time: yes.
   [[nodiscard]] ContactPoint fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING;
 

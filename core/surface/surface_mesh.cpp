@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/index.h"
+#include "core/base/prefetch.h"
 #include "core/data/datasets.h"
 
 namespace palpate {
@@ -101,6 +102,12 @@ void SurfaceMesh::buildNodeNormals() {
     if (!(node_normals_[i].norm() > 0.0)) refuse(triangle_at_node_[i], "has a node without a normal");
     node_normals_[i].normalize();
   }
+}
+
+double SurfaceMesh::distanceToCorners(std::int32_t triangle,
+                                      const Vec3& x) const noexcept PALPATE_NONBLOCKING {
+  const std::array<Vec3, 3> X = corners(triangle);
+  return std::min({(X[0] - x).norm(), (X[1] - x).norm(), (X[2] - x).norm()});
 }
 
 bool SurfaceMesh::complete(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING {
@@ -200,6 +207,17 @@ PositionMix SurfaceMesh::mix(const ContactPoint& s) const noexcept PALPATE_NONBL
   if (!(sum > kLeastWeight)) return {};
   for (double& weight : mix.weight) weight /= sum;
   return mix;
+}
+
+void SurfaceMesh::expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING {
+  prefetch(face_normals_[index(triangle)]);
+  prefetch(neighbours_[index(triangle)]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t node = index(triangles_[3 * index(triangle) + k]);
+    prefetch(positions_.data() + 3 * node, 3 * sizeof(double));
+    prefetch(node_normals_[node]);
+    if (!position_of_node_.empty()) prefetch(position_of_node_[node]);
+  }
 }
 
 Vec3 SurfaceMesh::interpolate(std::span<const float> field,

@@ -74,6 +74,8 @@ class SurfaceMesh {
   /// The contact positions that answer for s, and their weights. Real-time: yes.
   [[nodiscard]] PositionMix mix(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
 
+  /// Of frame(), what is at s: position, normal, `tangent`, `along`. Real-time: yes.
+  [[nodiscard]] TangentFrame place(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   /// Position, normal and how they change at s. Real-time: yes.
   [[nodiscard]] TangentFrame frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   /// Goes from s over the surface, straight within triangles, unfolded at their edges.
@@ -95,8 +97,13 @@ class SurfaceMesh {
   [[nodiscard]] Mat3 slopes(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// Rest positions of a triangle's nodes, m. Real-time: yes.
   [[nodiscard]] std::array<Vec3, 3> corners(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
+  /// From a point to the nearest of a triangle's nodes, m. Real-time: yes.
+  [[nodiscard]] double distanceToCorners(std::int32_t triangle,
+                                         const Vec3& x) const noexcept PALPATE_NONBLOCKING;
   /// Each of the triangle's nodes has a contact position. Real-time: yes.
   [[nodiscard]] bool complete(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
+  /// Asks the cache for what is read of a triangle and its nodes. Real-time: yes.
+  void expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// A field given at the nodes, at s. @param field  [Ns][3]. Real-time: yes.
   [[nodiscard]] Vec3 interpolate(std::span<const float> field,
                                  const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;

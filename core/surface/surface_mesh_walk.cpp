@@ -65,22 +65,26 @@ Mat3 SurfaceMesh::slopes(std::int32_t triangle) const noexcept PALPATE_NONBLOCKI
   return slopes;
 }
 
-TangentFrame SurfaceMesh::frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+TangentFrame SurfaceMesh::place(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
   TangentFrame frame;
   frame.position = position(s);
-  const Vec3 mixed = mixedNormal(s);
-  const double length = std::max(mixed.norm(), kLeastNormal);
-  frame.normal = length > kLeastNormal ? Vec3(mixed / length) : face_normals_[index(s.triangle)];
+  frame.normal = normal(s);
   frame.tangent = tangentsOf(frame.normal);
+  for (Eigen::Index i = 0; i < 2; ++i)
+    frame.along.col(i) = intoPlane(frame.tangent.col(i), face_normals_[index(s.triangle)], frame.normal);
+  return frame;
+}
+
+TangentFrame SurfaceMesh::frame(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+  TangentFrame frame = place(s);
+  const double length = std::max(mixedNormal(s).norm(), kLeastNormal);
   const std::int32_t* const node = triangles_.data() + 3 * index(s.triangle);
   const Mat3 slope = slopes(s.triangle);
   for (Eigen::Index i = 0; i < 2; ++i) {
-    const Vec3 w = intoPlane(frame.tangent.col(i), face_normals_[index(s.triangle)], frame.normal);
-    const Vec3 rate = slope * w;
+    const Vec3 rate = slope * frame.along.col(i);
     Vec3 turning = Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k)
       turning += rate[static_cast<Eigen::Index>(k)] * node_normals_[index(node[k])];
-    frame.along.col(i) = w;
     frame.rates.col(i) = rate;
     frame.turning.col(i) = (turning - frame.normal * frame.normal.dot(turning)) / length;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/prefetch.h"
 #include "core/contact/tool_group.h"
 
 namespace palpate {
@@ -21,6 +22,15 @@ ContactLaw Stepper::law(const ToolMemory& memory) const noexcept PALPATE_NONBLOC
   const LiveParameters& live = work_.live(numberOf(memory));
   return {live.friction, 1.0 / live.coupling_stiffness, live.youngs_modulus / model_.attributes().E,
           time_.period};
+}
+
+/// Other threads have filled the cache since the last tick.
+void Stepper::expect() const noexcept PALPATE_NONBLOCKING {
+  for (const ToolMemory& memory : work_.tools_) {
+    if (memory.contact.isFree() || memory.contact.s.triangle < 0) continue;
+    model_.expect(memory.contact.s, memory.contact.fine);
+    prefetch(memory);
+  }
 }
 
 /// Advances the tools' live parameters, and exchanges tips that touch nothing.
@@ -116,6 +126,7 @@ void Stepper::report(std::size_t tool, ToolResult& out) const noexcept PALPATE_N
 }
 
 StepStatus Stepper::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
+  expect();
   result = StepResult{};
   changeLive();
   ToolGroup::Contacts contacts{};

@@ -31,6 +31,7 @@ class Stepper {
     return static_cast<std::size_t>(&memory - work_.tools_.data());
   }
   [[nodiscard]] ContactLaw law(const ToolMemory& memory) const noexcept PALPATE_NONBLOCKING;
+  void expect() const noexcept PALPATE_NONBLOCKING;
   void changeLive() noexcept PALPATE_NONBLOCKING;
   void advance(const ToolInput& tool, ToolMemory& memory, ToolResult& out) noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool follow(const ToolInput& tool, TipWay way, ToolMemory& memory,

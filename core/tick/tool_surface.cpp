@@ -35,7 +35,6 @@ bool fieldAtAnchors(const MetaModel& model, std::span<const ToolMemory, kMaxTool
   if (sources.empty()) return true;
   std::array<ContactPoint, kMaxTools> anchors;
   for (std::size_t i = 0; i < tools.size(); ++i) anchors[i] = tools[i].contact.s;
-  findAmplitudes(model, sources, scratch.amplitudes);
   fieldAt(model, sources, scratch, anchors, u);
   bool finite = true;
   for (Vec3& shown : u) {

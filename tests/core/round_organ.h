@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +28,14 @@ inline const MetaModel& roundOrgan() {
   return model;
 }
 
+/// K at a contact position, N/m.
+inline Mat3 stiffnessOf(const modelfile::ModelData& data, std::size_t position) {
+  const double* const row = data.contact_stiffness.data() + kStiffnessNumbers * position;
+  Mat3 K;
+  K << row[0], row[4], row[8], row[4], row[12], row[16], row[8], row[16], row[20];
+  return K;
+}
+
 /// Fields of an organ that goes along as a whole, by 0.8 of what a tool does to its patch.
 inline void goesAlong(modelfile::ModelData& data) {
   constexpr double kShared = 0.8;
@@ -36,13 +45,18 @@ inline void goesAlong(modelfile::ModelData& data) {
   const std::size_t C = data.modes_Y.size() / positions / static_cast<std::size_t>(options.modes);
   data.modes_X.assign(kModes * 3 * nodes, 0.0F);
   data.modes_Y.assign(positions * C * kModes, 0.0F);
-  for (std::size_t axis = 0; axis < kModes; ++axis) {
+  data.green_Y.assign(positions * 3 * kModes, 0.0F);
+  for (std::size_t axis = 0; axis < kModes; ++axis)
     for (std::size_t node = 0; node < nodes; ++node) data.modes_X[axis * 3 * nodes + 3 * node + axis] = 1.0F;
-    for (std::size_t m = 0; m < positions; ++m)
-      data.modes_Y[(m * C + axis) * kModes + axis] =
-          static_cast<float>(kShared * options.reference_displacement);
+  for (std::size_t m = 0; m < positions; ++m) {
+    const Mat3 share = kShared * stiffnessOf(data, m).inverse();
+    for (std::size_t load = 0; load < 3; ++load)
+      for (std::size_t axis = 0; axis < kModes; ++axis)
+        data.green_Y[(3 * m + load) * kModes + axis] =
+            static_cast<float>(share(Eigen::Index(axis), Eigen::Index(load)));
   }
   std::fill(data.near_field.begin(), data.near_field.end(), 0.0F);
+  std::fill(data.green_near.begin(), data.green_near.end(), 0.0F);
 }
 
 /// Tip centre `depth` deep, m, over the round organ at an angle from the top, rad.

@@ -29,6 +29,7 @@ inline MetaModel thinPlate(double half) {
     const bool linear = alpha[0] + alpha[1] + alpha[2] == 1 && alpha[i % 3] == 1;
     data.contact_force[i] = linear ? kPlateStiffness * options.reference_displacement : 0.0;
   }
+  fillStiffness(data, [](const Vec3&) -> Mat3 { return kPlateStiffness * Mat3::Identity(); });
   goesAlong(data);
   const TemporaryFile file("plate.h5");
   modelfile::writeModel(file.path(), data);

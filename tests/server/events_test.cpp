@@ -88,7 +88,7 @@ TEST_F(EventsTest, AFlagIsLoggedWhenItBeginsAndAtMostOnceASecond) {
     ASSERT_TRUE(channels_->ticks.push(record));
     events_.drain(now_ns);
   };
-  const std::string warning = "tool 1: pressed beyond the model's domain: answer clamped\n";
+  const std::string warning = "tool 1: pressed beyond the model's domain\n";
   flick(kSecond);
   EXPECT_EQ(takeLog(), "tool 1: first pose\n" + warning);
   flick(kSecond + 1);

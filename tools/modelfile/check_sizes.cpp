@@ -45,7 +45,12 @@ void checkContact(const ModelData& d, std::size_t M, std::size_t C) {
   expectSize(dataset::kContactForce.name(), d.contact_force.size(), M * Cf * 3);
   expectSize(dataset::kContactDisplacement.name(), d.contact_displacement.size(),
              load_driven ? M * C * 3 : 0);
+  if (load_driven)
+    expectSize(dataset::kContactStiffness.name(), d.contact_stiffness.size(), 0);
+  else
+    expectTuples(dataset::kContactStiffness.name(), d.contact_stiffness.size(), kStiffnessNumbers);
   expectSize(dataset::kContactDomainRadius.name(), d.contact_domain_radius.size(), M);
+  expectSize(dataset::kContactSeriesRadius.name(), d.contact_series_radius.size(), load_driven ? 0 : M);
   expectTuples(dataset::kContactTriangles.name(), d.contact_triangles.size(), 3);
 }
 
@@ -60,9 +65,16 @@ void checkLevels(const ModelData& d, std::size_t C) {
 
 void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t C) {
   expectTuples(dataset::kModesX.name(), d.modes_X.size(), 3 * Ns);
-  expectSize(dataset::kModesY.name(), d.modes_Y.size(), M * C * (d.modes_X.size() / (3 * Ns)));
+  const std::size_t n = modeCount(d), Cm = modeCoefficients(d.attributes, C);
+  expectSize(dataset::kModesY.name(), d.modes_Y.size(), M * Cm * n);
   expectSize(dataset::kNearOffset.name(), d.near_offset.size(), M + 1);
-  expectSize(dataset::kNearField.name(), d.near_field.size(), 3 * C * d.near_node.size());
+  expectSize(dataset::kNearField.name(), d.near_field.size(), 3 * Cm * d.near_node.size());
+  const bool displaced = d.attributes.parameters == Parameters::kDisplacement;
+  const std::size_t G = displaced ? d.green_node.size() : 0;
+  expectSize(dataset::kGreenNode.name(), d.green_node.size(), G);
+  expectSize(dataset::kGreenY.name(), d.green_Y.size(), G * 3 * n);
+  expectSize(dataset::kGreenOffset.name(), d.green_offset.size(), displaced ? G + 1 : 0);
+  expectSize(dataset::kGreenNear.name(), d.green_near.size(), 9 * d.green_near_node.size());
 }
 
 void checkMesh(const ModelData& d) {

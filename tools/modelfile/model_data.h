@@ -23,7 +23,7 @@ class ModelFileError : public std::runtime_error {
 
 /// Everything that a model file holds, as vectors; the writer rounds the fields to whole numbers. Shapes are row-major as in docs/model_file.md;
 /// Ns surface nodes, T triangles, M contact positions, C coefficients of the fields
-/// (MonomialBasis::size(order), or the number of level functions), n modes, N volume nodes, V tetrahedra.
+/// (MonomialBasis::size(order), or the number of level functions), Cm = modeCoefficients(C), n modes, N volume nodes, V tetrahedra.
 /// attributes.parameters chooses the kind; what belongs to the other kinds stays empty. Stored coefficient =
 /// true coefficient * d_ref^|alpha|, or f_ref^|alpha|. Indices are 0-based.
 struct ModelData {
@@ -39,13 +39,22 @@ struct ModelData {
   std::vector<double> contact_force;  ///< [M][Cf][3] N, Cf = size(force_order); "displacement" only
   std::vector<double>
       contact_displacement;  ///< [M][C][3] m, d_alpha(s) as the modes give it; "force", "level"
+  std::vector<double>
+      contact_stiffness;  ///< [places][6][4] K_s at rest and its gradient; "displacement" only
+  // Nodal Green's functions, "displacement" only: G nodes that carry load.
+  std::vector<std::int32_t> green_node;            ///< [G] surface nodes, the contact positions first
+  std::vector<float> green_Y;                      ///< [G][3][n] m/N
+  std::vector<std::int64_t> green_offset;          ///< [G+1]
+  std::vector<std::int32_t> green_near_node;       ///< [sum Kg]
+  std::vector<float> green_near;                   ///< per node [3 loads][Kg][3] m/N
   std::vector<double> contact_domain_radius;       ///< [M] d_max, m, or f_max, N, or t_max
+  std::vector<double> contact_series_radius;       ///< [M] of a "displacement" model: r_max, m
   std::vector<double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::vector<float> modes_X;                      ///< [n][3 Ns]
-  std::vector<float> modes_Y;                      ///< [M][C][n] m
+  std::vector<float> modes_Y;                      ///< [M][Cm][n] m
   std::vector<std::int64_t> near_offset;           ///< [M+1]
   std::vector<std::int32_t> near_node;             ///< [sum K]
-  std::vector<float> near_field;                   ///< per position [C][K_m][3] m
+  std::vector<float> near_field;                   ///< per position [Cm][K_m][3] m
   std::vector<double> mesh_nodes;                  ///< [N][3] m
   std::vector<std::int32_t> mesh_tetrahedra;       ///< [V][4]
   std::vector<std::int64_t> mesh_node_tag;         ///< [N]

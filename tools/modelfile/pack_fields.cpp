@@ -20,34 +20,60 @@ float scaleFor(std::span<const float> block) {
   return std::max(most / 32767.0F, std::numeric_limits<float>::min());
 }
 
-/// Largest amplitude of each mode over the largest of all, 1 for a mode without any.
-std::vector<float> sharesOf(std::span<const float> Y, std::size_t modes) {
-  std::vector<float> share(modes, 0.0F);
+/// Raises the share of each mode to its largest amplitude over the largest of all.
+void raiseShares(std::span<const float> Y, std::span<float> share) {
+  std::vector<float> largest(share.size(), 0.0F);
   for (std::size_t i = 0; i < Y.size(); ++i)
-    if (std::isfinite(Y[i])) share[i % modes] = std::max(share[i % modes], std::abs(Y[i]));
-  const float most = share.empty() ? 0.0F : *std::max_element(share.begin(), share.end());
-  for (float& s : share) s = s > 0.0F ? s / most : 1.0F;
-  return share;
+    if (std::isfinite(Y[i])) largest[i % share.size()] = std::max(largest[i % share.size()], std::abs(Y[i]));
+  const float most = largest.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
+  for (std::size_t k = 0; k < share.size() && most > 0.0F; ++k)
+    share[k] = std::max(share[k], largest[k] / most);
+}
+
+/// Y_k / share_k. Without modes too, each row has its scale.
+void addAmplitudes(std::span<const float> Y, std::size_t rows, std::span<const float> share,
+                   PackedNumbers& to) {
+  const std::size_t n = share.size();
+  std::vector<float> row(n);
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t k = 0; k < n; ++k) row[k] = Y[r * n + k] / share[k];
+    to.add(row);
+  }
 }
 
 /// X_k share_k and Y_k / share_k: a row of Y has one scale, and would round weak modes as coarsely as strong ones.
-void packModes(const ModelData& data, std::size_t rows, PackedFields& to) {
+void packModes(const ModelData& data, PackedFields& to) {
   const std::size_t n = modeCount(data), numbers = 3 * data.surface_mesh_tag.size();
-  const std::vector<float> share = sharesOf(data.modes_Y, n);
-  std::vector<float> mode(numbers), row(n);
+  std::vector<float> share(n, 0.0F), mode(numbers);
+  raiseShares(data.modes_Y, share);
+  raiseShares(data.green_Y, share);
+  for (float& s : share) s = s > 0.0F ? s : 1.0F;  // of a mode without amplitudes
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t i = 0; i < numbers; ++i) mode[i] = share[k] * data.modes_X[k * numbers + i];
     to.X.add(mode);
   }
-  for (std::size_t r = 0; r < rows; ++r) {
-    for (std::size_t k = 0; k < n; ++k) row[k] = data.modes_Y[r * n + k] / share[k];
-    to.Y.add(row);
-  }
+  const std::size_t Cm = modeCoefficients(data.attributes, fieldCoefficients(data));
+  addAmplitudes(data.modes_Y, data.contact_node.size() * Cm, share, to.Y);
+  addAmplitudes(data.green_Y, data.green_node.size() * kLinearCoefficients, share, to.green_Y);
 }
 
 void addBlocks(std::span<const float> numbers, std::size_t blocks, PackedNumbers& to) {
   const std::size_t length = blocks == 0 ? 0 : numbers.size() / blocks;
   for (std::size_t b = 0; b < blocks; ++b) to.add(numbers.subspan(b * length, length));
+}
+
+/// Blocks of near nodes, `rows` of three numbers a node each.
+void packNear(std::span<const float> near, std::span<const std::int64_t> offset, std::size_t rows,
+              PackedNumbers& to) {
+  const auto end = rows == 0 ? 0 : static_cast<std::int64_t>(near.size() / (3 * rows));
+  const auto numbers = [&](std::int64_t nodes) { return 3 * rows * static_cast<std::size_t>(nodes); };
+  for (std::size_t m = 0; m + 1 < offset.size(); ++m) {
+    // Offsets that make no sense are the reader's to refuse.
+    const std::int64_t first = std::clamp<std::int64_t>(offset[m], 0, end);
+    const std::int64_t last = std::clamp(offset[m + 1], first, end);
+    addBlocks(near.subspan(numbers(first), numbers(last - first)), rows, to);
+  }
+  to.whole.resize(near.size());
 }
 
 }  // namespace
@@ -61,19 +87,11 @@ void PackedNumbers::add(std::span<const float> block) {
 }
 
 PackedFields packFields(const ModelData& data) {
-  const std::size_t C = fieldCoefficients(data);
-  const std::span<const float> near = data.near_field;
-  const auto end = static_cast<std::int64_t>(data.near_node.size());
   PackedFields packed;
-  packModes(data, data.contact_node.size() * C, packed);
-  for (std::size_t m = 0; m < data.contact_node.size(); ++m) {
-    // Offsets that make no sense are the reader's to refuse.
-    const std::int64_t first = std::clamp<std::int64_t>(data.near_offset[m], 0, end);
-    const std::int64_t last = std::clamp(data.near_offset[m + 1], first, end);
-    const auto numbers = [&](std::int64_t nodes) { return 3 * C * static_cast<std::size_t>(nodes); };
-    addBlocks(near.subspan(numbers(first), numbers(last - first)), C, packed.near);
-  }
-  packed.near.whole.resize(near.size());
+  packModes(data, packed);
+  packNear(data.near_field, data.near_offset, modeCoefficients(data.attributes, fieldCoefficients(data)),
+           packed.near);
+  packNear(data.green_near, data.green_offset, kLinearCoefficients, packed.green_near);
   return packed;
 }
 

@@ -82,6 +82,7 @@ void makeGroups(const Hdf5Handle& file, const ModelAttributes& attributes, bool 
                            dataset::kNearNode.path, dataset::kMeshNodes.path})
     makeGroup(file, groupOf(path));
   if (attributes.parameters == Parameters::kLevel) makeGroup(file, groupOf(dataset::kLevelsZ.path));
+  if (attributes.parameters == Parameters::kDisplacement) makeGroup(file, groupOf(dataset::kGreenNode.path));
   if (regions) makeGroup(file, groupOf(dataset::kRegionName.path));
 }
 
@@ -179,7 +180,9 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.contact_triangles = d.contact_triangles.empty() ? d.surface_triangles : d.contact_triangles;
   v.contact_force = d.contact_force;
   v.contact_displacement = d.contact_displacement;
+  v.contact_stiffness = d.contact_stiffness;
   v.contact_domain_radius = d.contact_domain_radius;
+  v.contact_series_radius = d.contact_series_radius;
   v.levels_Z = d.levels_Z;
   if (d.attributes.parameters == Parameters::kLevel) v.level_functions = fieldCoefficients(d);
   v.modes_X = fields.X.whole;
@@ -190,6 +193,13 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.near_node = d.near_node;
   v.near_field = fields.near.whole;
   v.near_scale = fields.near.scale;
+  v.green_node = d.green_node;
+  v.green_Y = fields.green_Y.whole;
+  v.green_Y_scale = fields.green_Y.scale;
+  v.green_offset = d.green_offset;
+  v.green_near_node = d.green_near_node;
+  v.green_near = fields.green_near.whole;
+  v.green_near_scale = fields.green_near.scale;
   v.mesh_nodes = d.mesh_nodes;
   v.mesh_tetrahedra = d.mesh_tetrahedra;
   v.mesh_node_tag = d.mesh_node_tag;

@@ -81,4 +81,38 @@ TEST(Kernels, AddRowsAddsEachRowByItsWeightAndScale) {
     }
 }
 
+TEST(Kernels, PlacedRowsAreMixedAndMultipliedWhereTheyLie) {
+  const InstructionSets sets;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  constexpr std::size_t kStride = 80, kRows = 9;
+  std::vector<double> A(kStride * kRows);
+  for (double& a : A) a = number(random);
+  const std::vector<std::int32_t> row{3, 0, 8, 5, 1, 7};
+  for (const std::int64_t set : sets.list()) {
+    hwy::SetSupportedTargetsForTest(set);
+    chooseKernels();
+    for (const std::size_t count : {0U, 1U, 4U, 6U})
+      for (const std::size_t length : {1U, 16U, 67U, 80U}) {
+        std::vector<double> weight(count), mixed(length, 7.0), sum(length, 0.0);
+        std::vector<double> y(length), dots(count);
+        for (double& w : weight) w = number(random);
+        for (double& x : y) x = number(random);
+        mixRows({A.data(), kStride, row.data(), count}, weight.data(), length, mixed.data());
+        dotRows({A.data(), kStride, row.data(), count}, y.data(), length, dots.data());
+        for (std::size_t r = 0; r < count; ++r) {
+          double dot = 0.0;
+          for (std::size_t i = 0; i < length; ++i) {
+            const double a = A[kStride * static_cast<std::size_t>(row[r]) + i];
+            sum[i] += weight[r] * a;
+            dot += a * y[i];
+          }
+          EXPECT_NEAR(dots[r], dot, 1e-13) << hwy::TargetName(set);
+        }
+        for (std::size_t i = 0; i < length; ++i)
+          EXPECT_NEAR(mixed[i], sum[i], 1e-13) << hwy::TargetName(set) << ' ' << count << ' ' << length;
+      }
+  }
+}
+
 }  // namespace palpate::testing

@@ -83,17 +83,6 @@ TEST(MonomialBasis, BendsAreTheDerivativesOfTheGradient) {
   }
 }
 
-TEST(MonomialBasis, ProductsAreTheMonomialsUpToTheNextDegree) {
-  const MonomialBasis basis(4), next(5);
-  const Vec3 x(0.3, -1.2, 0.7);
-  std::vector<double> values(static_cast<std::size_t>(basis.size()));
-  std::vector<double> expected(static_cast<std::size_t>(next.size())), products(expected.size() - 3);
-  basis.evaluate(x, values);
-  basis.products(x, values, products);
-  next.evaluate(x, expected);
-  for (std::size_t k = 0; k < products.size(); ++k) EXPECT_DOUBLE_EQ(products[k], expected[k + 3]);
-}
-
 TEST(MonomialBasis, RefusesOrdersOutOfRange) {
   for (const int order : {0, 8, -1}) {
     try {

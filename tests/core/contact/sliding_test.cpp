@@ -230,6 +230,9 @@ MetaModel organOfUnequalStiffness(double contrast) {
       data.contact_force[i] =
           linear ? kStiffness * (i % 3 == 1 ? contrast : 1.0) * options.reference_displacement : 0.0;
     }
+    fillStiffness(data, [&](const Vec3&) -> Mat3 {
+      return kStiffness * Vec3(1.0, contrast, 1.0).asDiagonal().toDenseMatrix();
+    });
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "../load_driven.h"
 #include "../round_organ.h"
+#include "core/surface/smooth_places.h"
 
 namespace palpate::testing {
 
@@ -121,6 +122,7 @@ TEST(ToolsTogether, WhatIsNoNumberOfOneToolDoesNotStayWithTheOthers) {
   const MetaModel overflows = spoiled({}, [](modelfile::ModelData& data) {
     for (float& x : data.modes_X) x *= 1e30F;
     for (float& y : data.modes_Y) y *= 1e30F;
+    for (float& y : data.green_Y) y *= 1e30F;
   });
   Driver driver(overflows, bare(0.3));
   press(driver, 1, 0.002);
@@ -149,25 +151,30 @@ const MetaModel& reciprocalOrgan() {
     const SyntheticOptions options;
     const std::size_t nodes = data.surface_positions.size() / 3, positions = data.contact_node.size();
     const auto C = static_cast<std::size_t>(MonomialBasis(options.order).size());
+    const auto stiffness = [&](const Vec3& n) {
+      return kStiffness * (1.0 + kContrast * std::sin(3.0 * n.x() + 2.0 * n.y() + n.z()));
+    };
     const auto normal = [&](std::size_t node) -> Vec3 {
       return Eigen::Map<const Vec3>(data.surface_positions.data() + 3 * node).normalized();
     };
     data.modes_X.assign(kModes * 3 * nodes, 0.0F);
-    data.modes_Y.assign(positions * C * kModes, 0.0F);
+    data.modes_Y.assign(positions * (C - 3) * kModes, 0.0F);
+    data.green_Y.assign(positions * 3 * kModes, 0.0F);
     std::fill(data.near_field.begin(), data.near_field.end(), 0.0F);
+    std::fill(data.green_near.begin(), data.green_near.end(), 0.0F);
     std::fill(data.contact_force.begin(), data.contact_force.end(), 0.0);
     for (std::size_t mode = 0; mode < kModes; ++mode)
       for (std::size_t node = 0; node < nodes; ++node)
         data.modes_X[(mode * nodes + node) * 3 + mode % 3] = static_cast<float>(part(normal(node), mode / 3));
     for (std::size_t m = 0; m < positions; ++m) {
       const Vec3 n = normal(static_cast<std::size_t>(data.contact_node[m]));
-      const double k = 1.0 + kContrast * std::sin(3.0 * n.x() + 2.0 * n.y() + n.z());
       for (std::size_t mode = 0; mode < kModes; ++mode)
-        data.modes_Y[(m * C + mode % 3) * kModes + mode] =
-            static_cast<float>(kShared * k * part(n, mode / 3) * options.reference_displacement);
+        data.green_Y[(3 * m + mode % 3) * kModes + mode] =
+            static_cast<float>(kShared / kStiffness * part(n, mode / 3));
       for (std::size_t axis = 0; axis < 3; ++axis)
-        data.contact_force[(m * C + axis) * 3 + axis] = kStiffness * k * options.reference_displacement;
+        data.contact_force[(m * C + axis) * 3 + axis] = stiffness(n) * options.reference_displacement;
     }
+    fillStiffness(data, [&](const Vec3& X) -> Mat3 { return stiffness(X.normalized()) * Mat3::Identity(); });
   });
   return model;
 }
@@ -227,6 +234,18 @@ TEST(ToolsTogether, AToolThatTheOrganWouldPullDoesNotShakeTheOthers) {
     for (std::size_t m = 0; m < data.contact_node.size(); ++m) {
       if (data.surface_positions[3 * static_cast<std::size_t>(data.contact_node[m])] > -0.01) continue;
       for (std::size_t i = m * width; i < (m + 1) * width; ++i) data.contact_force[i] *= -1.0;
+    }
+    const SmoothPlaces places(data.surface_positions, data.surface_triangles, data.position_of_node);
+    for (std::size_t place = 0; place < places.size(); ++place) {
+      const ContactPoint& s = places.views(place).front().s;
+      double x = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto node = data.surface_triangles[3 * static_cast<std::size_t>(s.triangle) + k];
+        x += s.barycentric[k] * data.surface_positions[3 * static_cast<std::size_t>(node)];
+      }
+      if (x > -0.01) continue;
+      for (std::size_t i = 0; i < kStiffnessNumbers; ++i)
+        data.contact_stiffness[place * kStiffnessNumbers + i] *= -1.0;
     }
   });
   StepConfig config;

@@ -43,7 +43,9 @@ ModelData doubleCone(int n) {
   }
   d.contact_accessible.assign(d.contact_node.size(), 1);
   d.contact_domain_radius.assign(d.contact_node.size(), 0.001);
+  d.contact_series_radius = d.contact_domain_radius;
   d.contact_force.assign(9 * d.contact_node.size(), 1.0);
+  d.green_offset.assign(1, 0);
   d.near_offset.assign(d.contact_node.size() + 1, 0);
   d.mesh_nodes = d.surface_positions;
   d.mesh_node_tag = d.surface_mesh_tag;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <tuple>
 
 #include "../load_case.h"
@@ -29,7 +30,9 @@ TEST(Load, GivesBackEveryBitThatWasWritten) {
   EXPECT_TRUE(sameBits(d.contact_node, v.contact_node));
   EXPECT_TRUE(sameBits(d.contact_accessible, v.contact_accessible));
   EXPECT_TRUE(sameBits(d.contact_force, v.contact_force));
+  EXPECT_TRUE(sameBits(d.contact_stiffness, v.contact_stiffness));
   EXPECT_TRUE(sameBits(d.contact_domain_radius, v.contact_domain_radius));
+  EXPECT_TRUE(sameBits(d.contact_series_radius, v.contact_series_radius));
   const modelfile::PackedFields fields = modelfile::packFields(d);
   EXPECT_TRUE(sameBits(fields.X.whole, v.modes_X));
   EXPECT_TRUE(sameBits(fields.X.scale, v.modes_X_scale));
@@ -39,6 +42,13 @@ TEST(Load, GivesBackEveryBitThatWasWritten) {
   EXPECT_TRUE(sameBits(d.near_node, v.near_node));
   EXPECT_TRUE(sameBits(fields.near.whole, v.near_field));
   EXPECT_TRUE(sameBits(fields.near.scale, v.near_scale));
+  EXPECT_TRUE(sameBits(d.green_node, v.green_node));
+  EXPECT_TRUE(sameBits(fields.green_Y.whole, v.green_Y));
+  EXPECT_TRUE(sameBits(fields.green_Y.scale, v.green_Y_scale));
+  EXPECT_TRUE(sameBits(d.green_offset, v.green_offset));
+  EXPECT_TRUE(sameBits(d.green_near_node, v.green_near_node));
+  EXPECT_TRUE(sameBits(fields.green_near.whole, v.green_near));
+  EXPECT_TRUE(sameBits(fields.green_near.scale, v.green_near_scale));
   EXPECT_TRUE(sameBits(d.mesh_nodes, v.mesh_nodes));
   EXPECT_TRUE(sameBits(d.mesh_tetrahedra, v.mesh_tetrahedra));
   EXPECT_TRUE(sameBits(d.mesh_node_tag, v.mesh_node_tag));
@@ -59,6 +69,12 @@ TEST(Load, TakesAModelWithoutModesAndNearField) {
   d.modes_Y.clear();
   d.near_node.clear();
   d.near_field.clear();
+  d.green_Y.clear();
+  d.green_near_node.clear();
+  d.green_near.clear();
+  d.green_node.resize(d.surface_mesh_tag.size());  // without fixed nodes all may be loaded
+  std::iota(d.green_node.begin(), d.green_node.end(), 0);
+  d.green_offset.assign(d.green_node.size() + 1, 0);
   std::fill(d.near_offset.begin(), d.near_offset.end(), 0);
   d.mesh_fixed.clear();
   const TemporaryFile file("response-only.h5");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -13,14 +14,45 @@ namespace palpate::testing {
 
 namespace {
 
+/// u += sum_i w_i (Z_i + N_i) K d.
+void addLinear(const ContactPoint& s, const Vec3& d, std::vector<double>& u) {
+  const ModelView& v = organ().view();
+  const std::size_t n = v.modes();
+  PatchNodes patch = organ().patches().room();
+  organ().patches().at(s, false, patch);
+  PatchStiffness::Value stiffness;
+  organ().stiffness().at(organ().surface(), s, stiffness);
+  for (std::size_t j = 0; j < patch.count; ++j) {
+    const Vec3 f = patch.weight[j] * (stiffness.K * d);
+    const auto g = static_cast<std::size_t>(
+        std::find(v.green_node.begin(), v.green_node.end(), patch.node[j]) - v.green_node.begin());
+    ASSERT_LT(g, v.green_node.size());
+    const auto first = static_cast<std::size_t>(v.green_offset[g]);
+    const auto K = static_cast<std::size_t>(v.green_offset[g + 1]) - first;
+    for (std::size_t load = 0; load < 3; ++load) {
+      const double share = f[static_cast<Eigen::Index>(load)];
+      for (std::size_t mode = 0; mode < n; ++mode) {
+        const double y = share * double(v.green_Y_scale[3 * g + load]) * v.green_Y[(3 * g + load) * n + mode];
+        for (std::size_t i = 0; i < u.size(); ++i)
+          u[i] += y * double(v.modes_X_scale[mode]) * v.modes_X[mode * u.size() + i];
+      }
+      for (std::size_t i = 0; i < 3 * K; ++i)
+        u[3 * static_cast<std::size_t>(v.green_near_node[first + i / 3]) + i % 3] +=
+            share * double(v.green_near_scale[3 * g + load]) * v.green_near[9 * first + load * 3 * K + i];
+    }
+  }
+}
+
 /// The sum of the format's text, term by term, in double precision.
 std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
   const ModelView& v = organ().view();
-  const std::size_t C = static_cast<std::size_t>(organ().functions().size()), n = v.modes();
-  std::vector<double> monomial(C), u(v.surface_positions.size());
-  MonomialBasis(options().order).evaluate(d / options().reference_displacement, monomial);
-  const PositionMix mix = organ().surface().mix(s);
-  for (std::size_t b = 0; b < static_cast<std::size_t>(mix.count); ++b) {
+  const std::size_t C = static_cast<std::size_t>(organ().functions().size()) - 3, n = v.modes();
+  std::vector<double> all(C + 3), u(v.surface_positions.size());
+  MonomialBasis(options().order).evaluate(d / options().reference_displacement, all);
+  const std::vector<double> monomial(all.begin() + 3, all.end());
+  addLinear(s, d, u);
+  const Stencil mix = organ().mixing().at(organ().surface(), s);
+  for (std::size_t b = 0; b < mix.count; ++b) {
     const auto m = static_cast<std::size_t>(mix.position[b]);
     const auto first = static_cast<std::size_t>(v.near_offset[m]);
     const auto K = static_cast<std::size_t>(v.near_offset[m + 1]) - first;

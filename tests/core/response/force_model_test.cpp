@@ -57,7 +57,7 @@ TEST(ForceModel, StiffnessIsTheDerivativeOfForceInsideAndBeyondTheDomain) {
         ++compared;
         EXPECT_LT((here.stiffness.col(j) - (plus.force - minus.force) / (2.0 * h)).norm(), 1e-2);
       }
-      if (status == ResponseStatus::kClamped) {
+      if (status == ResponseStatus::kBeyond) {
         EXPECT_LT((here.stiffness * d).norm(), 1e-9) << "the force grows no more";
       }
     }
@@ -70,11 +70,11 @@ TEST(ForceModel, BeyondTheDomainTheForceStaysAndTheDisplacementIsScaled) {
   for (int trial = 0; trial < 100; ++trial) {
     const ContactPoint s = random.contactPoint(forceModel());
     const Vec3 d = random.vector(1.0).normalized() * 0.05;
-    const Response far = answerTo(forceModel(), s, d, ResponseStatus::kClamped);
+    const Response far = answerTo(forceModel(), s, d, ResponseStatus::kBeyond);
     EXPECT_NEAR(far.force.norm(), forceOptions().domain_force, 1e-12);
     EXPECT_LT(far.displacement.cross(d).norm(), 1e-10 * d.norm() * far.displacement.norm());
     EXPECT_NEAR(far.displacement.norm(), far.domain_radius, 1e-12);
-    const Response farther = answerTo(forceModel(), s, 1e200 * d, ResponseStatus::kClamped);
+    const Response farther = answerTo(forceModel(), s, 1e200 * d, ResponseStatus::kBeyond);
     EXPECT_LT((far.force - farther.force).norm(), 1e-9);
   }
 }
@@ -84,10 +84,10 @@ TEST(ForceModel, AnswerIsContinuousAcrossTheDomainsEdge) {
   for (int trial = 0; trial < 50; ++trial) {
     const ContactPoint s = random.contactPoint(forceModel());
     const Vec3 edge =
-        answerTo(forceModel(), s, random.vector(1.0).normalized() * 0.05, ResponseStatus::kClamped)
+        answerTo(forceModel(), s, random.vector(1.0).normalized() * 0.05, ResponseStatus::kBeyond)
             .displacement;
     const Response in = answerTo(forceModel(), s, edge * (1.0 - 1e-7), ResponseStatus::kOk);
-    const Response out = answerTo(forceModel(), s, edge * (1.0 + 1e-7), ResponseStatus::kClamped);
+    const Response out = answerTo(forceModel(), s, edge * (1.0 + 1e-7), ResponseStatus::kBeyond);
     EXPECT_LT((in.force - out.force).norm(), 1e-5);
     EXPECT_LT((in.displacement - out.displacement).norm(), 1e-8);
     EXPECT_NEAR(in.domain_radius, out.domain_radius, 1e-8);
@@ -133,7 +133,7 @@ TEST(ForceModel, BeyondAFoldTheForceStaysNearTheFoldWithoutSawTeeth) {
     EXPECT_LT((out.force - last).norm(), (q < 1.01 ? 1.1 * std::sqrt(step) : 1e-2) * f_fold) << q;
     last = out.force;
     if (q < 1.001) continue;
-    EXPECT_EQ(status, ResponseStatus::kClamped) << q;
+    EXPECT_EQ(status, ResponseStatus::kBeyond) << q;
     EXPECT_EQ(out.stiffness, Mat3::Zero());
     EXPECT_NEAR(out.force.x(), f_fold, 0.02 * f_fold) << q;
     EXPECT_NEAR(out.displacement.x(), d_fold, 1e-3 * d_fold);
@@ -176,7 +176,7 @@ TEST(ForceModel, NumbersWithoutAnAnswerAreNoForceAndAreFlagged) {
     });
     Random random;
     const Response out =
-        answerTo(model, random.contactPoint(model), {0.001, 0.0, -0.002}, ResponseStatus::kClamped);
+        answerTo(model, random.contactPoint(model), {0.001, 0.0, -0.002}, ResponseStatus::kBeyond);
     EXPECT_TRUE(out.force.array().isNaN().all());
     EXPECT_EQ(out.stiffness, Mat3::Zero());
     EXPECT_EQ(out.displacement, Vec3::Zero());
@@ -188,7 +188,7 @@ TEST(ForceModel, NumbersWithoutAnAnswerAreNoForceAndAreFlagged) {
 TEST(ForceModel, ADisplacementThatIsNoNumberGivesNoForce) {
   Random random;
   const Response out = answerTo(forceModel(), random.contactPoint(forceModel()), Vec3::Constant(std::nan("")),
-                                ResponseStatus::kClamped);
+                                ResponseStatus::kBeyond);
   EXPECT_EQ(out.force, Vec3::Zero());
   EXPECT_EQ(out.stiffness, Mat3::Zero());
 }
@@ -223,7 +223,7 @@ TEST(ForceModel, APrescribedForceBeyondTheDomainIsClamped) {
   const ContactPoint s = random.contactPoint(forceModel());
   const Vec3 f = random.vector(1.0).normalized() * 3.0;
   Response out;
-  EXPECT_EQ(respondToLoad(forceModel(), s, f, out), ResponseStatus::kClamped);
+  EXPECT_EQ(respondToLoad(forceModel(), s, f, out), ResponseStatus::kBeyond);
   EXPECT_LT((out.force - f * 0.4).norm(), 1e-12);
   EXPECT_EQ(out.displacement, underLoad(forceModel(), s, out.force).displacement);
   EXPECT_NEAR(out.domain_radius, out.displacement.norm(), 1e-12);

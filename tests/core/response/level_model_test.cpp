@@ -62,13 +62,13 @@ TEST(LevelModel, StaysAtItsLastLevelAndAtZero) {
   Random random;
   const ContactPoint s = random.contactPoint(levelModel());
   const Vec3 e = Eigen::Map<const Vec3>(levelModel().attributes().load_direction.data());
-  const Response far = answerTo(levelModel(), s, 0.05 * e, ResponseStatus::kClamped);
+  const Response far = answerTo(levelModel(), s, 0.05 * e, ResponseStatus::kBeyond);
   EXPECT_EQ(far.parameter.x(), SyntheticOptions{}.domain_level);
   EXPECT_EQ(far.stiffness, Mat3::Zero());
   EXPECT_NEAR(far.displacement.norm(), far.domain_radius, 1e-15);
   const Response edge = answerTo(levelModel(), s, far.displacement * (1.0 - 1e-9), ResponseStatus::kOk);
   EXPECT_LT((edge.force - far.force).norm(), 1e-7);
-  const Response back = answerTo(levelModel(), s, -0.001 * e, ResponseStatus::kClamped);
+  const Response back = answerTo(levelModel(), s, -0.001 * e, ResponseStatus::kBeyond);
   EXPECT_EQ(back.force, Vec3::Zero());
   const Response rest = answerTo(levelModel(), s, Vec3::Zero(), ResponseStatus::kOk);
   EXPECT_EQ(rest.force, Vec3::Zero());
@@ -102,10 +102,10 @@ TEST(LevelModel, WhatIsNoNumberIsAtRest) {
   const ContactPoint s = random.contactPoint(levelModel());
   const double nan = std::nan("");
   Response out;
-  EXPECT_EQ(respondToLoad(levelModel(), s, {nan, 0.0, 0.0}, out), ResponseStatus::kClamped);
+  EXPECT_EQ(respondToLoad(levelModel(), s, {nan, 0.0, 0.0}, out), ResponseStatus::kBeyond);
   EXPECT_EQ(out.force, Vec3::Zero());
   EXPECT_EQ(out.parameter, Vec3::Zero());
-  const Response found = answerTo(levelModel(), s, {nan, 0.0, 0.0}, ResponseStatus::kClamped);
+  const Response found = answerTo(levelModel(), s, {nan, 0.0, 0.0}, ResponseStatus::kBeyond);
   EXPECT_EQ(found.force, Vec3::Zero());
   EXPECT_EQ(found.parameter, Vec3::Zero());
 }

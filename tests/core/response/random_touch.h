@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -10,7 +12,8 @@
 namespace palpate::testing {
 
 inline const SyntheticOptions& options() {
-  static const SyntheticOptions instance{.subdivisions = 2, .order = 3, .force_order = 5};
+  static const SyntheticOptions instance{
+      .subdivisions = 2, .order = 3, .force_order = 5, .series_radius = 0.01};
   return instance;
 }
 
@@ -44,6 +47,12 @@ inline std::vector<float> field(const ContactPoint& s, const Vec3& d) {
   std::vector<float> u(organ().view().surface_positions.size());
   evaluateField(organ(), s, d, scratch, u);
   return u;
+}
+
+inline double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, double(std::abs(a[i] - b[i])));
+  return most;
 }
 
 }  // namespace palpate::testing

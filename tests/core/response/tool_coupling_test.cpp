@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -21,17 +22,18 @@ Vec3 nodePosition(const MetaModel& model, std::int32_t node) {
   return Eigen::Map<const Vec3>(model.view().surface_positions.data() + 3 * node);
 }
 
+PatchNodes patchAt(const MetaModel& model, const ContactPoint& s) {
+  PatchNodes patch = model.patches().room();
+  model.patches().at(s, false, patch);
+  return patch;
+}
+
 /// P_s u term by term from the whole field, in double precision.
 Vec3 plainAverage(const MetaModel& model, const ContactPoint& s, const std::vector<float>& u) {
-  const PositionMix mix = model.surface().mix(s);
+  const PatchNodes patch = patchAt(model, s);
   Vec3 sum = Vec3::Zero();
-  for (std::size_t a = 0; a < static_cast<std::size_t>(mix.count); ++a) {
-    const auto nodes = model.patchAverage().nodes(mix.position[a]);
-    const auto weights = model.patchAverage().weights(mix.position[a]);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      sum += mix.weight[a] * double(weights[i]) *
-             Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * nodes[i]).cast<double>();
-  }
+  for (std::size_t j = 0; j < patch.count; ++j)
+    sum += patch.weight[j] * Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * patch.node[j]).cast<double>();
   return sum;
 }
 
@@ -86,34 +88,40 @@ TEST(SurfaceDistance, AreasOfTheNodesAreThatOfTheSphere) {
               0.02 * 4.0 * M_PI * 0.0025);
 }
 
-TEST(PatchAverage, WeightsFallAsTheGaussianAndLeaveOutFixedNodes) {
+TEST(ContactPatchesOfAModel, WeightsFallAsTheTaperedGaussianAndLeaveOutFixedNodes) {
   const MetaModel model = loadSynthetic();
   const double a = model.attributes().patch_radius;
   const SurfaceGraph graph(model.view().surface_positions, model.view().surface_triangles);
   const std::vector<double> area = graph.lumpedAreas();
   bool cut = false;
   for (std::int32_t m = 0; m < static_cast<std::int32_t>(model.view().positions()); ++m) {
-    const auto nodes = model.patchAverage().nodes(m);
-    const auto weights = model.patchAverage().weights(m);
     const std::int32_t centre = model.view().contact_node[static_cast<std::size_t>(m)];
-    ASSERT_FALSE(nodes.empty());
-    ASSERT_EQ(nodes.front(), centre);
-    EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1.0, 1e-6);
+    const PatchNodes patch = patchAt(model, model.surface().atNode(centre));
+    ASSERT_GT(patch.count, 3U);
+    const auto at = static_cast<std::size_t>(std::find(patch.node.begin(), patch.node.end(), centre) -
+                                             patch.node.begin());
+    ASSERT_LT(at, patch.count);
+    EXPECT_NEAR(
+        std::accumulate(patch.weight.begin(), patch.weight.begin() + std::ptrdiff_t(patch.count), 0.0), 1.0,
+        1e-12);
     const Vec3 n = nodePosition(model, centre).normalized();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Vec3 other = nodePosition(model, nodes[i]).normalized();
-      ASSERT_GE(model.view().position_of_node[static_cast<std::size_t>(nodes[i])], 0) << "fixed";
+    for (std::size_t i = 0; i < patch.count; ++i) {
+      const Vec3 other = nodePosition(model, patch.node[i]).normalized();
+      ASSERT_GE(model.view().position_of_node[static_cast<std::size_t>(patch.node[i])], 0) << "fixed";
       const double r = 0.05 * std::acos(std::min(1.0, n.dot(other)));
-      const double expected = area[static_cast<std::size_t>(nodes[i])] /
-                              area[static_cast<std::size_t>(centre)] * std::exp(-0.5 * r * r / (a * a));
-      EXPECT_NEAR(weights[i] / weights[0], expected, 0.15 * expected + 1e-6);
+      const double z = std::clamp((r / (3.0 * a) - 0.6) / 0.4, 0.0, 1.0);
+      const double taper = 1.0 - z * z * z * (10.0 - 15.0 * z + 6.0 * z * z);
+      const double expected = area[static_cast<std::size_t>(patch.node[i])] /
+                              area[static_cast<std::size_t>(centre)] * std::exp(-0.5 * r * r / (a * a)) *
+                              taper;
+      EXPECT_NEAR(patch.weight[i] / patch.weight[at], expected, 0.15 * expected + 2e-4);
     }
     cut = cut || n.z() < -0.6;
   }
   EXPECT_TRUE(cut) << "no patch met the fixed nodes";
 }
 
-TEST(PatchAverage, RefusesPatchesThatWouldFillTheMemory) {
+TEST(ContactPatchesOfAModel, RefusesPatchesThatWouldFillTheMemory) {
   modelfile::ModelData data = syntheticModel({.subdivisions = 4});
   data.attributes.patch_radius = 1.0;
   const TemporaryFile file("wide.h5");
@@ -147,6 +155,51 @@ TEST(PatchDisplacement, IsTheFieldAveragedOverThePatch) {
       near = std::max(near, gap < 0.03 ? expected.norm() : 0.0);
     }
     EXPECT_GT(near, 1e-4) << "no pair was near";
+  }
+}
+
+TEST(PatchDisplacement, ItsSlopeIsItsDerivativeAsThePatchMoves) {
+  constexpr double kStep = 2e-3;       // of the weights
+  constexpr double kRounding = 4e-11;  // m; modes of some 0.1 mm in single precision, which may cancel
+  for (const Parameters parameters : {Parameters::kDisplacement, Parameters::kForce}) {
+    SyntheticOptions options = kSmall;
+    options.parameters = parameters;
+    const MetaModel model = loadSynthetic(options);
+    FieldScratch scratch(model);
+    std::mt19937 random(8);
+    double largest = 0.0;
+    for (int trial = 0; trial < 60; ++trial) {
+      const double size = parameters == Parameters::kDisplacement ? 0.004 : 0.5;
+      const std::array<FieldSource, 2> sources{
+          FieldSource{anyPoint(model, random), anyVector(random, size), 1.0},
+          FieldSource{anyPoint(model, random), anyVector(random, size), -0.4}};
+      ContactPoint at = anyPoint(model, random);
+      if (!model.surface().complete(at.triangle)) continue;
+      for (double& l : at.barycentric) l = 0.1 + 0.7 * l;  // far from the edges
+      const auto moved = [&](const ContactPoint& s) {
+        Vec3 sum = Vec3::Zero();
+        for (const FieldSource& source : sources) sum += patchDisplacement(model, source, s, scratch);
+        return sum;
+      };
+      const Mat3 slope = patchDisplacementSlope(model, sources, at, scratch);
+      const double size_of_slope = slope.norm();
+      for (std::size_t k = 0; k < 2; ++k) {
+        ContactPoint ahead = at, behind = at;
+        ahead.barycentric[k] += kStep, ahead.barycentric[2] -= kStep;
+        behind.barycentric[k] -= kStep, behind.barycentric[2] += kStep;
+        const Vec3 way = model.surface().position(ahead) - model.surface().position(behind);
+        EXPECT_LT((moved(ahead) - moved(behind) - slope * way).norm(),
+                  2e-3 * size_of_slope * way.norm() + kRounding)
+            << trial;
+      }
+      largest = std::max(largest, size_of_slope);
+      const auto* const corner = model.view().surface_triangles.data() + 3 * at.triangle;
+      const Vec3 n = (nodePosition(model, corner[1]) - nodePosition(model, corner[0]))
+                         .cross(nodePosition(model, corner[2]) - nodePosition(model, corner[0]))
+                         .normalized();
+      EXPECT_LT((slope * n).norm(), 1e-9 * size_of_slope) << "the patch does not leave the surface";
+    }
+    EXPECT_GT(largest, 1e-3);
   }
 }
 

@@ -53,8 +53,9 @@ TEST(ShownSurface, ThatNobodyTakesChangesNoAnswer) {
       ASSERT_EQ(a.proxy, b.proxy);
       const ContactPoint here = organ().surface().closestPoint(vec(a.anchor)).s;
       const Vec3 shown = organ().surface().interpolate(every.field(), here);
-      ASSERT_LT((vec(a.proxy) - vec(a.anchor) - shown).norm(), jumped ? 2e-4 : 1e-6)
-          << "tool " << i << ": the proxy is on the surface";
+      const double off = (vec(a.proxy) - vec(a.anchor) - shown).norm();
+      ASSERT_LT(off, jumped ? 2e-4 : 2e-5)
+          << "tool " << i << ": the proxy is on the surface, of a travel of 3 mm";
       compared += !jumped && vec(a.proxy) != vec(a.anchor) ? 1 : 0;
     }
     if (taken && !jumped) {

@@ -122,7 +122,9 @@ TEST(Step, NonUnitQuaternionIsAnsweredLikeAStalePose) {
 TEST(Step, OverflowInTheModelNeverComesOut) {
   modelfile::ModelData data = syntheticModel();
   for (double& f : data.contact_force) f *= 1e306;
+  for (double& K : data.contact_stiffness) K *= 1e303;
   for (float& u : data.near_field) u = 3e38F;
+  for (float& u : data.green_near) u = 3e38F;
   const TemporaryFile file("overflow.h5");
   modelfile::writeModel(file.path(), data);
   const MetaModel model = MetaModel::load(file.path());
@@ -138,6 +140,7 @@ TEST(Step, OverflowInTheFieldAloneLeavesTheForceAndShowsNoField) {
   modelfile::ModelData data = syntheticModel();
   for (float& x : data.modes_X) x *= 1e30F;
   for (float& y : data.modes_Y) y *= 1e30F;
+  for (float& y : data.green_Y) y *= 1e30F;
   const TemporaryFile file("field-overflow.h5");
   modelfile::writeModel(file.path(), data);
   const MetaModel model = MetaModel::load(file.path());

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/testing/synthetic_model.h"
 
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/multi_index.h"
+#include "core/surface/smooth_places.h"
 #include "icosphere.h"
 #include "tools/modelfile/write_model.h"
 
@@ -14,6 +18,7 @@ namespace {
 using modelfile::ModelData;
 
 const Vec3 kLoadDirection(0.0, 0.6, -0.8);
+constexpr int kLinear = static_cast<int>(kLinearCoefficients);
 
 /// What the polynomials are ones in, and the size of an energy.
 struct Scale {
@@ -113,18 +118,99 @@ void fillLevels(const SyntheticOptions& o, ModelData& data) {
       data.levels_Z.push_back(std::pow(double(step) / o.level_steps, q + 1));
 }
 
-void fillModes(const SyntheticOptions& o, const Icosphere& sphere, int coefficients, ModelData& data) {
+/// K at X.
+Mat3 stiffnessAt(const SyntheticOptions& o, const Vec3& X) {
+  const double d = o.reference_displacement;
+  Mat3 K;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      MultiIndex beta{};
+      ++beta[i], ++beta[j];
+      K(Eigen::Index(i), Eigen::Index(j)) = beta[i] * energyCoefficient(o, X, beta) / (d * d);
+    }
+  return K;
+}
+
+}  // namespace
+
+void fillStiffness(ModelData& data, const std::function<Mat3(const Vec3&)>& stiffness) {
+  constexpr double kStep = 5e-7;  // m
+  const SmoothPlaces places(data.surface_positions, data.surface_triangles, data.position_of_node);
+  data.contact_stiffness.clear();
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    const ContactPoint& s = places.views(place).front().s;
+    Vec3 X = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto node =
+          static_cast<std::size_t>(data.surface_triangles[3 * static_cast<std::size_t>(s.triangle) + k]);
+      X += s.barycentric[k] * Eigen::Map<const Vec3>(data.surface_positions.data() + 3 * node);
+    }
+    const Mat3 K = stiffness(X);
+    std::array<Mat3, 3> slope;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      slope[static_cast<std::size_t>(axis)] =
+          (stiffness(X + kStep * Vec3::Unit(axis)) - stiffness(X - kStep * Vec3::Unit(axis))) / (2.0 * kStep);
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index j = i; j < 3; ++j) {
+        data.contact_stiffness.push_back(K(i, j));
+        for (const Mat3& part : slope) data.contact_stiffness.push_back(part(i, j));
+      }
+  }
+}
+
+namespace {
+
+/// An invented amplitude of one mode for one coefficient, m.
+double amplitude(const SyntheticOptions& o, const Vec3& n, int k, int mode) {
+  return o.reference_displacement * std::sin(n.x() + 2.0 * n.y() + 3.0 * n.z() + mode) /
+         ((k + 1.0) * (mode + 1.0));
+}
+
+/// Unit loads at the nodes that have contact positions, so that a load K d there gives about the first three coefficients at d_ref.
+void fillGreens(const SyntheticOptions& o, const Icosphere& sphere, const MonomialBasis& basis,
+                ModelData& data) {
+  constexpr double kSpread =
+      1.8;  // the patch spreads its load: in its middle it dents by about 1 / kSpread of this
+  data.green_node = data.contact_node;
+  data.green_offset.push_back(0);
+  for (const std::int32_t node : data.contact_node) {
+    const Vec3& n = sphere.nodes[static_cast<std::size_t>(node)];
+    const Mat3 per_load = stiffnessAt(o, o.radius * n).inverse() / o.reference_displacement;
+    for (Eigen::Index load = 0; load < 3; ++load)
+      for (int mode = 0; mode < o.modes; ++mode) {
+        double y = 0.0;
+        for (int k = 0; k < 3; ++k) y += amplitude(o, n, k, mode) * per_load(k, load);
+        data.green_Y.push_back(static_cast<float>(y));
+      }
+    std::vector<Mat3> near;
+    for (std::size_t i = 0; i < sphere.nodes.size(); ++i) {
+      const double r = o.radius * (sphere.nodes[i] - n).norm();
+      if (r >= o.near_radius) continue;
+      data.green_near_node.push_back(static_cast<std::int32_t>(i));
+      Mat3 u;
+      for (int k = 0; k < 3; ++k) u.col(k) = kSpread * nearValue(o, basis[k], r);
+      near.emplace_back(u * per_load);
+    }
+    for (Eigen::Index load = 0; load < 3; ++load)
+      for (const Mat3& u : near)
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+          data.green_near.push_back(static_cast<float>(u(axis, load)));
+    data.green_offset.push_back(static_cast<std::int64_t>(data.green_near_node.size()));
+  }
+}
+
+/// @param first  coefficient that modes have
+void fillModes(const SyntheticOptions& o, const Icosphere& sphere, int first, int coefficients,
+               ModelData& data) {
   for (int mode = 0; mode < o.modes; ++mode)
     for (const Vec3& n : sphere.nodes)
       for (int axis = 0; axis < 3; ++axis)
         data.modes_X.push_back(static_cast<float>(0.1 * std::cos((mode + 1) * n[(axis + mode) % 3] + axis)));
   for (const std::int32_t node : data.contact_node)
-    for (int k = 0; k < coefficients; ++k)
-      for (int mode = 0; mode < o.modes; ++mode) {
-        const Vec3& n = sphere.nodes[static_cast<std::size_t>(node)];
-        const double y = std::sin(n.x() + 2.0 * n.y() + 3.0 * n.z() + mode) / ((k + 1.0) * (mode + 1.0));
-        data.modes_Y.push_back(static_cast<float>(o.reference_displacement * y));
-      }
+    for (int k = first; k < coefficients; ++k)
+      for (int mode = 0; mode < o.modes; ++mode)
+        data.modes_Y.push_back(
+            static_cast<float>(amplitude(o, sphere.nodes[static_cast<std::size_t>(node)], k, mode)));
 }
 
 void fillNoNear(ModelData& data) {
@@ -141,7 +227,7 @@ void fillNear(const SyntheticOptions& o, const Icosphere& sphere, const Monomial
     for (std::size_t i = 0; i < sphere.nodes.size(); ++i)
       if ((o.radius * sphere.nodes[i] - X).norm() < o.near_radius)
         data.near_node.push_back(static_cast<std::int32_t>(i));
-    for (int k = 0; k < basis.size(); ++k)
+    for (int k = kLinear; k < basis.size(); ++k)
       for (std::size_t i = first; i < data.near_node.size(); ++i) {
         const Vec3 there = o.radius * sphere.nodes[static_cast<std::size_t>(data.near_node[i])];
         const Vec3 u = nearValue(o, basis[k], (there - X).norm());
@@ -154,7 +240,7 @@ void fillNear(const SyntheticOptions& o, const Icosphere& sphere, const Monomial
 void fillMesh(const Icosphere& sphere, ModelData& data) {
   const auto centre = static_cast<std::int32_t>(sphere.nodes.size());
   data.mesh_nodes = data.surface_positions;
-  data.mesh_nodes.insert(data.mesh_nodes.end(), {0.0, 0.0, 0.0});
+  data.mesh_nodes.resize(data.mesh_nodes.size() + 3, 0.0);
   data.mesh_node_tag = data.surface_mesh_tag;
   data.mesh_node_tag.push_back(centre + 1);
   for (const auto& [a, b, c] : sphere.triangles) {
@@ -176,8 +262,8 @@ ModelData syntheticModel(const SyntheticOptions& o) {
   data.attributes.force_order = force_basis.order();
   data.attributes.parameters = o.parameters;
   data.attributes.reference_force = o.reference_force;
-  const bool level = o.parameters == Parameters::kLevel, force = o.parameters == Parameters::kForce;
   fillSurface(o, sphere, data);
+  const bool level = o.parameters == Parameters::kLevel, force = o.parameters == Parameters::kForce;
   for (const std::int32_t node : data.contact_node) {
     const Vec3 X = o.radius * sphere.nodes[static_cast<std::size_t>(node)];
     if (level)
@@ -186,11 +272,15 @@ ModelData syntheticModel(const SyntheticOptions& o) {
       fillContact(o, X, force_basis, force ? data.contact_displacement : data.contact_force);
   }
   if (level) fillLevels(o, data);
-  fillModes(o, sphere, level ? o.level_functions : basis.size(), data);
-  if (level || force)
+  fillModes(o, sphere, level || force ? 0 : kLinear, level ? o.level_functions : basis.size(), data);
+  if (level || force) {
     fillNoNear(data);
-  else
+  } else {
     fillNear(o, sphere, basis, data);
+    fillGreens(o, sphere, basis, data);
+    fillStiffness(data, [&](const Vec3& X) { return stiffnessAt(o, X); });
+    data.contact_series_radius.assign(data.contact_node.size(), std::max(o.series_radius, o.domain_radius));
+  }
   fillMesh(sphere, data);
   return data;
 }

@@ -19,13 +19,42 @@ namespace {
 using modelfile::ModelData;
 using modelfile::PackedNumbers;
 
+/// Amplitudes of the modes and near field of one unit load, times f.
+void addLoad(const ModelData& data, std::size_t g, const Vec3& f, std::vector<double>& u) {
+  const std::size_t n = data.modes_X.size() / u.size(),
+                    first = static_cast<std::size_t>(data.green_offset[g]);
+  const std::size_t K = static_cast<std::size_t>(data.green_offset[g + 1]) - first;
+  for (std::size_t load = 0; load < 3; ++load) {
+    const double share = f[static_cast<Eigen::Index>(load)];
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = 0; i < u.size(); ++i)
+        u[i] += share * double(data.green_Y[(3 * g + load) * n + k]) * double(data.modes_X[k * u.size() + i]);
+    for (std::size_t i = 0; i < 3 * K; ++i)
+      u[3 * static_cast<std::size_t>(data.green_near_node[first + i / 3]) + i % 3] +=
+          share * double(data.green_near[9 * first + 3 * K * load + i]);
+  }
+}
+
 /// Functions of the parameter at one position of the file's numbers, in double precision: what the field would be
 /// without rounding.
 std::vector<double> unrounded(const ModelData& data, const MetaModel& model, std::size_t m, const Vec3& p) {
   std::vector<double> phi(static_cast<std::size_t>(model.functions().size()));
   model.functions().evaluate(p, phi);
-  const std::size_t n = model.view().modes(), C = phi.size();
   std::vector<double> u(data.surface_positions.size());
+  if (data.attributes.parameters == Parameters::kDisplacement) {
+    phi.erase(phi.begin(), phi.begin() + 3);
+    const ContactPoint s = model.surface().atNode(data.contact_node[m]);
+    PatchNodes patch = model.patches().room();
+    model.patches().at(s, false, patch);
+    PatchStiffness::Value stiffness;
+    model.stiffness().at(model.surface(), s, stiffness);
+    for (std::size_t j = 0; j < patch.count; ++j) {
+      const auto g = std::find(data.green_node.begin(), data.green_node.end(), patch.node[j]);
+      addLoad(data, static_cast<std::size_t>(g - data.green_node.begin()), patch.weight[j] * stiffness.K * p,
+              u);
+    }
+  }
+  const std::size_t n = model.view().modes(), C = phi.size();
   const auto first = static_cast<std::size_t>(data.near_offset[m]);
   const std::size_t K = static_cast<std::size_t>(data.near_offset[m + 1]) - first;
   for (std::size_t c = 0; c < C; ++c) {

@@ -10,8 +10,8 @@
 
 namespace palpate::bench {
 
-/// y of one tool, m, from the data in double precision. @param[in] model  the data as loaded, for surface and
-/// functions only
+/// y of one tool, m, from the data in double precision. @param[in] model  the data as loaded, for surface,
+/// functions, patches and their stiffness only
 [[nodiscard]] std::vector<double> referenceAmplitudes(const modelfile::ModelData& data,
                                                       const MetaModel& model, const FieldSource& source);
 

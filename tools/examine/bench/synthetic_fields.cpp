@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/examine/bench/synthetic_fields.h"
 
+#include <array>
 #include <cmath>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "core/base/multi_index.h"
 #include "core/data/model_view.h"
@@ -52,21 +55,26 @@ void fillX(const Ellipsoid& surface, int modes, std::mt19937& random, ModelData&
       }
 }
 
-/// Each amplitude is a wave over the contact positions, a tenth for each further degree.
-void fillY(const Ellipsoid& surface, int modes, std::mt19937& random, ModelData& data) {
+/// Each amplitude is a wave over the nodes: of unit loads, and of contact positions a tenth for each further degree.
+void fillY(const Ellipsoid& surface, int modes, double load, std::mt19937& random, ModelData& data) {
+  constexpr int kLinear = static_cast<int>(kLinearCoefficients);
   const MonomialBasis basis(data.attributes.order);
   std::vector<Wave> waves;
   for (int k = 0; k < modes * basis.size(); ++k) waves.push_back(randomWave(k / basis.size(), random));
-  for (const std::int32_t node : data.contact_node) {
+  const auto amplitude = [&](std::int32_t node, int c, int k) {
     const Eigen::Vector3f X = surface.nodes[static_cast<std::size_t>(node)].cast<float>();
-    for (int c = 0; c < basis.size(); ++c)
-      for (int k = 0; k < modes; ++k) {
-        const Wave& wave = waves[static_cast<std::size_t>(k * basis.size() + c)];
-        const double size =
-            2.0 * kAmplitude / (1.0 + std::pow(k / 2.5, 1.5)) * std::pow(0.1, degreeOf(basis[c]) - 1.0);
-        data.modes_Y.push_back(static_cast<float>(size) * std::cos(wave.number.dot(X) + wave.phase));
-      }
-  }
+    const Wave& wave = waves[static_cast<std::size_t>(k * basis.size() + c)];
+    const double size =
+        2.0 * kAmplitude / (1.0 + std::pow(k / 2.5, 1.5)) * std::pow(0.1, degreeOf(basis[c]) - 1.0);
+    return static_cast<float>(size) * std::cos(wave.number.dot(X) + wave.phase);
+  };
+  for (const std::int32_t node : data.contact_node)
+    for (int c = kLinear; c < basis.size(); ++c)
+      for (int k = 0; k < modes; ++k) data.modes_Y.push_back(amplitude(node, c, k));
+  for (const std::int32_t node : data.green_node)
+    for (int c = 0; c < kLinear; ++c)
+      for (int k = 0; k < modes; ++k)
+        data.green_Y.push_back(amplitude(node, c, k) / static_cast<float>(load));
 }
 
 /// Falls smoothly from 1 to 0 at the radius.
@@ -83,34 +91,49 @@ Vec3 dent(const ModelAttributes& a, const MultiIndex& alpha, double r) {
          along.normalized();
 }
 
-}  // namespace
-
-void fillModes(const Ellipsoid& surface, int modes, ModelData& data) {
-  std::mt19937 random(1);
-  fillX(surface, modes, random, data);
-  fillY(surface, modes, random, data);
-}
-
-void fillNear(const Ellipsoid& surface, ModelData& data) {
-  const MonomialBasis basis(data.attributes.order);
-  data.near_offset.push_back(0);
-  for (const std::int32_t node : data.contact_node) {
+/// Coefficients from `first` to before `end` of dents at some nodes, over a load.
+struct Dents {
+  std::vector<std::int64_t>& offset;
+  std::vector<std::int32_t>& node;
+  std::vector<float>& field;
+};
+void fillDents(const Ellipsoid& surface, const ModelAttributes& a, std::span<const std::int32_t> centres,
+               std::array<int, 2> range, double load, const Dents& out) {
+  const MonomialBasis basis(a.order);
+  out.offset.push_back(0);
+  for (const std::int32_t node : centres) {
     const Vec3& X = surface.nodes[static_cast<std::size_t>(node)];
-    const std::size_t first = data.near_node.size();
     std::vector<double> distance;
     for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
       const double r = (surface.nodes[i] - X).norm();
-      if (r >= data.attributes.near_radius) continue;
-      data.near_node.push_back(static_cast<std::int32_t>(i));
+      if (r >= a.near_radius) continue;
+      out.node.push_back(static_cast<std::int32_t>(i));
       distance.push_back(r);
     }
-    for (int k = 0; k < basis.size(); ++k)
+    for (int k = range[0]; k < range[1]; ++k)
       for (const double r : distance) {
-        const Vec3 u = dent(data.attributes, basis[k], r);
-        for (int axis = 0; axis < 3; ++axis) data.near_field.push_back(static_cast<float>(u[axis]));
+        const Vec3 u = dent(a, basis[k], r) / load;
+        for (int axis = 0; axis < 3; ++axis) out.field.push_back(static_cast<float>(u[axis]));
       }
-    data.near_offset.push_back(static_cast<std::int64_t>(first + distance.size()));
+    out.offset.push_back(static_cast<std::int64_t>(out.node.size()));
   }
+}
+
+}  // namespace
+
+void fillModes(const Ellipsoid& surface, int modes, double load, ModelData& data) {
+  std::mt19937 random(1);
+  fillX(surface, modes, random, data);
+  fillY(surface, modes, load, random, data);
+}
+
+void fillNear(const Ellipsoid& surface, double load, ModelData& data) {
+  constexpr int kLinear = static_cast<int>(kLinearCoefficients);
+  const ModelAttributes& a = data.attributes;
+  fillDents(surface, a, data.contact_node, {kLinear, MonomialBasis::size(a.order)}, 1.0,
+            {data.near_offset, data.near_node, data.near_field});
+  fillDents(surface, a, data.green_node, {0, kLinear}, load,
+            {data.green_offset, data.green_near_node, data.green_near});
 }
 
 }  // namespace palpate::bench

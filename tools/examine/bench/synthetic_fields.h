@@ -6,10 +6,11 @@
 
 namespace palpate::bench {
 
-/// /modes/X and /modes/Y of a synthetic model that has its surface, attributes and contact positions.
-void fillModes(const Ellipsoid& surface, int modes, modelfile::ModelData& data);
+/// /modes of a synthetic model that has its surface, attributes and contact positions, and /green/Y of its /green/node.
+/// @param load  N, that moves a patch by the reference displacement
+void fillModes(const Ellipsoid& surface, int modes, double load, modelfile::ModelData& data);
 
-/// /near of the same.
-void fillNear(const Ellipsoid& surface, modelfile::ModelData& data);
+/// The rest of /near and /green of the same.
+void fillNear(const Ellipsoid& surface, double load, modelfile::ModelData& data);
 
 }  // namespace palpate::bench

@@ -7,6 +7,9 @@
 
 #include "core/base/multi_index.h"
 #include "core/data/model_view.h"
+#include "core/surface/contact_patches.h"
+#include "core/surface/smooth_places.h"
+#include "core/surface/surface_distance.h"
 #include "tools/examine/bench/ellipsoid.h"
 #include "tools/examine/bench/synthetic_fields.h"
 
@@ -75,6 +78,7 @@ void fillPositions(const Ellipsoid& surface, int positions, ModelData& data) {
     data.contact_node.push_back(node);
     data.contact_accessible.push_back(1);
     data.contact_domain_radius.push_back(kDomain);
+    data.contact_series_radius.push_back(kDomain);
   }
 }
 
@@ -102,6 +106,27 @@ void fillContact(const Ellipsoid& surface, ModelData& data) {
       }
 }
 
+/// As stiff everywhere.
+void fillStiffness(ModelData& data) {
+  const SmoothPlaces places(data.surface_positions, data.surface_triangles, data.position_of_node);
+  data.contact_stiffness.assign(places.size() * kStiffnessNumbers, 0.0);
+  for (std::size_t i = 0; i < data.contact_stiffness.size(); i += kStiffnessNumbers)
+    for (const std::size_t diagonal : {0U, 12U, 20U}) data.contact_stiffness[i + diagonal] = kStiffness;
+}
+
+/// The contact positions, and what else patches in their triangles load.
+void fillLoaded(ModelData& data) {
+  std::vector<std::uint8_t> free(data.surface_mesh_tag.size(), 1), near(free.size(), 0);
+  for (const std::int32_t node : data.mesh_fixed) free[static_cast<std::size_t>(node)] = 0;
+  const SurfaceGraph graph(data.surface_positions, data.surface_triangles);
+  const ContactPatches patches(graph, free, data.attributes.patch_radius, data.contact_node);
+  for (const std::int32_t node : data.contact_node) patches.markNear(node, near);
+  for (const std::int32_t node : data.contact_node) near[static_cast<std::size_t>(node)] = 0;
+  data.green_node = data.contact_node;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (near[i] != 0) data.green_node.push_back(static_cast<std::int32_t>(i));
+}
+
 }  // namespace
 
 ModelData syntheticModel(const SyntheticSize& size) {
@@ -121,8 +146,10 @@ ModelData syntheticModel(const SyntheticSize& size) {
   fillMesh(surface, data);
   fillPositions(surface, size.positions, data);
   fillContact(surface, data);
-  fillModes(surface, size.modes, data);
-  fillNear(surface, data);
+  fillStiffness(data);
+  fillLoaded(data);
+  fillModes(surface, size.modes, kStiffness * kReference, data);
+  fillNear(surface, kStiffness * kReference, data);
   return data;
 }
 

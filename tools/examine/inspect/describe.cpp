@@ -24,21 +24,23 @@ Json bytesOfParts(const ModelView& v) {
   Json bytes;
   bytes["surface"] =
       bytesOf(v.surface_positions, v.surface_triangles, v.surface_mesh_tag, v.position_of_node);
-  bytes["contact_response"] =
-      bytesOf(v.contact_node, v.contact_accessible, v.contact_triangles, v.contact_force,
-              v.contact_displacement, v.contact_domain_radius, v.levels_Z);
+  bytes["contact_response"] = bytesOf(v.contact_node, v.contact_accessible, v.contact_triangles,
+                                      v.contact_force, v.contact_displacement, v.contact_stiffness,
+                                      v.contact_domain_radius, v.contact_series_radius, v.levels_Z);
   bytes["far_field"] = bytesOf(v.modes_X, v.modes_X_scale, v.modes_Y, v.modes_Y_scale);
   bytes["near_field"] = bytesOf(v.near_offset, v.near_node, v.near_field, v.near_scale);
+  bytes["greens_functions"] = bytesOf(v.green_node, v.green_Y, v.green_Y_scale, v.green_offset,
+                                      v.green_near_node, v.green_near, v.green_near_scale);
   bytes["mesh"] = bytesOf(v.mesh_nodes, v.mesh_tetrahedra, v.mesh_node_tag, v.mesh_tetrahedron_tag,
                           v.mesh_fixed, v.mesh_surface_node);
   return bytes;
 }
 
-/// Quantiles of /contact/domain_radius over the accessible positions: m, N, or a level.
-Json radii(const ModelView& v) {
+/// Quantiles over the accessible positions: m, N, or a level.
+Json radii(const ModelView& v, std::span<const double> radius) {
   std::vector<double> values;
   for (std::size_t m = 0; m < v.positions(); ++m)
-    if (v.contact_accessible[m] != 0) values.push_back(v.contact_domain_radius[m]);
+    if (v.contact_accessible[m] != 0) values.push_back(radius[m]);
   if (values.empty()) return nullptr;
   std::sort(values.begin(), values.end());
   return {{"min", values.front()},
@@ -51,13 +53,15 @@ Json radii(const ModelView& v) {
 void describeDomain(const MetaModel& model, Json& out) {
   const ModelView& v = model.view();
   const ModelAttributes& a = model.attributes();
-  out["domain_radius"] = a.parameters == Parameters::kDisplacement ? radii(v) : Json(nullptr);
+  const bool displaced = a.parameters == Parameters::kDisplacement;
+  out["domain_radius"] = displaced ? radii(v, v.contact_domain_radius) : Json(nullptr);
+  out["series_radius"] = displaced ? radii(v, v.contact_series_radius) : Json(nullptr);
   if (a.parameters == Parameters::kForce) {
     out["reference_force"] = a.reference_force;
-    out["force_radius"] = radii(v);
+    out["force_radius"] = radii(v, v.contact_domain_radius);
   }
   if (a.parameters != Parameters::kLevel) return;
-  out["level_radius"] = radii(v);
+  out["level_radius"] = radii(v, v.contact_domain_radius);
   out["load"] = {{"size", a.load},
                  {"direction", a.load_direction},
                  {"level_functions", v.level_functions},

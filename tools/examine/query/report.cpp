@@ -100,8 +100,7 @@ std::string toText(const Findings& found) {
   text += line("%-14s %s", "status", std::string(toString(found.answer.status)).c_str());
   if (found.answer.status == ResponseStatus::kNoAnswer)
     text += ": the model has no answer at this point, no force";
-  if (found.answer.status == ResponseStatus::kClamped)
-    text += ": asked for " + askedText(found.question) + ", beyond the domain";
+  if (found.answer.status == ResponseStatus::kBeyond) text += ": asked for " + askedText(found.question);
   text += '\n';
   text += vectorLine("displacement", response.displacement, 1e3, "mm");
   text += line("%-14s %11.6g mm\n", "domain radius", 1e3 * response.domain_radius);

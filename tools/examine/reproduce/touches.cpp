@@ -122,7 +122,7 @@ int limitLoads(const MetaModel& model, std::vector<Touch>& touches) {
   int limited = 0;
   for (Touch& touch : touches) {
     Response response;
-    if (respondToLoad(model, touch.s, touch.force, response) != ResponseStatus::kClamped) continue;
+    if (respondToLoad(model, touch.s, touch.force, response) != ResponseStatus::kBeyond) continue;
     touch.force = response.force;
     ++limited;
   }

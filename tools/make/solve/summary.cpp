@@ -40,10 +40,10 @@ const char* radiusKey(Parameters parameters) {
 }
 
 /// Of what a tool may touch, helpers left out.
-Json radii(const modelfile::ModelData& data) {
+Json radii(const modelfile::ModelData& data, std::span<const double> radius) {
   std::vector<double> list;
-  for (std::size_t i = 0; i < data.contact_domain_radius.size(); ++i)
-    if (data.contact_accessible[i] != 0) list.push_back(data.contact_domain_radius[i]);
+  for (std::size_t i = 0; i < radius.size(); ++i)
+    if (data.contact_accessible[i] != 0) list.push_back(radius[i]);
   std::sort(list.begin(), list.end());
   return {{"min", list.front()},
           {"p05", modelfile::quantile(list, 0.05)},
@@ -99,6 +99,7 @@ void printRadius(const Json& s) {
                  scale * radius["p05"].get<double>(), unit, scale * radius["median"].get<double>(), unit);
   };
   if (s.contains("domain_radius")) line(s["domain_radius"], "domain radius", 1e3, "mm");
+  if (s.contains("series_radius")) line(s["series_radius"], "of the force alone", 1e3, "mm");
   if (s.contains("force_radius")) line(s["force_radius"], "largest force", 1.0, "N");
   if (s.contains("level_radius")) line(s["level_radius"], "largest load level", 1.0, "of the load");
   if (s.contains("fit_error"))
@@ -155,10 +156,11 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
          {"contact_positions", data.contact_node.size()},
          {"patch_radius", data.attributes.patch_radius},
          {"modes", data.modes_X.size() / (3 * data.surface_mesh_tag.size())},
-         {radiusKey(parameters), radii(data)},
+         {radiusKey(parameters), radii(data, data.contact_domain_radius)},
          {"seconds", seconds},
          {"file_bytes", std::filesystem::file_size(output)},
          {"peak_memory_MiB", peakMemoryMiB()}};
+  if (parameters == Parameters::kDisplacement) s["series_radius"] = radii(data, data.contact_series_radius);
   if (parameters != Parameters::kLevel) s["order"] = data.attributes.order;
   if (parameters == Parameters::kForce) {
     s["reference_force"] = data.attributes.reference_force;

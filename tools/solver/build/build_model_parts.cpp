@@ -46,9 +46,9 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
     const std::size_t first = chunk * kLanes;
     const std::size_t lanes = std::min<std::size_t>(kLanes, count - first);
     solver->solve(std::span(positions.patches).subspan(first, lanes));
-    const std::vector<double> radii = solver->domainRadii({});
+    const std::vector<SeriesRadii> radii = solver->domainRadii({});
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (!(radii[lane] > 0.0))
+      if (!(radii[lane].domain > 0.0))
         throw std::runtime_error(
             c.mesh.string() + ": node " +
             std::to_string(mesh.node_tags[at(setup.surface.nodes[at(positions.nodes[first + lane])])]) +

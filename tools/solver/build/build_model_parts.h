@@ -34,7 +34,7 @@ void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::Tet
 
 /// Takes the series of one position. Called from several threads, once per position.
 using SeriesSink =
-    std::function<void(const SeriesSolver& series, int lane, std::size_t position, double radius)>;
+    std::function<void(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii)>;
 
 /// Solves the series of all contact positions on all workers; surface fields go to the table.
 /// @param table  positions x coefficients of the fields x 3 Ns

@@ -18,7 +18,7 @@ struct BuildReport {
   double pgd_seconds{0}, recompression_seconds{0};
   std::vector<double> fit_errors;  ///< series methods: after each sweep, see FarField::errors
   double fit_p95{0}, fit_max{0};   ///< series-displacement: FarField::largest over the positions
-  double fit_asked{0};             ///< of fit_p95, where it chose the modes: 0.7 of the case's field_error
+  double fit_asked{0};             ///< of fit_p95, where it chose the modes: the case's field_error
   int greedy_pairs{0};             ///< PGD methods: pairs before recompression
   double residual{0};              ///< PGD methods: of the last enrichment, dual norm, relative, an estimate
   double truncation{0};            ///< PGD methods: relative energy norm of what recompression drops

@@ -61,10 +61,10 @@ void ForceBuilder::solveSeries(FieldTable& table) {
   report_.factor_seconds = factor_watch.seconds();
   const Stopwatch series_watch;
   solveAllSeries(setup_, mesh_, case_, factor, SeriesKind::kForce, options_, table,
-                 [&](const SeriesSolver& series, int lane, std::size_t position, double radius) {
+                 [&](const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii) {
                    Mat3 C;
                    for (int k = 0; k < 3; ++k) C.col(k) = series.answer(lane, k);
-                   radius_[position] = radius;
+                   radius_[position] = radii.series;
                    compliance_[position] = C.norm() / std::sqrt(3.0);
                  });
   report_.series_seconds = series_watch.seconds();

@@ -2,7 +2,6 @@
 #include "tools/solver/fem/patch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -61,27 +60,26 @@ double PatchSurface::medianEdge() const {
   return *middle;
 }
 
-std::vector<std::pair<std::int32_t, double>> surfaceDistances(const PatchSurface& surface,
-                                                              const ContactPoint& s, double bound) {
-  return SurfaceFront(surface.graph).from(s, bound);
+std::vector<std::uint8_t> freeNodes(const FeModel& model, const PatchSurface& surface) {
+  std::vector<std::uint8_t> free;
+  for (const std::int32_t node : surface.nodes) free.push_back(model.isFree(node) ? 1 : 0);
+  return free;
+}
+
+Patch patchOf(const PatchSurface& surface, const PatchNodes& nodes) {
+  Patch patch;
+  for (std::size_t i = 0; i < nodes.count; ++i) patch.nodes.push_back(surface.nodes[at(nodes.node[i])]);
+  patch.weights.assign(nodes.weight.begin(), nodes.weight.begin() + static_cast<std::ptrdiff_t>(nodes.count));
+  patch.free_share = nodes.free_share;
+  return patch;
 }
 
 Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s, double a) {
-  Patch patch;
-  double total = 0.0;
-  double free_total = 0.0;
-  for (const auto& [node, r] : surfaceDistances(surface, s, 3.0 * a)) {
-    const double weight = surface.areas[at(node)] * std::exp(-0.5 * r * r / (a * a));
-    total += weight;
-    const std::int32_t volume_node = surface.nodes[at(node)];
-    if (!model.isFree(volume_node)) continue;
-    free_total += weight;
-    patch.nodes.push_back(volume_node);
-    patch.weights.push_back(weight);
-  }
-  for (double& weight : patch.weights) weight /= free_total;
-  patch.free_share = total > 0.0 ? free_total / total : 0.0;
-  return patch;
+  const ContactPatches patches(surface.graph, freeNodes(model, surface), a,
+                               surface.graph.triangle(s.triangle));
+  PatchNodes nodes = patches.room();
+  patches.at(s, false, nodes);
+  return patchOf(surface, nodes);
 }
 
 }  // namespace palpate::solver

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "core/base/contact_point.h"
+#include "core/surface/contact_patches.h"
 #include "core/surface/surface_distance.h"
 #include "tools/solver/fem/fe_model.h"
 
@@ -48,15 +48,14 @@ struct Patch {
   }
 };
 
-/// Distances along the surface from s to the nodes nearer than a bound, computed as the server does
-/// (core's SurfaceFront). docs/design.md, Parts
-/// @return pairs (surface node, distance in m), nearest first
-[[nodiscard]] std::vector<std::pair<std::int32_t, double>> surfaceDistances(const PatchSurface& surface,
-                                                                            const ContactPoint& s,
-                                                                            double bound);
+/// [Ns] 1: the node may carry load.
+[[nodiscard]] std::vector<std::uint8_t> freeNodes(const FeModel& model, const PatchSurface& surface);
 
-/// w_i(s) proportional to A_i exp(-r_i^2 / 2 a^2) for r_i < 3 a, restricted to free nodes, sum 1.
-/// docs/design.md, Symbols, Parts. A patch without a free node is empty and has free_share 0.
+/// A patch of surface nodes as one of volume nodes.
+[[nodiscard]] Patch patchOf(const PatchSurface& surface, const PatchNodes& nodes);
+
+/// The patch at s, as the server finds it (core's ContactPatches). A patch without a free node is empty and has
+/// free_share 0. For many patches of a surface, make its ContactPatches once.       docs/design.md, Symbols
 [[nodiscard]] Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s,
                               double a);
 

@@ -34,11 +34,16 @@ FieldTable::~FieldTable() {
 }
 
 void FieldTable::write(std::size_t position, std::span<const float> fields) {
+  write(position, 0, fields);
+}
+
+void FieldTable::write(std::size_t position, std::size_t first, std::span<const float> fields) {
   const char* data = reinterpret_cast<const char*>(fields.data());
+  const std::size_t bytes = fields.size_bytes();
+  const std::size_t begin = position * blockBytes() + first * rows_ * sizeof(float);
   std::size_t done = 0;
-  while (done < blockBytes()) {
-    const ssize_t n =
-        pwrite(file_, data + done, blockBytes() - done, static_cast<off_t>(position * blockBytes() + done));
+  while (done < bytes) {
+    const ssize_t n = pwrite(file_, data + done, bytes - done, static_cast<off_t>(begin + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) throw std::runtime_error(std::string("scratch file: write failed: ") + std::strerror(errno));
     done += static_cast<std::size_t>(n);

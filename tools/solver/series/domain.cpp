@@ -17,14 +17,15 @@ namespace palpate::solver {
 
 namespace {
 
+/// Where the terms of a degree vanish by chance the ratio of two degrees has no meaning; with at most this ratio a
+/// tail is at most four times the last term.
+constexpr double kSlowest = 0.8;
+
 /// Estimates the truncation error of a series from its last terms: the terms beyond are taken to fall as
 /// slowly as over the last degree or the last two. Near the radius of convergence this tail exceeds the last
 /// terms. docs/design.md, Series
 double remainder(double last, double previous, double before_previous) {
   if (last == 0.0) return 0.0;
-  // Where the terms of a degree vanish by chance the ratio has no meaning; the tail is at most four times the
-  // last term.
-  constexpr double kSlowest = 0.8;
   const double ratio = std::min(kSlowest, std::max(last / previous, std::sqrt(last / before_previous)));
   return last * std::max(1.0, ratio / (1.0 - ratio));
 }
@@ -83,6 +84,37 @@ bool Ray::isTrusted(double r) const {
     if (cut.norm() + tail > tolerance_ * whole.norm()) return false;
   }
   return K.llt().info() == Eigen::Success;
+}
+
+using Sizes = std::array<double, MonomialBasis::kMaxOrder + 1>;
+
+/// Size of the terms of each degree at x = direction, the largest over the nodes.
+/// @param coefficients  [node][k]
+Sizes termSizes(const MonomialBasis& basis, std::span<const Vec3> coefficients, const Vec3& direction) {
+  std::array<double, MonomialBasis::kMaxCoefficients> value{};
+  basis.evaluate(direction, value);
+  Sizes largest{};
+  const auto count = static_cast<std::size_t>(basis.size());
+  for (std::size_t begin = 0; begin < coefficients.size(); begin += count)
+    for (int degree = 1; degree <= basis.order(); ++degree) {
+      Vec3 term = Vec3::Zero();
+      for (auto k = static_cast<std::size_t>(basis.begin(degree));
+           k < static_cast<std::size_t>(basis.begin(degree + 1)); ++k)
+        term += value[k] * coefficients[begin + k];
+      double& size = largest[static_cast<std::size_t>(degree)];
+      size = std::max(size, term.norm());
+    }
+  return largest;
+}
+
+/// By how much terms grow from degree to degree at abs(d) = 1: as over the last degree of the fields or the last two,
+/// or in the mean as those of the force, which is known further: from degree p on, over two degrees at least.
+double growth(const Sizes& fields, int p, const Sizes& force, int force_order) {
+  const auto size = [](const Sizes& sizes, int n) { return sizes[static_cast<std::size_t>(n)]; };
+  double ratio = p > 1 ? size(fields, p) / size(fields, p - 1) : 0.0;
+  if (p > 2) ratio = std::max(ratio, std::sqrt(size(fields, p) / size(fields, p - 2)));
+  const int from = std::max(1, std::min(p, force_order - 2));
+  return std::max(ratio, std::pow(size(force, force_order) / size(force, from), 1.0 / (force_order - from)));
 }
 
 /// x^alpha for x = radius * direction, per lane. @param[out] monomials  one per coefficient
@@ -189,6 +221,32 @@ double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, in
       if (bad - good < 1e-3 * step) break;
     }
     radius = std::min(radius, good);
+  }
+  return radius;
+}
+
+double fieldRadius(const MonomialBasis& basis, std::span<const Vec3> fields,
+                   const MonomialBasis& answer_basis, std::span<const Vec3> answer, double cap,
+                   double tolerance) {
+  constexpr int kHalvings = 12;
+  const int p = basis.order();
+  double radius = cap;
+  for (const Vec3& direction : sampledDirections()) {
+    const Sizes sizes = termSizes(basis, fields, direction);
+    const Sizes force = termSizes(answer_basis, answer, direction);
+    const double ratio = growth(sizes, p, force, answer_basis.order());
+    const double last = sizes[static_cast<std::size_t>(p)];
+    const auto isTrusted = [&](double r) {
+      const double next = std::min(kSlowest, ratio * r);
+      return last * std::pow(r, p - 1) * next <= tolerance * (1.0 - next);
+    };
+    if (isTrusted(radius)) continue;
+    double good = 0.0, bad = radius;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      const double middle = 0.5 * (good + bad);
+      (isTrusted(middle) ? good : bad) = middle;
+    }
+    radius = good;
   }
   return radius;
 }

@@ -20,6 +20,14 @@ namespace palpate::solver {
 [[nodiscard]] double answerRadius(const MonomialBasis& basis, std::span<const Vec3> answer, int kept,
                                   double cap, double tolerance);
 
+/// Largest radius, at most `cap`, up to which, in every sampled direction, what fields of degree p leave out is
+/// estimated to stay within `tolerance` of the radius at every node given.
+///                                                                                     docs/design.md, Series
+/// @param fields  U_alpha, [node][k]  @param answer  driven by displacement: it tells how fast terms fall beyond p
+[[nodiscard]] double fieldRadius(const MonomialBasis& basis, std::span<const Vec3> fields,
+                                 const MonomialBasis& answer_basis, std::span<const Vec3> answer, double cap,
+                                 double tolerance);
+
 /// Shrinks each lane's radius until det F >= min_det_f in every integration point and sampled direction.
 void limitByDetF(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
                  std::span<double> radii);

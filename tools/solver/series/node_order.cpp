@@ -2,6 +2,7 @@
 #include "tools/solver/series/node_order.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palpate::solver {
 
@@ -33,6 +34,12 @@ std::vector<FeModel::Point> NodeOrder::sorted(std::span<const FeModel::Point> of
            *std::min_element(r.nodes.begin(), r.nodes.end());
   });
   return points;
+}
+
+double pointLength(std::span<const FeModel::Point> points) {
+  double volume = 0.0;
+  for (const FeModel::Point& point : points) volume += point.weight;
+  return std::exp2(std::round(std::log2(std::cbrt(volume / static_cast<double>(points.size())))));
 }
 
 }  // namespace palpate::solver

@@ -24,9 +24,20 @@ struct NodeOrder {
   NodeOrder(const FeModel& model, const Cholesky& factor);
   /// The points with places instead of nodes, sorted by them: each field is read once, not once per element.
   [[nodiscard]] std::vector<FeModel::Point> sorted(std::span<const FeModel::Point> of_the_mesh) const;
+  [[nodiscard]] std::size_t placeOf(int node) const {
+    return static_cast<std::size_t>(place[static_cast<std::size_t>(node)]);
+  }
+  /// The row of the factor for a component of a free node.
+  [[nodiscard]] std::size_t rowOf(int node, int c) const {
+    return row_of[placeOf(node)][static_cast<std::size_t>(c)];
+  }
+
   std::vector<NodeRow> rows;
   std::vector<std::int32_t> place;                 ///< by node
   std::vector<std::array<std::size_t, 3>> row_of;  ///< by place, of free nodes
 };
+
+/// A power of two of the order of an element's edge, m: a change of unit by it is exact.
+[[nodiscard]] double pointLength(std::span<const FeModel::Point> points);
 
 }  // namespace palpate::solver

@@ -18,17 +18,6 @@
 
 namespace palpate::solver {
 
-namespace {
-
-/// A power of two of the order of an element's edge: a change of unit by it is exact.
-double lengthOf(std::span<const FeModel::Point> points) {
-  double volume = 0.0;
-  for (const FeModel::Point& point : points) volume += point.weight;
-  return std::exp2(std::round(std::log2(std::cbrt(volume / static_cast<double>(points.size())))));
-}
-
-}  // namespace
-
 struct SeriesSolver::State {
   State(const FeModel& fe, const Cholesky& factor, int order, SeriesKind driven_by)
       : model(fe),
@@ -41,7 +30,7 @@ struct SeriesSolver::State {
         energy_rows(CauchyProduct(energy_basis, answerOrder(order)), firstEnergy()),
         order_of_nodes(fe, factor),
         points(order_of_nodes.sorted(fe.points())),
-        length(lengthOf(points)),
+        length(pointLength(points)),
         solver(factor) {
     U.resize(static_cast<std::size_t>(model.nodeCount()) * coefficients() * 3);
     V.resize(U.size());
@@ -66,14 +55,6 @@ struct SeriesSolver::State {
   [[nodiscard]] std::size_t at(std::size_t place, int k) const {
     return (place * coefficients() + static_cast<std::size_t>(k)) * 3;
   }
-  [[nodiscard]] std::size_t placeOf(int node) const {
-    return static_cast<std::size_t>(order_of_nodes.place[static_cast<std::size_t>(node)]);
-  }
-  /// Of the factor, for a node that is free.
-  [[nodiscard]] std::size_t rowOf(int node, int c) const {
-    return order_of_nodes.row_of[placeOf(node)][static_cast<std::size_t>(c)];
-  }
-
   void firstDegree();
   void nextDegree(int degree);
   void fillSides(std::size_t count);
@@ -83,6 +64,7 @@ struct SeriesSolver::State {
   const Mat3& inverseCompliance(int lane, const Mat3& C);
   void answerFromEnergy();
   [[nodiscard]] Vec3 average(int lane, int j) const;
+  [[nodiscard]] std::vector<Vec3> patchFields(int lane) const;
 
   const FeModel& model;
   SeriesKind kind;
@@ -117,7 +99,8 @@ Vec3 SeriesSolver::State::average(int lane, int j) const {
   const Patch& p = patch(lane);
   for (std::size_t i = 0; i < p.nodes.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      d[c] += p.weights[i] * sides[rowOf(p.nodes[i], c) * count + static_cast<std::size_t>(j)][lane];
+      d[c] += p.weights[i] *
+              sides[order_of_nodes.rowOf(p.nodes[i], c) * count + static_cast<std::size_t>(j)][lane];
   return d;
 }
 
@@ -146,7 +129,7 @@ void SeriesSolver::State::firstDegree() {
   for (int lane = 0; lane < kLanes; ++lane)
     for (std::size_t i = 0; i < patch(lane).nodes.size(); ++i)
       for (int c = 0; c < 3; ++c)
-        sides[rowOf(patch(lane).nodes[i], c) * 3 + static_cast<std::size_t>(c)][lane] =
+        sides[order_of_nodes.rowOf(patch(lane).nodes[i], c) * 3 + static_cast<std::size_t>(c)][lane] =
             patch(lane).weights[i];
   solveSides(3);
   std::array<Lanes, 9> mix{};  // of the columns of W_s, [k][i]
@@ -256,8 +239,19 @@ Vec3 SeriesSolver::answer(int lane, int k) const {
   return {a[0][lane], a[1][lane], a[2][lane]};
 }
 
+/// U_alpha at the nodes of the patch, [node][k]: nowhere do fields move more.
+std::vector<Vec3> SeriesSolver::State::patchFields(int lane) const {
+  std::vector<Vec3> fields;
+  for (const std::int32_t node : patch(lane).nodes)
+    for (int k = 0; k < basis.size(); ++k) {
+      const Lanes* u = U.data() + at(order_of_nodes.placeOf(node), k);
+      fields.emplace_back(u[0][lane], u[1][lane], u[2][lane]);
+    }
+  return fields;
+}
+
 Vec3 SeriesSolver::displacement(int lane, int k, int node) const {
-  const Lanes* u = state_->U.data() + state_->at(state_->placeOf(node), k);
+  const Lanes* u = state_->U.data() + state_->at(state_->order_of_nodes.placeOf(node), k);
   return {u[0][lane], u[1][lane], u[2][lane]};
 }
 
@@ -271,25 +265,35 @@ void SeriesSolver::copyDisplacements(std::span<const std::int32_t> nodes, std::s
         float* out = fields.data() + (lane * s.coefficients() + k) * rows + 3 * begin;
         for (std::size_t i = begin; i < std::min(begin + kTogether, nodes.size()); ++i)
           for (std::size_t c = 0; c < 3; ++c)
-            *out++ = static_cast<float>(
-                s.U[s.at(s.placeOf(nodes[i]), static_cast<int>(k)) + c][static_cast<int>(lane)]);
+            *out++ = static_cast<float>(s.U[s.at(s.order_of_nodes.placeOf(nodes[i]), static_cast<int>(k)) + c]
+                                           [static_cast<int>(lane)]);
       }
 }
 
-std::vector<double> SeriesSolver::domainRadii(const DomainCriteria& criteria) const {
+std::vector<SeriesRadii> SeriesSolver::domainRadii(const DomainCriteria& criteria) const {
   const bool by_force = state_->kind == SeriesKind::kForce;
   const int kept = by_force ? state_->basis.order() : state_->answer_basis.order();
-  std::vector<double> radii(state_->patches.size());
-  for (std::size_t lane = 0; lane < radii.size(); ++lane) {
+  std::vector<double> domain(state_->patches.size());
+  std::vector<SeriesRadii> radii(domain.size());
+  for (std::size_t lane = 0; lane < domain.size(); ++lane) {
     std::vector<Vec3> coefficients;
     for (int k = 0; k < state_->answer_basis.size(); ++k)
       coefficients.push_back(answer(static_cast<int>(lane), k));
     Mat3 C;
     for (int k = 0; k < 3; ++k) C.col(k) = coefficients[static_cast<std::size_t>(k)];
     const double cap = by_force ? criteria.cap / C.norm() : criteria.cap;
-    radii[lane] = answerRadius(state_->answer_basis, coefficients, kept, cap, criteria.answer_error);
+    const auto radius = [&](double error) {
+      return answerRadius(state_->answer_basis, coefficients, kept, cap, error);
+    };
+    domain[lane] = radius(criteria.answer_error);
+    if (by_force) continue;
+    radii[lane].series = radius(std::max(criteria.answer_error, criteria.series_error));
+    domain[lane] = fieldRadius(state_->basis, state_->patchFields(static_cast<int>(lane)),
+                               state_->answer_basis, coefficients, domain[lane], criteria.field_error);
   }
-  limitByDetF(state_->basis, state_->input(), criteria.min_det_f, radii);
+  limitByDetF(state_->basis, state_->input(), criteria.min_det_f, domain);
+  for (std::size_t lane = 0; lane < domain.size(); ++lane)
+    radii[lane] = {by_force ? domain[lane] : radii[lane].series, domain[lane]};
   return radii;
 }
 

@@ -20,10 +20,20 @@ enum class SeriesKind : std::uint8_t {
   kForce,  ///< f prescribed, d found: the paper's parameters, position and orientation   docs/design.md, Reproduction
 };
 
+/// How far the series of one position goes: |d|, m, or |f|, N.
+struct SeriesRadii {
+  double series;  ///< r_max, up to which the polynomials may run, or f_max
+  double
+      domain;  ///< d_max <= r_max, up to which the answer and the fields near the patch meet the criteria, or f_max
+};
+
 /// Sampling and limits of the domain radius d_max(s), or f_max(s).                     docs/design.md, Series
 struct DomainCriteria {
   double answer_error{0.01};  ///< relative error of the force (or displacement) that the series may have
-  double min_det_f{0.3};      ///< over all integration points
+  double field_error{
+      0.01};              ///< largest error of the fields near the patch, of |d|; driven by displacement only
+  double min_det_f{0.3};  ///< over all integration points
+  double series_error{0.05};  ///< of the force at the end of the polynomials; driven by displacement only
   double cap{0.05};           ///< m, largest radius; driven by force: of the linear answer
 };
 
@@ -62,9 +72,10 @@ class SeriesSolver {
   [[nodiscard]] Vec3 displacement(int lane, int k, int node) const;
   /// U_alpha of all positions at volume nodes. @param[out] fields  [position][k][node][3]
   void copyDisplacements(std::span<const std::int32_t> nodes, std::span<float> fields) const;
-  /// Largest |d| (|f|) at which the series of a lane meets the criteria, over 26 directions, m (N). Driven by
-  /// displacement the whole answer is judged; driven by force only its part of degree p, which a model keeps.
-  [[nodiscard]] std::vector<double> domainRadii(const DomainCriteria& criteria) const;
+  /// Largest |d| (|f|) at which the series of each lane meets the criteria, over 26 directions, m (N). Driven by
+  /// displacement the whole answer is judged; driven by force only its part of degree p, which a model keeps: that bounds
+  /// the fields too, and both radii are one. At any radius df/dd is positive definite.
+  [[nodiscard]] std::vector<SeriesRadii> domainRadii(const DomainCriteria& criteria) const;
 
  private:
   struct State;

@@ -96,10 +96,15 @@ TEST_P(SlidesOnACoarseLiver, HardlyEverClickOnceTheySlideAndNeverJump) {
   ASSERT_NE(model(), nullptr);
   feel::SlideOptions options;
   options.friction = GetParam();
-  const auto slides = feel::slides(*model(), options);
-  EXPECT_LE(std::ranges::count_if(slides, [](const auto& s) { return s.largest_ratio_later > 1.0; }),
-            GetParam() > 0.1 ? 6 : 4);
-  for (const feel::SlideResult& slide : slides) EXPECT_LE(slide.largest_slow_step, 0.5 * slide.largest_step);
+  std::ptrdiff_t clicks = 0;  // of 200 slides
+  for (const unsigned seed : {1U, 2U}) {
+    options.seed = seed;
+    const auto slides = feel::slides(*model(), options);
+    clicks += std::ranges::count_if(slides, [](const auto& s) { return s.largest_ratio_later > 1.0; });
+    for (const feel::SlideResult& slide : slides)
+      EXPECT_LE(slide.largest_slow_step, 0.5 * slide.largest_step);
+  }
+  EXPECT_LE(clicks, GetParam() > 0.1 ? 11 : 8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Friction, SlidesOnACoarseLiver, ::testing::Values(0.0, 0.05, 0.3));

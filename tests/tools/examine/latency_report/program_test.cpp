@@ -37,8 +37,8 @@ TEST(LatencyReport, MeasuresAllInTurnAndWritesTableFigureAndJson) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto json = nlohmann::json::parse(contentOf(json_file));
   for (const nlohmann::json& state : {json, json["loaded"]}) {
-    for (const char* key :
-         {"cyclictest", "wakeup", "tick", "ddsperf_roundtrip", "pose_to_force", "pose_to_force_less_wait", "pose_to_field"})
+    for (const char* key : {"cyclictest", "wakeup", "tick", "ddsperf_roundtrip", "pose_to_force",
+                            "pose_to_force_less_wait", "pose_to_field"})
       expectTimes(state[key], key);
     for (const char* viewers : {"0", "1", "4", "4_one_stopped"})
       expectTimes(state["force_with_viewers"][viewers], viewers);

@@ -15,7 +15,7 @@ TEST(FullSolution, ModelAgreesOnATinyTouch) {
   const Anchor anchor = anchorAtNode(box.model, BoxMesh::number(3, 1, 2));
   const Vec3 d(2e-6, -3e-6, -6e-6);
   const Errors errors = errorsOf(ask(box.model, anchor, d), box.solve(anchor, d), box.organ);
-  EXPECT_LT(errors.force, 1e-9);
+  EXPECT_LT(errors.force, 6e-8);      // the patch's stiffness is summed from pairs in single precision
   EXPECT_LT(errors.field_max, 6e-5);  // the model's field is rounded to 16 bits
   EXPECT_LT(errors.field_l2, 4e-5);
 }

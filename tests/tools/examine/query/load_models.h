@@ -81,9 +81,10 @@ class LoadModel {
     for (std::size_t first = 0; first < patches.size(); first += solver::kLanes) {
       const std::size_t count = std::min<std::size_t>(solver::kLanes, patches.size() - first);
       series.solve(std::span(patches).subspan(first, count));
-      const std::vector<double> f_max = series.domainRadii({});
+      const std::vector<solver::SeriesRadii> f_max = series.domainRadii({});
       for (std::size_t lane = 0; lane < count; ++lane) {
-        data_.contact_domain_radius.push_back(level ? std::min(1.0, f_max[lane] / kLoad) : f_max[lane]);
+        data_.contact_domain_radius.push_back(level ? std::min(1.0, f_max[lane].series / kLoad)
+                                                    : f_max[lane].series);
         for (int degree = 1; degree <= kOrder; ++degree)
           addDegree(organ, series, static_cast<int>(lane), patches[first + lane], degree);
       }

@@ -76,7 +76,7 @@ TEST(LoadQuestion, BeyondTheDomainIsTheClampedOne) {
   const Loaded box(Parameters::kForce);
   const Anchor anchor = anchorAtNode(box.model, BoxMesh::number(4, 2, 2));
   const Answer answer = ask(box.model, anchor, force({0.0, 0.0, -50.0}));
-  EXPECT_EQ(answer.status, ResponseStatus::kClamped);
+  EXPECT_EQ(answer.status, ResponseStatus::kBeyond);
   const auto position =
       static_cast<std::size_t>(box.model.view().position_of_node[static_cast<std::size_t>(anchor.node)]);
   EXPECT_NEAR(answer.response.force.norm(), box.model.view().contact_domain_radius[position], 1e-12);

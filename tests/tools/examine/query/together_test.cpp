@@ -31,11 +31,12 @@ TEST(Together, ThePatchesOfTheModelAreThoseOfTheSolver) {
         solver::makePatch(box.organ.body, surface, surface.atNode(node), box.model.attributes().patch_radius);
     std::map<std::int32_t, double> expected;
     for (std::size_t i = 0; i < patch.nodes.size(); ++i) expected[patch.nodes[i]] = patch.weights[i];
-    const auto nodes = box.model.patchAverage().nodes(m);
-    const auto weights = box.model.patchAverage().weights(m);
-    ASSERT_EQ(nodes.size(), expected.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      EXPECT_NEAR(double(weights[i]), expected.at(surface.nodes[static_cast<std::size_t>(nodes[i])]), 1e-6);
+    PatchNodes found = box.model.patches().room();
+    box.model.patches().at(surface.atNode(node), false, found);
+    ASSERT_EQ(found.count, expected.size());
+    for (std::size_t i = 0; i < found.count; ++i)
+      EXPECT_NEAR(found.weight[i], expected.at(surface.nodes[static_cast<std::size_t>(found.node[i])]),
+                  1e-12);
   }
 }
 

@@ -120,6 +120,7 @@ TEST_F(Replay, RefusesAModelOfTheSameNameThatAnswersOtherwise) {
   const palpate::testing::TemporaryFile file("replay-model.h5");  // the name of the recorded one
   modelfile::ModelData data = palpate::testing::syntheticModel();
   for (double& force : data.contact_force) force *= 3.0;
+  for (double& stiffness : data.contact_stiffness) stiffness *= 3.0;
   modelfile::writeModel(file.path(), data);
   model_ = MetaModel::load(file.path());
   for (const Demand demand : {Demand::kWhole, Demand::kPartial}) try {

@@ -81,7 +81,9 @@ TEST_F(SolveProgram, MakesAModelThatInspectReads) {
   const auto model = nlohmann::json::parse(inspect.out);
   EXPECT_EQ(model.at("order"), 3);
   EXPECT_EQ(model.at("force_order"), 6);
-  EXPECT_EQ(model.at("domain_radius").at("p05"), summary.at("domain_radius").at("p05"));
+  for (const char* radius : {"domain_radius", "series_radius"})
+    EXPECT_EQ(model.at(radius).at("p05"), summary.at(radius).at("p05"));
+  EXPECT_GE(model.at("series_radius").at("p05"), model.at("domain_radius").at("p05"));
   EXPECT_NE(model.at("provenance").at("case").get<std::string>().find("modes = 20"), std::string::npos);
 }
 

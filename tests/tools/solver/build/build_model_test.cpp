@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <random>
 
@@ -85,8 +87,9 @@ TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 8; ++i) {
     int node = 0;
+    // Two rings from the clamped end: positions beside it answer for less than 1.5 mm.
     do node = static_cast<int>(random() % world_->surface->nodes.size());
-    while (world_->surface->positions[static_cast<std::size_t>(node)].x() < 0.02);
+    while (world_->surface->positions[static_cast<std::size_t>(node)].x() < 0.03);
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
     const Errors errors = compare(model, world_->surface->atNode(node), d);
     EXPECT_LT(errors.force, 2e-5);
@@ -94,7 +97,7 @@ TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
   }
 }
 
-// No point between the nodes was in the fit; there, three patches stand for one.
+// No point between the nodes was in the fit; there, orders of two and more are mixed of three patches'.
 TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
   const MetaModel model = MetaModel::load(world_->file.path());
   std::mt19937 random(4);
@@ -108,6 +111,42 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
     EXPECT_LT(errors.force, 0.02);
     EXPECT_LT(errors.field, 0.07);
   }
+}
+
+// The linear part has a solve's accuracy there: K_s between its places, and the field up to what the modes miss.
+TEST_F(SolvedBlock, SmallTouchesBetweenNodesAreAsNewtonSays) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 6; ++i) {
+    ContactPoint s{0, {0.2, 0.3, 0.5}};
+    do s.triangle = static_cast<int>(random() % world_->surface->triangles.size());
+    while (world_->surface->position(s).x() < 0.02);
+    const Vec3 d = 1e-7 * Vec3(normal(random), normal(random), normal(random)).normalized();
+    const Errors errors = compare(model, s, d);
+    EXPECT_LT(errors.force, 1e-3);
+    EXPECT_LT(errors.field, 0.02);
+  }
+}
+
+TEST_F(SolvedBlock, WhatOnePatchDoesToAnotherIsWhatThatDoesToIt) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  FieldScratch scratch(model);
+  std::mt19937 random(10);
+  double worst = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    std::array<ContactPoint, 2> s{ContactPoint{0, {0.2, 0.3, 0.5}}, ContactPoint{0, {0.6, 0.3, 0.1}}};
+    for (ContactPoint& point : s) do
+        point.triangle = static_cast<int>(random() % world_->surface->triangles.size());
+      while (world_->surface->position(point).x() < 0.02);
+    const auto between = [&](const ContactPoint& a, const ContactPoint& b) {
+      return complianceBetween(model, scratch.touchAt(model, a), scratch.touchAt(model, b), scratch)[0];
+    };
+    const Mat3 there = between(s[0], s[1]), back = between(s[1], s[0]);
+    worst = std::max(worst, (there - back.transpose()).norm() / between(s[0], s[0]).norm());
+  }
+  EXPECT_LT(worst, 0.01);
+  EXPECT_GT(worst, 1e-7) << "the modes leave something out";
 }
 
 // What is sent and drawn may end before them.

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../boxes.h"
-#include "tools/solver/fem/newton.h"
+#include "block_series.h"
 
 namespace palpate::solver {
 namespace {
@@ -14,46 +13,6 @@ namespace {
 constexpr double precision(int degree, int field_order) {
   return degree <= field_order ? 1e-9 : 2e-5;
 }
-
-class BlockSeries : public ::testing::Test {
- protected:
-  static constexpr int kOrder = 4;
-  const Box box_{6, 5, 4, Vec3(0.06, 0.05, 0.04)};
-
-  struct Case {
-    explicit Case(const Box& box, double E)
-        : model(box.clamped({{E, 0.45}})), surface(box.surface(model)), factor(model) {
-      factor.factorize(Eigen::VectorXd::Zero(3 * model.nodeCount()));
-      for (const int node : {box.node(4, 2, 4), box.node(6, 3, 2), box.node(3, 5, 2)}) {
-        const auto at = std::find(surface.nodes.begin(), surface.nodes.end(), node) - surface.nodes.begin();
-        patches.push_back(makePatch(model, surface, surface.atNode(static_cast<int>(at)), 0.012));
-      }
-    }
-    FeModel model;
-    PatchSurface surface;
-    Cholesky factor;
-    std::vector<Patch> patches;
-  };
-
-  static Eigen::VectorXd field(const SeriesSolver& series, int lane, const Vec3& d, const FeModel& model) {
-    std::vector<double> value(static_cast<std::size_t>(series.basis().size()));
-    series.basis().evaluate(d, value);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * model.nodeCount());
-    for (int node = 0; node < model.nodeCount(); ++node)
-      for (int k = 0; k < series.basis().size(); ++k)
-        u.segment<3>(3 * node) += value[static_cast<std::size_t>(k)] * series.displacement(lane, k, node);
-    return u;
-  }
-
-  static Vec3 force(const SeriesSolver& series, int lane, const Vec3& d) {
-    std::vector<double> value(static_cast<std::size_t>(series.answerBasis().size()));
-    series.answerBasis().evaluate(d, value);
-    Vec3 f = Vec3::Zero();
-    for (int k = 0; k < series.answerBasis().size(); ++k)
-      f += value[static_cast<std::size_t>(k)] * series.answer(lane, k);
-    return f;
-  }
-};
 
 TEST_F(BlockSeries, AgreesWithNewtonToItsOrder) {
   Case c(box_, 160e3);
@@ -149,51 +108,6 @@ TEST_F(BlockSeries, DisplacementDoesNotDependOnYoungsModulusAndForceIsProportion
   }
 }
 
-TEST_F(BlockSeries, ForceErrorInsideTheDomainIsSmall) {
-  Case c(box_, 160e3);
-  SeriesSolver series(c.model, c.factor, 3);
-  series.solve(c.patches);
-  const std::vector<double> radii = series.domainRadii({});
-  ASSERT_EQ(radii.size(), 3U);
-  NewtonSolver newton(c.model);
-  for (int lane = 0; lane < 3; ++lane) {
-    const double radius = radii[static_cast<std::size_t>(lane)];
-    EXPECT_GT(radius, 1e-3);
-    EXPECT_LT(radius, 0.05);
-    const Vec3 d = radius * Vec3(-0.6, 0.0, -0.8);
-    const NewtonResult truth = newton.solvePatch(c.patches[static_cast<std::size_t>(lane)], d, {});
-    EXPECT_LT((force(series, lane, d) - truth.force).norm(), 0.01 * truth.force.norm());
-    EXPECT_GE(c.model.minDetF(truth.u), 0.25);
-  }
-}
-
-TEST_F(BlockSeries, DomainShrinksAsTheLimitOnDetFRises) {
-  Case c(box_, 160e3);
-  SeriesSolver series(c.model, c.factor, 3);
-  series.solve(c.patches);
-  DomainCriteria loose;
-  loose.answer_error = 1e9;
-  DomainCriteria tight = loose;
-  tight.min_det_f = 0.9;
-  const double wide = series.domainRadii(loose)[0];
-  const double narrow = series.domainRadii(tight)[0];
-  EXPECT_LT(narrow, 0.7 * wide);
-  double worst = 1.0;
-  for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0)})
-    worst = std::min(worst, c.model.minDetF(field(series, 0, narrow * direction, c.model)));
-  EXPECT_GE(worst, 0.9 - 1e-6);
-}
-
-/// sum over k of value[k] c(k), c(k) in R^3.
-template <typename Coefficient>
-Vec3 sum(const MonomialBasis& basis, const Vec3& x, Coefficient c) {
-  std::vector<double> value(static_cast<std::size_t>(basis.size()));
-  basis.evaluate(x, value);
-  Vec3 total = Vec3::Zero();
-  for (int k = 0; k < basis.size(); ++k) total += value[static_cast<std::size_t>(k)] * c(k);
-  return total;
-}
-
 TEST_F(BlockSeries, DrivenByForceAgreesWithNewtonUnderDeadLoadToItsOrder) {
   Case c(box_, 160e3);
   SeriesSolver series(c.model, c.factor, 3, SeriesKind::kForce);
@@ -276,25 +190,6 @@ TEST_F(BlockSeries, DrivenByForceAndByDisplacementAreInverseToEachOther) {
       for (std::size_t degree = 2; degree <= kDegree; ++degree)
         EXPECT_LT(f[degree].norm(), precision(static_cast<int>(degree), 3) * f_ref) << "degree " << degree;
     }
-}
-
-TEST_F(BlockSeries, PatchGoesWhereTheForceSeriesSaysInsideItsDomain) {
-  Case c(box_, 160e3);
-  SeriesSolver series(c.model, c.factor, 3, SeriesKind::kForce);
-  series.solve(c.patches);
-  const std::vector<double> radii = series.domainRadii({});
-  for (int lane = 0; lane < 3; ++lane) {
-    const Patch& patch = c.patches[static_cast<std::size_t>(lane)];
-    EXPECT_GT(radii[static_cast<std::size_t>(lane)], 0.01);
-    const Vec3 f = radii[static_cast<std::size_t>(lane)] * Vec3(-0.6, 0.0, -0.8);
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * c.model.nodeCount());
-    patch.addForce(f, load);
-    const NewtonResult truth = NewtonSolver(c.model).solveLoad(load, {});
-    const Vec3 d = patch.average(truth.u);
-    const Vec3 kept = sum(series.basis(), f, [&](int k) { return series.answer(lane, k); });
-    EXPECT_LT((kept - d).norm(), 0.012 * d.norm());
-    EXPECT_GE(c.model.minDetF(truth.u), 0.25);
-  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "core/base/types.h"
 #include "palpate/testing/files.h"
@@ -19,6 +20,7 @@ struct SyntheticOptions {
   double near_radius{0.02};              ///< m
   double reference_displacement{0.005};  ///< m
   double domain_radius{0.008};           ///< d_max, m
+  double series_radius{0.0};             ///< r_max, m; where less than d_max: d_max
   double stiffness{300.0};               ///< N/m, tangential; the normal one is 1.5 times as large
   double nonlinearity{0.1};              ///< size of the higher terms at d_ref
   double contrast{0.0};        ///< stiffness from place to place: 1 - contrast to 1 + contrast times as large
@@ -36,6 +38,9 @@ struct SyntheticOptions {
 /// All datasets. Surface node i is volume node i; the last volume node is the centre. Outward normal at X is
 /// X / |X|.
 [[nodiscard]] modelfile::ModelData syntheticModel(const SyntheticOptions& options = {});
+
+/// /contact/stiffness: K(X), N/m, at the places of the smooth interpolant, and its gradient by differences.
+void fillStiffness(modelfile::ModelData& data, const std::function<Mat3(const Vec3&)>& K);
 
 /// Writes them with writeModel().
 void writeSyntheticModel(const std::filesystem::path& path, const SyntheticOptions& options = {});

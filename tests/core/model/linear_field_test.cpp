@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// What nodal Green's functions give: of a patch to another, and where the tool itself is.
+#include "core/model/linear_field.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "../response/random_touch.h"
+#include "core/base/index.h"
+#include "core/model/field_evaluation.h"
+
+namespace palpate::testing {
+
+namespace {
+
+Vec3 interpolated(const std::vector<float>& u, const ContactPoint& s) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t node = organ().view().surface_triangles[3 * index(s.triangle) + k];
+    sum += s.barycentric[k] * Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * node).cast<double>();
+  }
+  return sum;
+}
+
+Vec3 fieldAtOwnAnchor(const ContactPoint& s, const Vec3& d) {
+  FieldScratch scratch(organ());
+  const FieldSource source{s, d, 1.0};
+  Vec3 u;
+  fieldAt(organ(), std::span(&source, 1), scratch, std::span(&s, 1), std::span(&u, 1));
+  return u;
+}
+
+Mat3 stiffnessAt(const ContactPoint& s) {
+  PatchStiffness::Value value;
+  organ().stiffness().at(organ().surface(), s, value);
+  return value.K;
+}
+
+}  // namespace
+
+TEST(ContactDimple, IsTheFieldAtContactPositions) {
+  Random random;
+  for (std::size_t m = 0; m < organ().view().positions(); m += 3) {
+    const ContactPoint s = organ().surface().atNode(organ().view().contact_node[m]);
+    const Vec3 d = random.vector(0.004);
+    const Vec3 expected = interpolated(field(s, d), s);
+    EXPECT_LT((fieldAtOwnAnchor(s, d) - expected).norm(), 1e-6 * expected.norm()) << m;
+    EXPECT_GT(expected.norm(), 1e-5);
+  }
+}
+
+// Orders of two and more are mixed there from the positions at the edge's ends, and vanish with d.
+TEST(ContactDimple, OfASmallTouchIsTheFieldInTheMiddlesOfEdges) {
+  Random random;
+  const std::size_t M = organ().view().positions();
+  ASSERT_GT(organ().places().size(), 2 * M);
+  for (std::size_t place = M; place < organ().places().size(); place += 5) {
+    const ContactPoint s = organ().places().views(place).front().s;
+    const Vec3 d = random.vector(1e-9);
+    const Vec3 expected = interpolated(field(s, d), s);
+    EXPECT_LT((fieldAtOwnAnchor(s, d) - expected).norm(), 2e-6 * expected.norm()) << place;
+    EXPECT_GT(expected.norm(), 1e-2 * d.norm());
+  }
+}
+
+TEST(ContactDimple, IsContinuousOverTheEdgesOfItsTriangles) {
+  const Vec3 d(0.001, -0.002, 0.003);
+  for (int t = 0; t < organ().surface().triangles(); t += 3) {
+    if (!organ().surface().complete(t)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ContactPoint before{t, {}}, after{t, {}};
+      before.barycentric[k] = 0.5 - 1e-9, after.barycentric[k] = 0.5 + 1e-9;
+      before.barycentric[(k + 1) % 3] = 0.2, after.barycentric[(k + 1) % 3] = 0.2;
+      before.barycentric[(k + 2) % 3] = 0.3 + 1e-9, after.barycentric[(k + 2) % 3] = 0.3 - 1e-9;
+      EXPECT_LT((fieldAtOwnAnchor(before, d) - fieldAtOwnAnchor(after, d)).norm(), 1e-7 * d.norm());
+    }
+  }
+}
+
+TEST(FieldAt, AnotherTouchGivesTheFieldOfTheWholeSurface) {
+  Random random;
+  FieldScratch scratch(organ());
+  for (int trial = 0; trial < 100; ++trial) {
+    const FieldSource source{random.contactPoint(), random.vector(0.004), 0.7};
+    const ContactPoint at = random.contactPoint();
+    std::vector<float> u(organ().view().surface_positions.size());
+    evaluateField(organ(), std::span(&source, 1), scratch, u);
+    Vec3 found;
+    fieldAt(organ(), std::span(&source, 1), scratch, std::span(&at, 1), std::span(&found, 1));
+    const Vec3 expected = interpolated(u, at);
+    EXPECT_LT((found - expected).norm(), 1e-6 * source.parameter.norm()) << trial;
+  }
+}
+
+TEST(ComplianceBetween, IsTheLinearFieldOfOnePatchAveragedOverTheOther) {
+  Random random;
+  FieldScratch scratch(organ());
+  for (int trial = 0; trial < 100; ++trial) {
+    const ContactPoint a = random.contactPoint(), b = trial == 0 ? a : random.contactPoint();
+    const Mat3 C =
+        complianceBetween(organ(), scratch.touchAt(organ(), a), scratch.touchAt(organ(), b), scratch)[0];
+    const PatchNodes& patch = scratch.touchAt(organ(), b).nodes();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double f = 1e-7;  // N, so small that the rest of the field vanishes
+      const std::vector<float> u = field(a, f * stiffnessAt(a).inverse().col(axis));
+      Vec3 expected = Vec3::Zero();
+      for (std::size_t j = 0; j < patch.count; ++j)
+        expected += patch.weight[j] / f *
+                    Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * patch.node[j]).cast<double>();
+      EXPECT_LT((C.col(axis) - expected).norm(), 2e-6 * expected.norm() + 1e-9) << trial;
+    }
+  }
+}
+
+TEST(ComplianceBetween, ItsSlopesAreItsDerivativesAsTheOtherPatchMoves) {
+  constexpr double kStep = 1e-3;  // single precision is at 1e-7
+  Random random;
+  for (int trial = 0; trial < 30; ++trial) {
+    FieldScratch scratch(organ());
+    const ContactPoint a = random.contactPoint();
+    ContactPoint b = random.contactPoint();
+    for (double& l : b.barycentric) l = 0.1 + 0.7 * l;  // far from the edges
+    const auto to = [&](const ContactPoint& s) {
+      return complianceBetween(organ(), scratch.touchAt(organ(), a), scratch.touchAt(organ(), s), scratch);
+    };
+    const std::array<Mat3, 4> here = to(b);
+    for (std::size_t k = 0; k < 2; ++k) {
+      ContactPoint ahead = b, behind = b;
+      ahead.barycentric[k] += kStep, ahead.barycentric[2] -= kStep;
+      behind.barycentric[k] -= kStep, behind.barycentric[2] += kStep;
+      const Mat3 slope = (to(ahead)[0] - to(behind)[0]) / (2.0 * kStep);
+      EXPECT_LE((here[k + 1] - here[3] - slope).norm(), 1e-3 * here[0].norm() + 1e-2 * slope.norm()) << trial;
+    }
+  }
+}
+
+TEST(FieldScratch, APatchStaysWhileOthersMove) {
+  FieldScratch scratch(organ());
+  Random random;
+  const ContactPoint still = random.contactPoint();
+  const TouchPatch& patch = scratch.touchAt(organ(), still);
+  for (int tick = 0; tick < 20; ++tick) {
+    ASSERT_EQ(&scratch.touchAt(organ(), still), &patch) << tick;
+    for (int tool = 1; tool < kMaxTools; ++tool) {
+      const ContactPoint moved = random.contactPoint();
+      ASSERT_EQ(scratch.touchAt(organ(), moved).s(), moved);
+      ASSERT_EQ(patch.s(), still) << tick << ", tool " << tool;
+    }
+  }
+}
+
+}  // namespace palpate::testing

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// A displacement that is longer than the model promises, and one beyond the end of its polynomials.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "random_touch.h"
+
+namespace palpate::testing {
+
+TEST(Response, StiffnessIsTheDerivativeOfForceInsideAndBeyondTheDomain) {
+  Random random;
+  for (const double size : {0.004, 0.02}) {
+    for (int trial = 0; trial < 50; ++trial) {
+      const ContactPoint s = random.contactPoint();
+      const Vec3 d = random.vector(size);
+      Response here, plus, minus;
+      const ResponseStatus status = respond(organ(), s, d, here);
+      if (std::abs(d.norm() - here.series_radius) < 1e-6) continue;  // the kink
+      EXPECT_EQ(status, d.norm() > here.domain_radius ? ResponseStatus::kBeyond : ResponseStatus::kOk);
+      const double h = 1e-7;
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        (void)respond(organ(), s, d + h * Vec3::Unit(j), plus);
+        (void)respond(organ(), s, d - h * Vec3::Unit(j), minus);
+        EXPECT_LT((here.stiffness.col(j) - (plus.force - minus.force) / (2.0 * h)).norm(), 1e-3);
+      }
+      if (d.norm() < here.series_radius) {
+        EXPECT_LT((here.stiffness - here.stiffness.transpose()).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Response, BetweenTheDomainAndTheEndOfThePolynomialsTheyRunOnFlagged) {
+  Random random;
+  for (int trial = 0; trial < 20; ++trial) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 direction = random.vector(1.0).normalized();
+    Response out;
+    EXPECT_EQ(respond(organ(), s, 0.999 * options().domain_radius * direction, out), ResponseStatus::kOk);
+    const Vec3 d = 0.5 * (options().domain_radius + options().series_radius) * direction;
+    EXPECT_EQ(respond(organ(), s, d, out), ResponseStatus::kBeyond);
+    EXPECT_NEAR(out.domain_radius, options().domain_radius, 1e-15);
+    EXPECT_NEAR(out.series_radius, options().series_radius, 1e-15);
+    EXPECT_EQ(out.displacement, d);
+    EXPECT_EQ(out.parameter, d);
+    const PatchResponse patch(organ(), s);
+    const double h = 1e-7;
+    for (int j = 0; j < 3; ++j)
+      EXPECT_NEAR((patch.energy(d + h * Vec3::Unit(j)) - patch.energy(d - h * Vec3::Unit(j))) / (2.0 * h),
+                  out.force[j], 1e-6 * out.force.norm());
+  }
+}
+
+TEST(Response, WhereThePolynomialsEndTheForceGoesOnAlongTheStiffnessThatPushesBack) {
+  Random random;
+  const ContactPoint s = random.contactPoint();
+  const Vec3 d(0.003, 0.02, -0.01);
+  const Vec3 on_edge = d.normalized() * options().series_radius;
+  Response far, edge;
+  EXPECT_EQ(respond(organ(), s, d, far), ResponseStatus::kBeyond);
+  (void)respond(organ(), s, on_edge * (1.0 - 1e-12), edge);
+  EXPECT_NEAR(far.displacement.norm(), options().series_radius, 1e-15);
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(edge.stiffness);
+  const Mat3& V = eigen.eigenvectors();
+  const Mat3 positive = V * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * V.transpose();
+  EXPECT_LT((far.force - edge.force - positive * (d - on_edge)).norm(), 1e-8 * far.force.norm());
+  EXPECT_LT(largestDifference(field(s, d), field(s, far.displacement)), 1e-9);
+}
+
+TEST(Response, ForceHasNoCliffAtTheDomainAndItsStiffnessIsItsSlope) {
+  Random random;
+  for (int sample = 0; sample < 50; ++sample) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 direction = random.vector(1.0).normalized();
+    Response last, now;
+    (void)respond(organ(), s, Vec3::Zero(), last);
+    for (double size = 1e-5; size < 0.02; size += 1e-5) {
+      (void)respond(organ(), s, size * direction, now);
+      ASSERT_LT((now.force - last.force).norm(),
+                1e-5 * 2.0 * std::max(now.stiffness.norm(), last.stiffness.norm()));
+      last = now;
+    }
+    const double h = 1e-7;
+    for (int j = 0; j < 3; ++j) {
+      Response plus, minus;
+      (void)respond(organ(), s, 0.012 * direction + h * Vec3::Unit(j), plus);
+      (void)respond(organ(), s, 0.012 * direction - h * Vec3::Unit(j), minus);
+      Response here;
+      (void)respond(organ(), s, 0.012 * direction, here);
+      EXPECT_LT((here.stiffness.col(j) - (plus.force - minus.force) / (2.0 * h)).norm(),
+                1e-3 * here.stiffness.norm());
+    }
+  }
+}
+
+TEST(Response, AHugeDisplacementIsAnsweredWithANumber) {
+  Random random;
+  const ContactPoint s = random.contactPoint();
+  for (const double size : {1.0, 1e10, 1e200}) {
+    Response far;
+    EXPECT_EQ(respond(organ(), s, size * Vec3(1.0, 1.0, -1.0), far), ResponseStatus::kBeyond);
+    EXPECT_TRUE(far.force.allFinite());
+    EXPECT_TRUE(far.stiffness.allFinite());
+    EXPECT_GT(far.force.dot(Vec3(1.0, 1.0, -1.0)), 0.0);
+  }
+}
+
+}  // namespace palpate::testing
