@@ -16,6 +16,7 @@
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/build/build_model_parts.h"
+#include "tools/solver/build/displacement_fields.h"
 #include "tools/solver/build/domain_rings.h"
 #include "tools/solver/build/linear_answers.h"
 #include "tools/solver/fit/far_field.h"
@@ -45,10 +46,9 @@ class Builder {
 
  private:
   void storePosition(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii);
-  void solveGreens(const Cholesky& factor, FieldTable& table);
-  void fit(const FieldTable& table);
-  void storeGreens(const FieldTable& table, const FarField& far);
-  void storeNearField(const FieldTable& table, const FarField& far);
+  void solveGreens(const Cholesky& factor, FieldTable& greens);
+  void fit(const FieldTable& table, const FieldTable& greens);
+  [[nodiscard]] std::vector<FitSource> fitSources(std::size_t count) const;
   [[nodiscard]] double scale(int k) const {
     return std::pow(d_ref_, force_basis_[k][0] + force_basis_[k][1] + force_basis_[k][2]);
   }
@@ -70,9 +70,6 @@ class Builder {
   std::vector<Mat3> scale_;      ///< of each source's linear columns, N/m
   modelfile::ModelData data_;
 };
-
-/// Near fields of orders of two and more leave out what is less than this part of the travel at a node.
-constexpr double kUnseen = 2e-4;
 
 /// The near field is part of the model; this program and the server hold all of it in memory.
 void checkNearBytes(double near_radius, std::span<const NearNodes> near, int coefficients) {
@@ -123,9 +120,9 @@ Mat3 Builder::stiffnessAt(std::size_t position) const {
   return Eigen::Map<const Mat3>(f) / d_ref_;
 }
 
-/// The linear columns of the table: the fields of unit loads at single nodes, times the stiffness of the patch there, so
-/// that they have the size of a patch's field per travel and one measure of errors holds for all columns.
-void Builder::solveGreens(const Cholesky& factor, FieldTable& table) {
+/// The fields of unit loads at single nodes, times the stiffness of the patch there, so that they have the size of a patch's
+/// field per travel.
+void Builder::solveGreens(const Cholesky& factor, FieldTable& greens) {
   const std::size_t M = setup_.positions.nodes.size();
   constexpr double kWidest = 6.5;  // of a patch's nodes, in a
   Mat3 mean = Mat3::Zero();
@@ -145,22 +142,29 @@ void Builder::solveGreens(const Cholesky& factor, FieldTable& table) {
       const Eigen::MatrixXd& W = solver->of(i);
       close.keep(first + i, W);
       const Eigen::MatrixXf scaled = (W * scale_[first + i]).cast<float>();
-      table.write(first + i, 0, {scaled.data(), static_cast<std::size_t>(scaled.size())});
+      greens.write(first + i, {scaled.data(), static_cast<std::size_t>(scaled.size())});
     }
     progress.advance(count);
   });
   data_.contact_stiffness = patchStiffness(setup_, patches_, close, options_.workers);
 }
 
-void Builder::fit(const FieldTable& table) {
+/// The first `count` of the nodes that carry load.
+std::vector<FitSource> Builder::fitSources(std::size_t count) const {
   std::vector<FitSource> sources;
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const Vec3& place = setup_.surface.positions[at(sources_[i])];
     // Large travel is rare and must not cost accuracy at small travel.
     const double ball =
         i < data_.contact_domain_radius.size() ? std::min(d_ref_, data_.contact_domain_radius[i]) : d_ref_;
     sources.push_back({place, fitWeights(setup_.surface, place, near_radius_), ball, d_ref_});
   }
+  return sources;
+}
+
+/// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.
+void Builder::fit(const FieldTable& table, const FieldTable& greens) {
+  const std::vector<FitSource> sources = fitSources(setup_.positions.nodes.size());
   const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
   FitOptions options;
   report_.fit_asked = case_.modes ? 0.0 : case_.fieldErrorOrDefault();
@@ -178,85 +182,12 @@ void Builder::fit(const FieldTable& table) {
   report_.fit_p95 = largest[largest.size() - 1 - largest.size() / 20];
   report_.fit_max = largest.back();
   data_.modes_X.assign(far.X.data(), far.X.data() + far.X.size());
-  storeGreens(table, far);
-  storeNearField(table, far);
-}
-
-/// The linear part by unit loads at nodes: amplitudes of the modes, and window (W_i - what the modes give) near node i.
-void Builder::storeGreens(const FieldTable& table, const FarField& far) {
-  const std::size_t C = at(basis_.size()), n = static_cast<std::size_t>(far.X.cols());
+  const std::vector<FitSource> loaded = fitSources(sources_.size());
+  const MonomialBasis linear(1);
+  const FitProblem by_load{greens, linear, setup_.surface.areas, setup_.surface.positions, loaded, d_ref_};
   data_.green_node = sources_;
-  data_.green_offset.push_back(0);
-  for (const NearNodes& near : near_) {
-    data_.green_offset.push_back(data_.green_offset.back() + static_cast<std::int64_t>(near.nodes.size()));
-    data_.green_near_node.insert(data_.green_near_node.end(), near.nodes.begin(), near.nodes.end());
-  }
-  data_.green_Y.resize(sources_.size() * 3 * n);
-  data_.green_near.resize(9 * data_.green_near_node.size());
-  parallelFor(options_.workers, sources_.size(), [&](int, std::size_t i) {
-    std::vector<float> fields(C * table.rows());
-    table.read(i, fields);
-    const Eigen::Matrix3f per_load = scale_[i].inverse().cast<float>();  // the table's columns are per travel
-    const Eigen::MatrixXf Y =
-        far.Y.middleCols(static_cast<Eigen::Index>(i * C), 3) * (per_load / static_cast<float>(d_ref_));
-    Eigen::Map<Eigen::MatrixXf>(data_.green_Y.data() + 3 * n * i, far.X.cols(), 3) = Y;
-    const Eigen::Map<const Eigen::MatrixXf> U(fields.data(), static_cast<Eigen::Index>(table.rows()), 3);
-    const NearNodes& near = near_[i];
-    const std::size_t K = near.nodes.size();
-    float* const out = data_.green_near.data() + 9 * data_.green_offset[i];
-    for (std::size_t j = 0; j < K; ++j) {
-      const Eigen::Index row = 3 * near.nodes[j];
-      const Eigen::Matrix3f modes = far.X.middleRows<3>(row) * Y;
-      const Eigen::Matrix3f missed = near.window[j] * (U.middleRows<3>(row) * per_load - modes);
-      for (std::size_t load = 0; load < 3; ++load)
-        Eigen::Map<Eigen::Vector3f>(out + 3 * (load * K + j)) = missed.col(static_cast<Eigen::Index>(load));
-    }
-  });
-}
-
-/// Orders of two and more: amplitudes of the modes, and window (U_alpha - what the modes give) at the nodes near each position
-/// where that is more than a small part of the travel.
-void Builder::storeNearField(const FieldTable& table, const FarField& far) {
-  const std::size_t M = setup_.positions.nodes.size(), n = static_cast<std::size_t>(far.X.cols());
-  const Eigen::Index C = basis_.size(), linear = 3;
-  data_.modes_Y.resize(M * static_cast<std::size_t>(C - linear) * n);
-  std::vector<std::vector<std::int32_t>> nodes(M);
-  std::vector<std::vector<float>> blocks(M);
-  parallelFor(options_.workers, M, [&](int, std::size_t position) {
-    std::vector<float> fields(static_cast<std::size_t>(C) * table.rows());
-    table.read(position, fields);
-    const auto Y = far.Y.middleCols(static_cast<Eigen::Index>(position) * C + linear, C - linear);
-    Eigen::Map<Eigen::MatrixXf>(data_.modes_Y.data() + position * static_cast<std::size_t>(C - linear) * n,
-                                Y.rows(), Y.cols()) = Y;
-    Eigen::Map<const Eigen::MatrixXf> U(fields.data(), static_cast<Eigen::Index>(table.rows()), C);
-    const double least = kUnseen * std::min(d_ref_, data_.contact_domain_radius[position]);
-    const double x = std::min(1.0, data_.contact_domain_radius[position] / d_ref_);
-    std::vector<Eigen::Matrix3Xf> kept;
-    const NearNodes& near = near_[position];
-    for (std::size_t j = 0; j < near.nodes.size(); ++j) {
-      const Eigen::Index row = 3 * near.nodes[j];
-      Eigen::Matrix3Xf u = -far.X.middleRows<3>(row) * Y;
-      double size = 0.0;
-      for (Eigen::Index k = 0; k < C - linear; ++k) {
-        const int alpha = static_cast<int>(k + linear);
-        u.col(k) += U.block<3, 1>(row, alpha) * static_cast<float>(scale(alpha));
-        const MultiIndex& a = force_basis_[alpha];
-        size += static_cast<double>(u.col(k).norm()) * std::pow(x, a[0] + a[1] + a[2]);
-      }
-      if (static_cast<double>(near.window[j]) * size < least) continue;
-      nodes[position].push_back(near.nodes[j]);
-      kept.emplace_back(near.window[j] * u);
-    }
-    for (Eigen::Index k = 0; k < C - linear; ++k)
-      for (const Eigen::Matrix3Xf& u : kept)
-        blocks[position].insert(blocks[position].end(), u.col(k).data(), u.col(k).data() + 3);
-  });
-  data_.near_offset.push_back(0);
-  for (std::size_t p = 0; p < M; ++p) {
-    data_.near_offset.push_back(data_.near_offset.back() + static_cast<std::int64_t>(nodes[p].size()));
-    data_.near_node.insert(data_.near_node.end(), nodes[p].begin(), nodes[p].end());
-    data_.near_field.insert(data_.near_field.end(), blocks[p].begin(), blocks[p].end());
-  }
+  storeGreens(by_load, far.X, scale_, near_, options_.workers, data_);
+  storeNearField(problem, far, near_, options_.workers, data_);
 }
 
 modelfile::ModelData Builder::run() {
@@ -266,18 +197,20 @@ modelfile::ModelData Builder::run() {
   report_.factor_seconds = factor_watch.seconds();
 
   const Stopwatch series_watch;
-  FieldTable table(options_.scratch, sources_.size(), at(basis_.size()), 3 * setup_.surface.nodes.size());
+  const std::size_t rows = 3 * setup_.surface.nodes.size();
+  FieldTable table(options_.scratch, setup_.positions.nodes.size(), at(basis_.size()), rows);
   solveAllSeries(setup_, mesh_, case_, factor, SeriesKind::kDisplacement, options_, table,
                  [&](const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii) {
                    storePosition(series, lane, position, radii);
                  });
-  for (std::vector<double>* radius : {&data_.contact_domain_radius, &data_.contact_series_radius})
-    *radius = leastWithinTwoRings(setup_.surface.triangles, setup_.positions.nodes, *radius);
-  solveGreens(factor, table);
+  data_.contact_domain_radius =
+      leastWithinTwoRings(setup_.surface.triangles, setup_.positions.nodes, data_.contact_domain_radius);
+  FieldTable greens(options_.scratch, sources_.size(), 3, rows);
+  solveGreens(factor, greens);
   report_.series_seconds = series_watch.seconds();
 
   const Stopwatch fit_watch;
-  fit(table);
+  fit(table, greens);
   report_.fit_seconds = fit_watch.seconds();
 
   storeOrgan(setup_, mesh_, data_);

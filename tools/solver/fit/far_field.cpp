@@ -167,6 +167,22 @@ FarField FarFieldFit::run() {
   return std::move(result_);
 }
 
+MatrixXf FarFieldFit::amplitudes(const MatrixXf& X) {
+  modes_ = X.cols();  // however few the sources are
+  result_.X = X;
+  result_.Y.setZero(modes_, result_.Y.cols());
+  activate(1);
+  sweep(Step::kLast);
+  return std::move(result_.Y);
+}
+
+MatrixXf amplitudesOf(const FitProblem& problem, const MatrixXf& X, int workers) {
+  FitOptions options;
+  options.modes = static_cast<int>(X.cols());
+  options.workers = workers;
+  return FarFieldFit(problem, options).amplitudes(X);
+}
+
 FarField fitFarField(const FitProblem& problem, const FitOptions& options) {
   if (problem.sources.empty() || options.modes < 1)
     throw FitError("nothing to fit: no contact positions or no modes");

@@ -12,4 +12,9 @@ namespace palpate::solver {
 /// @throw std::runtime_error on a bad table
 [[nodiscard]] FarField fitFarField(const FitProblem& problem, const FitOptions& options);
 
+/// The Y-step alone: amplitudes of given modes for other sources, by the same weights.
+/// @param problem  with sources and columns of its own  @param X  FarField::X  @return n x (sources C), as FarField::Y
+/// @throw std::runtime_error on a bad table
+[[nodiscard]] Eigen::MatrixXf amplitudesOf(const FitProblem& problem, const Eigen::MatrixXf& X, int workers);
+
 }  // namespace palpate::solver

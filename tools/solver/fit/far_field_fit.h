@@ -18,6 +18,8 @@ class FarFieldFit {
  public:
   FarFieldFit(const FitProblem& problem, const FitOptions& options);
   FarField run();
+  /// Y for these modes, m. @param X  3 Ns x n
+  Eigen::MatrixXf amplitudes(const Eigen::MatrixXf& X);
 
  private:
   static constexpr std::size_t kChunk = 32;  // sources per product with the table

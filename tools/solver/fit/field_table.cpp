@@ -34,13 +34,9 @@ FieldTable::~FieldTable() {
 }
 
 void FieldTable::write(std::size_t position, std::span<const float> fields) {
-  write(position, 0, fields);
-}
-
-void FieldTable::write(std::size_t position, std::size_t first, std::span<const float> fields) {
   const char* data = reinterpret_cast<const char*>(fields.data());
   const std::size_t bytes = fields.size_bytes();
-  const std::size_t begin = position * blockBytes() + first * rows_ * sizeof(float);
+  const std::size_t begin = position * blockBytes();
   std::size_t done = 0;
   while (done < bytes) {
     const ssize_t n = pwrite(file_, data + done, bytes - done, static_cast<off_t>(begin + done));

@@ -26,8 +26,6 @@ class FieldTable {
 
   /// @param fields  coefficients x rows numbers of one position
   void write(std::size_t position, std::span<const float> fields);
-  /// Some coefficients of one position. @param fields  whole rows, of coefficient `first` and those after it
-  void write(std::size_t position, std::size_t first, std::span<const float> fields);
   /// @param[out] fields  coefficients x rows numbers of one position
   void read(std::size_t position, std::span<float> fields) const;
 

@@ -83,6 +83,25 @@ TEST_F(SteepFields, ErrorFallsAsModesAreAdded) {
   EXPECT_LT(many, 0.5 * more);
 }
 
+TEST_F(SteepFields, AmplitudesOfOtherSourcesAreLinearInTheirFields) {
+  const FarField far = fit(24, 6);
+  // Two sources at one place: fields that the modes hold exactly, and those of node 7 and 3 times these.
+  const std::vector<FitSource> pair{sources_[7], sources_[7]};
+  const Eigen::MatrixXf known = Eigen::MatrixXf::Random(far.X.cols(), 3), held = far.X * known;
+  Eigen::MatrixXf own(far.X.rows(), 3);
+  table_.read(7, {own.data(), static_cast<std::size_t>(own.size())});
+  FieldTable table(std::filesystem::temp_directory_path(), 2, 3, 3 * surface_.positions.size());
+  const auto amplitudes = [&](const Eigen::MatrixXf& first, const Eigen::MatrixXf& second) {
+    table.write(0, {first.data(), static_cast<std::size_t>(first.size())});
+    table.write(1, {second.data(), static_cast<std::size_t>(second.size())});
+    return amplitudesOf({table, basis_, surface_.areas, surface_.positions, pair, 1.0}, far.X, 2);
+  };
+  const Eigen::MatrixXf Y = amplitudes(held, own), sum = amplitudes(held + 3.0F * own, own);
+  EXPECT_LT((Y.leftCols(3) - known).norm(), 1e-3F * known.norm());
+  EXPECT_LT((sum.leftCols(3) - Y.leftCols(3) - 3.0F * Y.rightCols(3)).norm(), 1e-4F * sum.norm());
+  EXPECT_EQ((sum.rightCols(3) - Y.rightCols(3)).norm(), 0.0F);
+}
+
 TEST_F(SteepFields, SweepsImproveTheFit) {
   const FarField far = fit(24, 6);
   ASSERT_EQ(far.errors.size(), 7U);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/build/displacement_fields.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/multi_index.h"
+#include "tools/solver/base/parallel.h"
+
+namespace palpate::solver {
+
+void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const Mat3> scale,
+                 std::span<const NearNodes> near, int workers, modelfile::ModelData& data) {
+  const Eigen::MatrixXf amplitudes = amplitudesOf(greens, X, workers);
+  const std::size_t n = static_cast<std::size_t>(X.cols());
+  data.green_offset.push_back(0);
+  for (const NearNodes& one : near) {
+    data.green_offset.push_back(data.green_offset.back() + static_cast<std::int64_t>(one.nodes.size()));
+    data.green_near_node.insert(data.green_near_node.end(), one.nodes.begin(), one.nodes.end());
+  }
+  data.green_Y.resize(near.size() * 3 * n);
+  data.green_near.resize(9 * data.green_near_node.size());
+  parallelFor(workers, near.size(), [&](int, std::size_t i) {
+    std::vector<float> fields(3 * greens.table.rows());
+    greens.table.read(i, fields);
+    const Eigen::Matrix3f per_load = scale[i].inverse().cast<float>();  // the table's columns are per travel
+    const Eigen::MatrixXf Y = amplitudes.middleCols(static_cast<Eigen::Index>(3 * i), 3) *
+                              (per_load / static_cast<float>(greens.reference));
+    Eigen::Map<Eigen::MatrixXf>(data.green_Y.data() + 3 * n * i, X.cols(), 3) = Y;
+    const Eigen::Map<const Eigen::MatrixXf> U(fields.data(), static_cast<Eigen::Index>(greens.table.rows()),
+                                              3);
+    const NearNodes& own = near[i];
+    const std::size_t K = own.nodes.size();
+    float* const out = data.green_near.data() + 9 * data.green_offset[i];
+    for (std::size_t j = 0; j < K; ++j) {
+      const Eigen::Index row = 3 * own.nodes[j];
+      const Eigen::Matrix3f modes = X.middleRows<3>(row) * Y;
+      const Eigen::Matrix3f missed = own.window[j] * (U.middleRows<3>(row) * per_load - modes);
+      for (std::size_t load = 0; load < 3; ++load)
+        Eigen::Map<Eigen::Vector3f>(out + 3 * (load * K + j)) = missed.col(static_cast<Eigen::Index>(load));
+    }
+  });
+}
+
+void storeNearField(const FitProblem& problem, const FarField& far, std::span<const NearNodes> near,
+                    int workers, modelfile::ModelData& data) {
+  constexpr double kUnseen = 2e-4;  // of the travel: what is less at a node is left out
+  const FieldTable& table = problem.table;
+  const MonomialBasis& basis = problem.basis;
+  const std::size_t M = problem.sources.size(), n = static_cast<std::size_t>(far.X.cols());
+  const Eigen::Index C = basis.size(), linear = 3;
+  data.modes_Y.resize(M * static_cast<std::size_t>(C - linear) * n);
+  std::vector<std::vector<std::int32_t>> nodes(M);
+  std::vector<std::vector<float>> blocks(M);
+  parallelFor(workers, M, [&](int, std::size_t position) {
+    std::vector<float> fields(static_cast<std::size_t>(C) * table.rows());
+    table.read(position, fields);
+    const auto Y = far.Y.middleCols(static_cast<Eigen::Index>(position) * C + linear, C - linear);
+    Eigen::Map<Eigen::MatrixXf>(data.modes_Y.data() + position * static_cast<std::size_t>(C - linear) * n,
+                                Y.rows(), Y.cols()) = Y;
+    Eigen::Map<const Eigen::MatrixXf> U(fields.data(), static_cast<Eigen::Index>(table.rows()), C);
+    const double least = kUnseen * problem.sources[position].ball_radius;
+    const double x = problem.sources[position].ball_radius / problem.reference;
+    std::vector<Eigen::Matrix3Xf> kept;
+    const NearNodes& own = near[position];
+    for (std::size_t j = 0; j < own.nodes.size(); ++j) {
+      const Eigen::Index row = 3 * own.nodes[j];
+      Eigen::Matrix3Xf u = -far.X.middleRows<3>(row) * Y;
+      double size = 0.0;
+      for (Eigen::Index k = 0; k < C - linear; ++k) {
+        const int alpha = static_cast<int>(k + linear);
+        const int degree = basis[alpha][0] + basis[alpha][1] + basis[alpha][2];
+        u.col(k) += U.block<3, 1>(row, alpha) * static_cast<float>(std::pow(problem.reference, degree));
+        size += static_cast<double>(u.col(k).norm()) * std::pow(x, degree);
+      }
+      if (static_cast<double>(own.window[j]) * size < least) continue;
+      nodes[position].push_back(own.nodes[j]);
+      kept.emplace_back(own.window[j] * u);
+    }
+    for (Eigen::Index k = 0; k < C - linear; ++k)
+      for (const Eigen::Matrix3Xf& u : kept)
+        blocks[position].insert(blocks[position].end(), u.col(k).data(), u.col(k).data() + 3);
+  });
+  data.near_offset.push_back(0);
+  for (std::size_t p = 0; p < M; ++p) {
+    data.near_offset.push_back(data.near_offset.back() + static_cast<std::int64_t>(nodes[p].size()));
+    data.near_node.insert(data.near_node.end(), nodes[p].begin(), nodes[p].end());
+    data.near_field.insert(data.near_field.end(), blocks[p].begin(), blocks[p].end());
+  }
+}
+
+}  // namespace palpate::solver
