@@ -28,8 +28,8 @@ class SolvedBlock : public ::testing::Test {
     World() : organ(mesh::makeBox(Vec3(0.06, 0.05, 0.04), {9, 8, 7})) {
       c.mesh = "block";
       c.patch_radius = 0.009;
-      c.modes = 120;
-      c.near_radius = 0.018;
+      c.modes = 160;
+      c.near_radius = 0.027;
       for (std::int32_t node = 0; node < static_cast<std::int32_t>(organ.nodes.size()); ++node)
         if (organ.nodes[static_cast<std::size_t>(node)].x() < 1e-9) organ.groups["fixed"].push_back(node);
       BuildReport report;
@@ -93,7 +93,7 @@ TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
     const Errors errors = compare(model, world_->surface->atNode(node), d);
     EXPECT_LT(errors.force, 2e-5);
-    EXPECT_LT(errors.field, 0.02);
+    EXPECT_LT(errors.field, 0.01);
   }
 }
 
@@ -108,8 +108,8 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
     while (world_->surface->position(s).x() < 0.02);
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
     const Errors errors = compare(model, s, d);
-    EXPECT_LT(errors.force, 0.02);
-    EXPECT_LT(errors.field, 0.07);
+    EXPECT_LT(errors.force, 0.01);
+    EXPECT_LT(errors.field, 0.015);  // some are at edges of the block, across which they are mixed
   }
 }
 
@@ -125,7 +125,7 @@ TEST_F(SolvedBlock, SmallTouchesBetweenNodesAreAsNewtonSays) {
     const Vec3 d = 1e-7 * Vec3(normal(random), normal(random), normal(random)).normalized();
     const Errors errors = compare(model, s, d);
     EXPECT_LT(errors.force, 1e-3);
-    EXPECT_LT(errors.field, 0.02);
+    EXPECT_LT(errors.field, 0.01);
   }
 }
 
