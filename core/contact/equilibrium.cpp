@@ -66,15 +66,15 @@ Vec2 Equilibrium::energySlope(const PatchResponse& patch,
 }
 
 /// d/dlambda of W - f . e + e . df/dd e / 2, all at d: W at d - e, which may lie far from d, by the tangents that the force
-/// goes by. Along e they are differences over a step much shorter than the domain.
+/// goes by. Along e they are differences over a step much shorter than r_max.
 Vec3 Equilibrium::ownEnergySlope(const PatchResponse& patch,
                                  const Carried& carried) const noexcept PALPATE_NONBLOCKING {
-  constexpr double kStep = 0.02;  // of the domain
+  constexpr double kStep = 0.02;  // of r_max
   constexpr int kOthers = 2;      // more slopes than a lone tool's
   const CoupledResponse& coupled = contact_.coupled;
   const Vec3& d = coupled.displacement;
   const Vec3 e = carried.at(d), at_d = patch.energySlope(d);
-  const double h = kStep * coupled.response.domain_radius, length = e.norm();
+  const double h = kStep * coupled.response.series_radius, length = e.norm();
   if (!(length > 0.0 && h > 0.0)) return at_d;
   budget_.spend(kOthers);
   const double t = std::min(1.0, h / length);

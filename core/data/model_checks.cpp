@@ -43,12 +43,15 @@ void checkDomain(Parameters parameters, std::span<const double> radius, const Ch
   }
 }
 
-/// The force goes at least as far as it and the fields do together.
+/// The polynomials go at least as far as they are to be trusted.
 void checkSeries(std::span<const double> series, std::span<const double> domain, const Checker& check) {
-  for (std::size_t m = 0; m < series.size(); ++m)
+  for (std::size_t m = 0; m < series.size(); ++m) {
+    if (!(series[m] > 0.0))
+      check.failAt(dataset::kContactSeriesRadius.name(), m, "is " + digitsOf(series[m]), "more than 0 m");
     if (!(series[m] >= domain[m]))
       check.failAt(dataset::kContactSeriesRadius.name(), m, "is " + digitsOf(series[m]),
                    "at least " + dataset::kContactDomainRadius.name() + " = " + digitsOf(domain[m]));
+  }
 }
 
 /// Patches and mixtures look at all triangles round a node, for each of its neighbours.

@@ -21,9 +21,8 @@ using Functions = std::array<double, MonomialBasis::kMaxCoefficients>;
 /// One source that the model answers.
 struct Answered {
   PositionMix mix;
-  Vec3 parameter;                 // within the domain
-  std::span<const double> phi;    // all of its functions,
-  std::span<const double> modes;  // those that modes and near fields of positions have
+  Vec3 parameter;                 // no longer than r_max
+  std::span<const double> modes;  // its functions that modes and near fields of positions have
 };
 
 /// @return false where the model has no answer
@@ -34,8 +33,7 @@ bool answer(const MetaModel& model, const FieldSource& source, Functions& values
   out.parameter = clampToDomain(source.parameter, model.response().limit(out.mix));
   const auto size = static_cast<std::size_t>(model.functions().size());
   model.functions().evaluate(out.parameter, std::span(values).first(size));
-  out.phi = std::span(values).first(size);
-  out.modes = out.phi.last(modeCoefficients(model.attributes(), size));
+  out.modes = std::span<const double>(values).first(size).last(modeCoefficients(model.attributes(), size));
   return true;
 }
 

@@ -34,7 +34,7 @@ struct FieldScratch {
 /// One tool's part in a field.
 struct FieldSource {
   ContactPoint s;
-  Vec3 parameter = Vec3::Zero();  ///< Response::parameter; clamped to the domain
+  Vec3 parameter = Vec3::Zero();  ///< Response::parameter; no longer than r_max
   double gain{1.0};               ///< any finite number
 
   [[nodiscard]] bool operator==(const FieldSource& other) const noexcept {

@@ -202,11 +202,11 @@ void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, s
 
 std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                     const Vec3& own) noexcept PALPATE_NONBLOCKING {
-  constexpr double kStep = 0.002;  // of the domain: short against it, long against rounding
+  constexpr double kStep = 0.002;  // of r_max: short against it, long against rounding
   const Vec3 y = own - d;
   Response there;
   (void)respond(model, s, d, there);
-  const double share = std::min(1.0, kStep * there.domain_radius / std::max(y.norm(), 1e-30));
+  const double share = std::min(1.0, kStep * there.series_radius / std::max(y.norm(), 1e-30));
   if (!(share > 0.0)) return {ownPart(model, s, d), FieldSource{s, Vec3::Zero(), 0.0}};
   std::array<FieldSource, 2> part{ownPart(model, s, d), ownPart(model, s, d + share * y)};
   part[0].gain *= 1.0 - 1.0 / share;

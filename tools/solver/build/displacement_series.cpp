@@ -203,15 +203,15 @@ modelfile::ModelData Builder::run() {
                  [&](const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii) {
                    storePosition(series, lane, position, radii);
                  });
-  data_.contact_domain_radius =
-      leastWithinTwoRings(setup_.surface.triangles, setup_.positions.nodes, data_.contact_domain_radius);
   FieldTable greens(options_.scratch, sources_.size(), 3, rows);
   solveGreens(factor, greens);
   report_.series_seconds = series_watch.seconds();
 
   const Stopwatch fit_watch;
-  fit(table, greens);
+  fit(table, greens);  // by each position's own radius
   report_.fit_seconds = fit_watch.seconds();
+  data_.contact_domain_radius =
+      leastWithinTwoRings(setup_.surface.triangles, setup_.positions.nodes, data_.contact_domain_radius);
 
   storeOrgan(setup_, mesh_, data_);
   ModelAttributes& a = data_.attributes;

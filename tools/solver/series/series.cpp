@@ -293,7 +293,7 @@ std::vector<SeriesRadii> SeriesSolver::domainRadii(const DomainCriteria& criteri
   }
   limitByDetF(state_->basis, state_->input(), criteria.min_det_f, domain);
   for (std::size_t lane = 0; lane < domain.size(); ++lane)
-    radii[lane] = {by_force ? domain[lane] : radii[lane].series, domain[lane]};
+    radii[lane] = {by_force ? domain[lane] : std::max(radii[lane].series, domain[lane]), domain[lane]};
   return radii;
 }
 
