@@ -110,15 +110,13 @@ void checkNear(const NearLists& near, std::size_t surface_nodes, const Checker& 
                 near.offset_name + " ends with " + std::to_string(near.offset.back()),
                 "the length of " + near.node_name + ", " + std::to_string(end));
   check.indices(near.node_name, near.node, surface_nodes);
-  std::vector<std::size_t> last(surface_nodes, near.offset.size());  // block that had the node last; none yet
-  for (std::size_t m = 0; m + 1 < near.offset.size(); ++m)
-    for (auto i = static_cast<std::size_t>(near.offset[m]); i < static_cast<std::size_t>(near.offset[m + 1]);
-         ++i) {
-      const auto node = static_cast<std::size_t>(near.node[i]);
-      if (std::exchange(last[node], m) == m)
-        check.failAt(near.node_name, i, "is " + std::to_string(node) + " again",
-                     "each node once in block " + std::to_string(m));
-    }
+  for (std::size_t m = 0; m + 1 < near.offset.size(); ++m)  // ascending: a tick finds a node by halving
+    for (auto i = static_cast<std::size_t>(near.offset[m]) + 1;
+         i < static_cast<std::size_t>(near.offset[m + 1]); ++i)
+      if (near.node[i] <= near.node[i - 1])
+        check.failAt(near.node_name, i, "is " + std::to_string(near.node[i]),
+                     "more than " + std::to_string(near.node[i - 1]) + ", the one before it in block " +
+                         std::to_string(m));
 }
 
 /// Green's functions belong to nodes of the surface.

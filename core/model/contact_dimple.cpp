@@ -14,22 +14,19 @@ ContactDimple::ContactDimple(const Parts& parts, const SmoothPlaces& places)
   const std::size_t n = parts.view.modes();
   PatchNodes patch = parts.patches.room();
   std::vector<float> y(n);
-  std::vector<Eigen::Vector4f> weight(parts.view.surfaceNodes(), Eigen::Vector4f::Zero());
   for (std::size_t place = 0; place < places.size(); ++place) {
     const ContactPoint& s = places.views(place).front().s;
     parts.patches.at(s, false, patch);
     const std::int32_t* const corner = parts.view.surface_triangles.data() + 3 * index(s.triangle);
-    for (std::size_t k = 0; k < 3; ++k) weight[index(corner[k])][0] = static_cast<float>(s.barycentric[k]);
     Mat3 per_load = Mat3::Zero();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       std::fill(y.begin(), y.end(), 0.0F);
       parts.linear.addAmplitudes(patch, Vec3::Unit(axis), y);
       for (std::size_t k = 0; k < 3; ++k)
-        if (s.barycentric[k] > 0.0) per_load.col(axis) += s.barycentric[k] * parts.modes.at(y, corner[k]);
+        if (s.barycentric[k] > 0.0)
+          per_load.col(axis) += s.barycentric[k] * (parts.modes.at(y, corner[k]) +
+                                                    parts.linear.nearAt(patch, Vec3::Unit(axis), corner[k]));
     }
-    for (std::size_t i = 0; i < patch.count; ++i)
-      per_load += patch.weight[i] * parts.linear.nearBetween(patch.node[i], weight)[0];
-    for (std::size_t k = 0; k < 3; ++k) weight[index(corner[k])].setZero();
     PatchStiffness::Value stiffness;
     parts.stiffness.at(parts.surface, s, stiffness);
     linear_[place] = (per_load * stiffness.K).cast<float>();

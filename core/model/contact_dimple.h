@@ -20,8 +20,9 @@
 namespace palpate {
 
 /// The surface where a tool is: u(X(s); s, d) of its own touch, which a tick reports. A table, so that a tick needs no modes;
-/// made at load from the same modes and near fields as the whole field, equal to it at contact positions and middles of
-/// edges, linear over the four triangles between these. Of a "displacement" model only.
+/// made at load from the same modes and near fields as the whole field, and linear between its places: contact positions and
+/// middles of edges for order one, which equals the whole field there; contact positions for the rest. Of a "displacement"
+/// model only.
 class ContactDimple {
  public:
   /// What the model gives at contact positions, orders of two and more. Cost O(k n) for each place and patches of k nodes.

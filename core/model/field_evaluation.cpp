@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/base/index.h"
-#include "core/model/clamp_to_domain.h"
+#include "core/model/clamp_to_length.h"
 
 namespace palpate {
 
@@ -30,7 +30,7 @@ bool answer(const MetaModel& model, const FieldSource& source, Functions& values
             Answered& out) noexcept PALPATE_NONBLOCKING {
   out.mix = model.surface().mix(source.s);
   if (out.mix.count == 0) return false;
-  out.parameter = clampToDomain(source.parameter, model.response().limit(out.mix));
+  out.parameter = clampToLength(source.parameter, model.response().limit(out.mix));
   const auto size = static_cast<std::size_t>(model.functions().size());
   model.functions().evaluate(out.parameter, std::span(values).first(size));
   out.modes = std::span<const double>(values).first(size).last(modeCoefficients(model.attributes(), size));
@@ -83,11 +83,7 @@ Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, cons
         model.surface().distanceToCorners(point.triangle, model.surface().position(source.s));
     if (apart > model.reachOfPatches() + model.linearField().reach()) continue;
     for (std::size_t k = 0; k < 3; ++k)
-      scratch.weight[index(corners[k])][0] = static_cast<float>(point.barycentric[k]);
-    for (std::size_t i = 0; i < from.nodes().count; ++i)
-      u += from.nodes().weight[i] *
-           (model.linearField().nearBetween(from.nodes().node[i], scratch.weight)[0] * f);
-    for (const std::int32_t corner : corners) scratch.weight[index(corner)].setZero();
+      u += point.barycentric[k] * model.linearField().nearAt(from.nodes(), f, corners[k]);
   }
   for (std::size_t k = 0; k < 3; ++k)
     u += point.barycentric[k] * model.farField().at(scratch.amplitudes, corners[k]);

@@ -91,9 +91,10 @@ NearField::Block NearField::block(std::int32_t source, std::span<const double> w
 Vec3 NearField::at(std::int32_t source, std::span<const double> weight,
                    std::int32_t node) const noexcept PALPATE_NONBLOCKING {
   const std::span<const std::int32_t> list = nodes(source);
-  const auto place = std::find(list.begin(), list.end(), node) - list.begin();
+  const auto found = std::lower_bound(list.begin(), list.end(), node);
   Vec3 u = Vec3::Zero();
-  if (place == std::ssize(list)) return u;
+  if (found == list.end() || *found != node) return u;
+  const auto place = found - list.begin();
   const std::size_t m = index(source);
   const std::int16_t* field = arrays_.field.data() + 3 * (rows_ * index(arrays_.offset[m]) + index(place));
   for (std::size_t k = 0; k < used(weight); ++k, field += 3 * list.size()) {

@@ -58,7 +58,7 @@ class NearField {
  public:
   struct Arrays {
     std::span<const std::int64_t> offset;  ///< [sources + 1]
-    std::span<const std::int32_t> node;    ///< [sum K]
+    std::span<const std::int32_t> node;    ///< [sum K], ascending for each source
     std::span<const std::int16_t> field;   ///< per source [rows][K][3]
     std::span<const float> scale;          ///< [sources][rows]
   };
@@ -78,7 +78,7 @@ class NearField {
   /// @param scratch  blockSize(), its beginning overwritten. Real-time: yes.
   [[nodiscard]] Block block(std::int32_t source, std::span<const double> weight, double factor,
                             std::span<float> scratch) const noexcept PALPATE_NONBLOCKING;
-  /// What block() gives at one node, m; zero where the block has it not. Cost O(rows + K). Real-time: yes.
+  /// What block() gives at one node, m; zero where the block has it not. Cost O(rows + log K). Real-time: yes.
   [[nodiscard]] Vec3 at(std::int32_t source, std::span<const double> weight,
                         std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   /// u += a block. @param scratch  blockSize(), @param u  [Ns][3]. Real-time: yes.

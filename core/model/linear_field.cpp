@@ -48,6 +48,16 @@ void LinearField::addNear(const PatchNodes& patch, const Vec3& f, std::span<floa
   }
 }
 
+Vec3 LinearField::nearAt(const PatchNodes& patch, const Vec3& f,
+                         std::int32_t node) const noexcept PALPATE_NONBLOCKING {
+  Vec3 u = Vec3::Zero();
+  for (std::size_t i = 0; i < patch.count; ++i) {
+    const std::int32_t source = source_of_[index(patch.node[i])];
+    if (source >= 0) u += near_.at(source, share(patch, i, f), node);
+  }
+  return u;
+}
+
 std::array<Mat3, 4> LinearField::nearBetween(
     std::int32_t node, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING {
   const std::int32_t source = source_of_[index(node)];

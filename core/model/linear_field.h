@@ -31,6 +31,9 @@ class LinearField {
   /// other weights, column by load. @param weight  [Ns], four for each node, 0 for most. Real-time: yes.
   [[nodiscard]] std::array<Mat3, 4> nearBetween(
       std::int32_t node, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING;
+  /// What the near field of these loads, patch weights times f, moves one node by, m. Cost O(k log K). Real-time: yes.
+  [[nodiscard]] Vec3 nearAt(const PatchNodes& patch, const Vec3& f,
+                            std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   /// The farthest that a near field reaches from its node, m.
   [[nodiscard]] double reach() const noexcept { return reach_; }
 

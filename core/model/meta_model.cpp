@@ -33,9 +33,13 @@ std::uint64_t bytesOfTables(const ModelView& v) {
   constexpr std::uint64_t kPerNode =
       2200;  // of a surface that has more after one refinement, while it is made
   constexpr std::uint64_t kPerEntry = 2 * 16;  // of a patch, twice as its list grows
-  const std::uint64_t entries = std::min<std::uint64_t>(
-      ContactPatches::kMostTogether, v.positions() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));
-  return 2 * v.modes_X.size_bytes() + v.triangles() * sizeof(SmoothCubic<6>) +
+  const std::uint64_t entries =
+      std::min<std::uint64_t>(ContactPatches::kMostTogether,
+                              v.surfaceNodes() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));
+  // Six places a triangle are seen from it, twice as the lists are made; each place, four a node, has a dimple.
+  const std::uint64_t places =
+      2 * 6 * v.triangles() * sizeof(SmoothPlaces::View) + 4 * v.surfaceNodes() * sizeof(Eigen::Matrix3f);
+  return places + 2 * v.modes_X.size_bytes() + v.triangles() * sizeof(SmoothCubic<6>) +
          v.contact_stiffness.size_bytes() + v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
          v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries;
 }
@@ -78,6 +82,19 @@ void checkLoadedNodes(const ModelView& view, const ContactPatches& patches) {
   if (without < std::ssize(loaded))
     throw std::invalid_argument(dataset::kGreenNode.name() + " lacks node " + std::to_string(without) +
                                 ", expected every node that contact patches load");
+}
+
+/// Dimples are summed from the amplitudes of all patches: some seconds at this most, 50,000 nodes of 216 in a patch and 370
+/// modes.
+void checkDimpleWork(const ModelView& view, const ModelAttributes& attributes,
+                     const ContactPatches& patches) {
+  constexpr std::size_t kMost = 4'000'000'000;
+  if (view.modes() > 0 && patches.entries() > kMost / view.modes())
+    throw std::invalid_argument("patch_radius is " + std::to_string(attributes.patch_radius) +
+                                " m, expected one of patches with at most " +
+                                std::to_string(kMost / view.modes()) + " nodes together for " +
+                                std::to_string(view.modes()) + " modes, found " +
+                                std::to_string(patches.entries()));
 }
 
 std::size_t modeRows(const ModelView& view) {
@@ -147,6 +164,7 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
       linear_field_(view_) {
   if (attributes_.parameters != Parameters::kDisplacement) return;
   checkLoadedNodes(view_, patches_);
+  checkDimpleWork(view_, attributes_, patches_);
   dimple_ = ContactDimple(
       {view_, patches_, stiffness_, surface_, far_field_, amplitudes_, near_field_, linear_field_}, places_);
 }

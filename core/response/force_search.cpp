@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/base/length.h"
-#include "core/model/clamp_to_domain.h"
+#include "core/model/clamp_to_length.h"
 
 namespace palpate {
 
@@ -52,13 +52,13 @@ class ForceSearch {
 Vec3 ForceSearch::value(const Vec3& f) noexcept PALPATE_NONBLOCKING {
   budget_.spend(1);
   if (!beyond(f)) return series_.value(f);
-  return series_.value(clampToDomain(f, series_.limit())) * (f.norm() / series_.limit());
+  return series_.value(clampToLength(f, series_.limit())) * (f.norm() / series_.limit());
 }
 
 Mat3 ForceSearch::gradient(const Vec3& f) noexcept PALPATE_NONBLOCKING {
   budget_.spend(1);
   if (!beyond(f)) return series_.gradient(f);
-  const Vec3 edge = clampToDomain(f, series_.limit()), e = edge / series_.limit();
+  const Vec3 edge = clampToLength(f, series_.limit()), e = edge / series_.limit();
   const Mat3 across = Mat3::Identity() - e * e.transpose();
   return series_.value(edge) * e.transpose() / series_.limit() + series_.gradient(edge) * across;
 }
@@ -141,7 +141,7 @@ ResponseStatus checked(ResponseStatus status, Response& out) noexcept PALPATE_NO
 
 ResponseStatus answerToForce(const ContactSeries& series, const Vec3& f,
                              Response& out) noexcept PALPATE_NONBLOCKING {
-  out.force = clampToDomain(f, series.limit());
+  out.force = clampToLength(f, series.limit());
   out.parameter = out.force;
   out.displacement = series.value(out.force);
   const Mat3 compliance = series.gradient(out.force);
@@ -155,7 +155,7 @@ ResponseStatus findForce(const ContactSeries& series, const Vec3& d, Budget& bud
                          Response& out) noexcept PALPATE_NONBLOCKING {
   constexpr double kFar = 1e3;       // m; beyond every domain, and its square is finite
   constexpr int kRestAndAnswer = 4;  // evaluations
-  const Vec3 target = clampToDomain(d, kFar);
+  const Vec3 target = clampToLength(d, kFar);
   ForceSearch search(series, budget);
   budget.spend(kRestAndAnswer);
   if (!search.valid()) return noNumber(out);

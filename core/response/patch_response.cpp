@@ -6,7 +6,7 @@
 
 #include "core/base/length.h"
 #include "core/base/symmetric_eigen.h"
-#include "core/model/clamp_to_domain.h"
+#include "core/model/clamp_to_length.h"
 #include "core/response/force_search.h"
 #include "core/response/level_search.h"
 
@@ -50,7 +50,7 @@ class PushingPart {
 ///   f = f(e) + P(e) (d - e),   df/dd = P + (K + B - P) de/dd,   B_j = dP/de_j (d - e)
 /// e the point of that edge towards d, K = df/dd there, P its pushing part.
 void continueTo(const ContactSeries& series, const Vec3& d, Response& out) noexcept PALPATE_NONBLOCKING {
-  const Vec3 edge = clampToDomain(d, series.limit()), beyond = d - edge;
+  const Vec3 edge = clampToLength(d, series.limit()), beyond = d - edge;
   std::array<Mat3, 3> turn;
   Mat3 K;
   series.evaluate(edge, out.force, K, turn);
@@ -69,12 +69,12 @@ ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, 
   constexpr int kInside = 1, kContinued = 4;  // evaluations; second derivatives and eigenvalues cost more
   out.domain_radius = series.domainRadius();
   out.series_radius = series.limit();
-  out.displacement = clampToDomain(d, out.series_radius);
+  out.displacement = clampToLength(d, out.series_radius);
   out.parameter = out.displacement;
   const double length = lengthOf(d);
   if (length > out.series_radius) {
     budget.spend(kContinued);
-    continueTo(series, clampToDomain(d, kFar), out);
+    continueTo(series, clampToLength(d, kFar), out);
   } else {
     budget.spend(kInside);
     series.evaluate(d, out.force, out.stiffness);

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/base/index.h"
-#include "core/model/clamp_to_domain.h"
+#include "core/model/clamp_to_length.h"
 #include "core/response/small_square.h"
 #include "core/surface/surface_mesh.h"
 
@@ -54,27 +54,43 @@ TouchPatch::Averages averaged(const MetaModel& model, const ContactPoint& s, std
   return sum;
 }
 
+bool isDisplaced(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
+  return model.attributes().parameters == Parameters::kDisplacement;
+}
+
+using Compliance = std::array<Mat3, 4>;
+
 /// What a source of a field does to a patch elsewhere, and how that changes as the patch moves: by lambda.
+/// @param compliance  complianceBetween() the two of a "displacement" model, else unused
 TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, const TouchPatch& to,
+                             const Compliance& compliance,
                              FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
   TouchPatch::Averages moved;
   for (Vec3& part : moved) part.setZero();
   const PositionMix from = model.surface().mix(source.s);
   if (from.count == 0 || to.nodes().count == 0) return moved;
-  const Vec3 p = clampToDomain(source.parameter, model.response().limit(from));
+  const Vec3 p = clampToLength(source.parameter, model.response().limit(from));
   std::array<double, MonomialBasis::kMaxCoefficients> all;
   const auto size = index(model.functions().size());
   model.functions().evaluate(p, std::span(all).first(size));
   moved = averaged(model, source.s,
                    std::span(all).first(size).last(modeCoefficients(model.attributes(), size)), to, scratch);
-  if (model.attributes().parameters == Parameters::kDisplacement) {
+  if (isDisplaced(model)) {
     PatchStiffness::Value stiffness;
     model.stiffness().at(model.surface(), source.s, stiffness);
-    const auto compliance = complianceBetween(model, scratch.touchAt(model, source.s), to, scratch);
     for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += compliance[k] * (stiffness.K * p);
   }
   for (Vec3& part : moved) part *= source.gain;
   return moved;
+}
+
+/// Of a source that is asked for this patch alone.
+TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, const TouchPatch& to,
+                             FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  Compliance compliance;
+  if (isDisplaced(model))
+    compliance = complianceBetween(model, scratch.touchAt(model, source.s), to, scratch);
+  return movedBy(model, source, to, compliance, scratch);
 }
 
 /// What one tool moves the others' patches by, and its derivative. The organ is asked once, however many others there are.
@@ -84,27 +100,29 @@ class Influence {
             double h) noexcept PALPATE_NONBLOCKING
       : model_(model),
         s_(s),
-        d_(clampToDomain(d, model.response().limit(model.surface().mix(s)))),
+        d_(clampToLength(d, model.response().limit(model.surface().mix(s)))),
         h_(h),
         own_(ownPart(model, s, d)) {
-    const bool displaced = model.attributes().parameters == Parameters::kDisplacement;
-    if (displaced) differentiate();
-    for (std::size_t i = 0; !displaced && i < 3; ++i)
+    if (isDisplaced(model)) differentiate();
+    for (std::size_t i = 0; !isDisplaced(model) && i < 3; ++i)
       beside_[i] = ownPart(model, s, d + h * Vec3::Unit(static_cast<Eigen::Index>(i)));
   }
 
   /// P_at u(s, d), m, and P_at du/dd, 3 x 3; of a load-driven model by differences of length h.
   void on(const TouchPatch& at, FieldScratch& scratch, Vec3& moved,
           Mat3& slope) const noexcept PALPATE_NONBLOCKING {
-    moved = movedBy(model_, own_, at, scratch)[0];
+    moved.setZero();
     slope.setZero();
     if (model_.surface().mix(s_).count == 0 || at.nodes().count == 0) return;
-    if (model_.attributes().parameters != Parameters::kDisplacement) {
+    Compliance compliance;
+    if (isDisplaced(model_)) compliance = complianceBetween(model_, scratch.touchAt(model_, s_), at, scratch);
+    moved = movedBy(model_, own_, at, compliance, scratch)[0];
+    if (!isDisplaced(model_)) {
       for (std::size_t i = 0; i < 3; ++i)
         slope.col(Eigen::Index(i)) = (movedBy(model_, beside_[i], at, scratch)[0] - moved) / h_;
       return;
     }
-    slope = complianceBetween(model_, scratch.touchAt(model_, s_), at, scratch)[0] * stiffness_.K;
+    slope = compliance[0] * stiffness_.K;
     for (std::size_t i = 0; i < 3; ++i)
       slope.col(Eigen::Index(i)) += averaged(model_, s_, std::span(slope_[i]).first(bends_), at, scratch)[0];
   }
@@ -124,7 +142,7 @@ class Influence {
 
   const MetaModel& model_;
   const ContactPoint& s_;
-  Vec3 d_;  // within the domain
+  Vec3 d_;  // no longer than r_max
   double h_;
   FieldSource own_;
   std::array<FieldSource, 3> beside_;  // at d + h e_i, of a load-driven model

@@ -14,7 +14,7 @@
 namespace palpate {
 
 /// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.   docs/design.md, Symbols, Parts
-/// @param source  the other tool's own part, clamped to the domain as in evaluateField()
+/// @param source  the other tool's own part, no longer than r_max as in evaluateField()
 /// @return m, W; zero where the model has no answer at `at` or at source.s
 /// Cost O(C n); docs/decisions/several_tools.md. Real-time: yes. Threads: one per scratch.
 [[nodiscard]] Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source,

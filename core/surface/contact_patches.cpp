@@ -64,7 +64,7 @@ ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::u
     const std::size_t count = near_.size() - first;
     // A hostile file's patches would fill the memory and take all day, those over fixed nodes too.
     if (count > kMostNodes || near_.size() > kMostTogether)
-      throw std::invalid_argument("attribute patch_radius is " + std::to_string(a) +
+      throw std::invalid_argument("patch_radius is " + std::to_string(a) +
                                   " m, expected one of patches with at most " + std::to_string(kMostNodes) +
                                   " nodes, found " + std::to_string(count) + ", and all together " +
                                   std::to_string(kMostTogether) + ", found " + std::to_string(near_.size()));

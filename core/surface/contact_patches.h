@@ -47,9 +47,8 @@ class ContactPatches {
   [[nodiscard]] PatchNodes room() const;
   /// Sets near[i] to 1 for each free node i that a patch in a triangle at the centre may have. @param near  [Ns]
   void markNear(std::int32_t centre, std::span<std::uint8_t> near) const;
-  /// The most nodes that are near one centre.
-  [[nodiscard]] std::size_t mostNodes() const noexcept { return most_; }
-  [[nodiscard]] std::size_t bytes() const noexcept { return near_.size() * sizeof(Near) + load_.size() * 16; }
+  /// Nodes near the centres, of all together.
+  [[nodiscard]] std::size_t entries() const noexcept { return near_.size(); }
 
  private:
   struct Near {

@@ -75,6 +75,13 @@ TEST(LoadHostile, APatchOverFixedNodesIsLimitedToo) {
   expectRefusedData(data, "expected one of patches with at most 2048 nodes, found 10242");
 }
 
+TEST(LoadHostile, ModesTimesNodesInPatchesAreLimited) {
+  ModelData data = syntheticModel({.subdivisions = 4, .order = 1, .modes = 1600, .near_radius = 1e-6});
+  data.attributes.patch_radius = 0.03;
+  expectRefusedData(data,
+                    "expected one of patches with at most 2500000 nodes together for 1600 modes, found");
+}
+
 /// HDF5 looks up each name among all of them.
 TEST(LoadHostile, HundredsOfAttributesAndLinksAreReadOver) {
   const TemporaryFile path("many.h5");

@@ -130,7 +130,7 @@ TEST(ContactPatchesOfAModel, RefusesPatchesThatWouldFillTheMemory) {
     (void)MetaModel::load(file.path());
     FAIL() << "accepted";
   } catch (const LoadError& error) {
-    EXPECT_NE(std::string(error.what()).find("attribute patch_radius is 1.000000 m"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("patch_radius is 1.000000 m"), std::string::npos)
         << error.what();
   }
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <span>
+#include <stdexcept>
 #include <string>
 
 #include "tools/mesh/topology.h"
@@ -113,6 +115,15 @@ void storeMesh(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::M
   data.mesh_surface_node = setup.surface.nodes;
 }
 
+ContactPatches patchesOf(const FeModel& model, const PatchSurface& surface, double patch_radius,
+                         std::span<const std::int32_t> centres) {
+  try {
+    return {surface.graph, freeNodes(model, surface), patch_radius, centres};
+  } catch (const std::invalid_argument& error) {
+    throw CaseError(std::string("model.") + error.what());
+  }
+}
+
 }  // namespace
 
 ContactPositions contactPositions(const FeModel& model, const PatchSurface& surface,
@@ -124,11 +135,17 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
   for (const auto& t : surface.triangles)
     if (std::any_of(t.begin(), t.end(), [&](std::int32_t node) { return accessible[at(node)]; }))
       for (const std::int32_t node : t) wanted[at(node)] = true;
+  std::vector<std::int32_t> centres;
+  for (std::size_t node = 0; node < wanted.size(); ++node)
+    if (wanted[node]) centres.push_back(static_cast<std::int32_t>(node));
+  const ContactPatches patches = patchesOf(model, surface, patch_radius, centres);
+  PatchNodes nodes = patches.room();
   ContactPositions positions;
   for (const bool helpers : {false, true}) {
     for (std::size_t node = 0; node < surface.nodes.size(); ++node) {
       if (!wanted[node] || accessible[node] == helpers) continue;
-      Patch patch = makePatch(model, surface, surface.atNode(static_cast<int>(node)), patch_radius);
+      patches.at(surface.atNode(static_cast<int>(node)), false, nodes);
+      Patch patch = patchOf(surface, nodes);
       if (patch.nodes.empty() && !helpers)
         throw CaseError("node " + std::to_string(mesh.node_tags[at(surface.nodes[node])]) +
                         ": its contact patch lies on clamped nodes only");

@@ -19,7 +19,8 @@ struct ContactPositions {
   std::vector<Patch> patches;            ///< M
 };
 
-/// @param accessible  by surface node  @throw CaseError naming an accessible node whose patch is all clamped
+/// @param accessible  by surface node
+/// @throw CaseError naming an accessible node whose patch is all clamped, or of a radius whose patches have too many nodes
 [[nodiscard]] ContactPositions contactPositions(const FeModel& model, const PatchSurface& surface,
                                                 const std::vector<bool>& accessible, double patch_radius,
                                                 const mesh::TetMesh& mesh);

@@ -177,6 +177,22 @@ TEST_F(SolvedBlock, HelpersAreNotAccessible) {
   EXPECT_GT(helpers, 0);
 }
 
+TEST(SolverSetup, RefusesPatchesOfTooManyNodes) {
+  mesh::TetMesh organ = mesh::makeBox(Vec3(0.06, 0.06, 0.06), {24, 24, 24});
+  organ.groups["fixed"] = {0};
+  Case c;
+  c.mesh = "block";
+  c.patch_radius = 0.029;
+  try {
+    const SolverSetup setup(c, organ);
+    FAIL() << setup.positions.nodes.size();
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what()).find("model.patch_radius is 0.029"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("at most 2048 nodes"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(SolvedBlock, RefusesAGroupThatIsNotThereAndListsThoseThatAre) {
   Case c = world_->c;
   c.fixed = "ligament";
