@@ -6,6 +6,48 @@
 
 namespace palpate::mesh {
 
+namespace {
+
+struct FaceNodes {
+  std::array<std::int32_t, 3> corners, middles;
+};
+
+/// Number of the edge between two corners in kTetEdges.
+std::size_t edgeOf(int a, int b) {
+  std::size_t e = 0;
+  while (std::minmax(a, b) != std::minmax(kTetEdges[e][0], kTetEdges[e][1])) ++e;
+  return e;
+}
+
+/// Counter-clockwise from outside. The middles of linear elements are no nodes.
+FaceNodes nodesOf(const TetMesh& mesh, const TetFace& face) {
+  const auto t = static_cast<std::size_t>(face.tetrahedron);
+  const std::array<int, 3>& corner = kTetFaces[static_cast<std::size_t>(face.face)];
+  FaceNodes nodes{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    nodes.corners[k] = mesh.tetrahedra[t][static_cast<std::size_t>(corner[k])];
+    if (mesh.isQuadratic()) nodes.middles[k] = mesh.midsides[t][edgeOf(corner[k], corner[(k + 1) % 3])];
+  }
+  return nodes;
+}
+
+/// Makes numbers of volume nodes numbers of boundary nodes.
+void numberFromZero(std::size_t nodes, BoundarySurface& boundary) {
+  std::vector<std::int32_t> local(nodes, -1);
+  for (const auto& triangle : boundary.triangles)
+    for (const std::int32_t node : triangle) local[static_cast<std::size_t>(node)] = 0;
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (local[i] < 0) continue;
+    local[i] = static_cast<std::int32_t>(boundary.nodes.size());
+    boundary.nodes.push_back(static_cast<std::int32_t>(i));
+  }
+  for (auto* list : {&boundary.triangles, &boundary.faces})
+    for (auto& triangle : *list)
+      for (std::int32_t& node : triangle) node = local[static_cast<std::size_t>(node)];
+}
+
+}  // namespace
+
 std::vector<TetFace> sortedFaces(const TetMesh& mesh) {
   std::vector<TetFace> faces;
   faces.reserve(4 * mesh.tetrahedra.size());
@@ -28,28 +70,17 @@ std::vector<TetFace> sortedFaces(const TetMesh& mesh) {
 BoundarySurface boundaryOf(const TetMesh& mesh) {
   const std::vector<TetFace> faces = sortedFaces(mesh);
   BoundarySurface boundary;
-  std::vector<std::int32_t> local(mesh.nodes.size(), -1);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const bool as_before = i > 0 && faces[i].key == faces[i - 1].key;
     const bool as_after = i + 1 < faces.size() && faces[i].key == faces[i + 1].key;
     if (as_before || as_after) continue;
-    const auto& corners = mesh.tetrahedra[static_cast<std::size_t>(faces[i].tetrahedron)];
-    std::array<std::int32_t, 3> triangle{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto corner = kTetFaces[static_cast<std::size_t>(faces[i].face)][k];
-      triangle[k] = corners[static_cast<std::size_t>(corner)];
-      local[static_cast<std::size_t>(triangle[k])] = 0;
-    }
-    boundary.triangles.push_back(triangle);
+    const FaceNodes face = nodesOf(mesh, faces[i]);
+    boundary.faces.push_back(face.corners);
+    if (!mesh.isQuadratic()) continue;
+    for (const auto& triangle : splitFace(face.corners, face.middles)) boundary.triangles.push_back(triangle);
   }
-  for (std::size_t i = 0; i < local.size(); ++i) {
-    if (local[i] < 0) continue;
-    local[i] = static_cast<std::int32_t>(boundary.nodes.size());
-    boundary.nodes.push_back(static_cast<std::int32_t>(i));
-  }
-  for (auto& triangle : boundary.triangles) {
-    for (auto& node : triangle) node = local[static_cast<std::size_t>(node)];
-  }
+  if (!mesh.isQuadratic()) boundary.triangles = boundary.faces;
+  numberFromZero(mesh.nodes.size(), boundary);
   return boundary;
 }
 

@@ -24,7 +24,7 @@ struct TetFace {
 /// All 4 T faces, sorted by key, then by tetrahedron: equal faces are neighbours. Cost O(T log T).
 [[nodiscard]] std::vector<TetFace> sortedFaces(const TetMesh& mesh);
 
-/// The faces that belong to one tetrahedron only, oriented outward, in ascending order of their nodes.
+/// The faces that belong to one tetrahedron only, oriented outward, in ascending order of their corners.
 ///   checkMesh() checks whether the result is a closed manifold; this function does not.
 /// @param mesh  tetrahedra of positive volume (else their faces point inward)
 /// Cost O(T log T). Real-time: no.

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/mesh/quadratic.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+
+#include "helpers.h"
+#include "tools/mesh/box_mesh.h"
+#include "tools/mesh/topology.h"
+
+namespace palpate::mesh::test {
+namespace {
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+TetMesh boxClampedAtX0() {
+  TetMesh box = makeBox({1, 2, 3}, {2, 3, 4});
+  for (std::size_t i = 0; i < box.nodes.size(); ++i)
+    if (box.nodes[i].x() == 0.0) box.groups["fixed"].push_back(static_cast<std::int32_t>(i));
+  return box;
+}
+
+class QuadraticMesh : public ::testing::Test {
+ protected:
+  const TetMesh linear_ = boxClampedAtX0();
+  const TetMesh mesh_ = quadraticOf(linear_);
+};
+
+TEST_F(QuadraticMesh, HasANodeInTheMiddleOfEachEdge) {
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  ASSERT_EQ(mesh_.midsides.size(), linear_.tetrahedra.size());
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto a = mesh_.tetrahedra[t][at(kTetEdges[e][0])], b = mesh_.tetrahedra[t][at(kTetEdges[e][1])];
+      edges.insert(std::minmax(a, b));
+      EXPECT_EQ(mesh_.nodes[at(mesh_.midsides[t][e])], 0.5 * (mesh_.nodes[at(a)] + mesh_.nodes[at(b)]));
+    }
+  EXPECT_EQ(mesh_.nodes.size(), linear_.nodes.size() + edges.size());
+  const std::set<std::int64_t> tags(mesh_.node_tags.begin(), mesh_.node_tags.end());
+  EXPECT_EQ(tags.size(), mesh_.nodes.size());
+  EXPECT_TRUE(std::equal(linear_.node_tags.begin(), linear_.node_tags.end(), mesh_.node_tags.begin()));
+}
+
+TEST_F(QuadraticMesh, AGroupTakesTheMiddlesBetweenItsNodes) {
+  const auto& fixed = linear_.groups.at("fixed");
+  const auto& all = mesh_.groups.at("fixed");
+  EXPECT_EQ(fixed.size(), 3U * 4U);
+  EXPECT_EQ(all.size(), 5U * 7U);
+  EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+  for (const std::int32_t node : all) EXPECT_EQ(mesh_.nodes[at(node)].x(), 0.0);
+}
+
+TEST_F(QuadraticMesh, EachFaceOfTheBoundaryIsFourFlatTriangles) {
+  const BoundarySurface old = boundaryOf(linear_), boundary = boundaryOf(mesh_);
+  ASSERT_EQ(boundary.faces.size(), old.triangles.size());
+  ASSERT_EQ(boundary.triangles.size(), 4 * old.triangles.size());
+  EXPECT_EQ(old.faces, old.triangles);
+  const auto normalOf = [&](const std::array<std::int32_t, 3>& t) -> Eigen::Vector3d {
+    const auto x = [&](std::size_t i) { return mesh_.nodes[at(boundary.nodes[at(t[i])])]; };
+    return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
+  };
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    const Eigen::Vector3d whole = normalOf(boundary.faces[f]);
+    for (std::size_t part = 0; part < 4; ++part)
+      EXPECT_LT((normalOf(boundary.triangles[4 * f + part]) - 0.25 * whole).norm(), 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::mesh::test
