@@ -65,7 +65,7 @@ struct Box {
   [[nodiscard]] PatchSurface surface(const FeModel& model) const {
     std::map<std::array<std::int32_t, 3>, std::array<std::int32_t, 3>> faces;
     constexpr std::size_t kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    for (const auto& t : model.tetrahedra())
+    for (const auto& t : model.tetrahedra().corners)
       for (const auto& f : kFaces) {
         const std::array<std::int32_t, 3> face_nodes{t[f[0]], t[f[1]], t[f[2]]};
         std::array<std::int32_t, 3> key = face_nodes;

@@ -4,7 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "tools/solver/fem/integration_point.h"
@@ -12,37 +15,46 @@
 
 namespace palpate::solver {
 
-/// A body of linear tetrahedra, clamped at some nodes: the discrete problem that every solver here works on.
+/// Tetrahedra of four nodes, or with those in the middle of their edges of ten.
+struct Tetrahedra {
+  std::vector<std::array<std::int32_t, 4>> corners;   ///< 0-based, positive volume
+  std::vector<std::array<std::int32_t, 6>> midsides;  ///< of mesh::kTetEdges; empty: linear elements
+
+  // NOLINTNEXTLINE(google-explicit-constructor): a list of corners is a mesh of linear elements
+  Tetrahedra(std::vector<std::array<std::int32_t, 4>> linear,
+             std::vector<std::array<std::int32_t, 6>> middle_nodes = {})
+      : corners(std::move(linear)), midsides(std::move(middle_nodes)) {}
+};
+
+/// A body of tetrahedra, linear or quadratic, clamped at some nodes: the discrete problem that every solver here works on.
 /// Nodal vectors u, f have 3 N entries, node-interleaved; the unknowns ("dofs") are those of the free nodes.
 class FeModel {
  public:
-  static constexpr int kNodes = 4;           ///< of an element
-  static constexpr std::size_t kPoints = 1;  ///< of an element
-  using Point = IntegrationPoint<kNodes>;
-  using ElementMatrix = Eigen::Matrix<double, 3 * kNodes, 3 * kNodes>;
+  static constexpr int kMostNodes = 10;  ///< of an element
+  /// Integration points of elements of four or of ten nodes, element by element.
+  using Points = std::variant<std::vector<IntegrationPoint<4>>, std::vector<IntegrationPoint<10>>>;
+  using ElementMatrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * kMostNodes, 3 * kMostNodes>;
 
-  /// @param nodes  rest positions X, m  @param tetrahedra  0-based, positive volume  @param fixed  clamped
-  /// nodes
+  /// @param nodes  rest positions X, m  @param fixed  clamped nodes
   /// @throw std::invalid_argument naming the element or node that is degenerate or out of range, or the number
   /// that the law cannot take
-  FeModel(std::vector<Vec3> nodes, std::vector<std::array<std::int32_t, 4>> tetrahedra,
-          std::vector<std::int32_t> fixed, Material material);
+  FeModel(std::vector<Vec3> nodes, Tetrahedra tetrahedra, std::vector<std::int32_t> fixed, Material material);
 
   [[nodiscard]] int nodeCount() const noexcept { return static_cast<int>(nodes_.size()); }
-  [[nodiscard]] int elementCount() const noexcept { return static_cast<int>(tetrahedra_.size()); }
+  [[nodiscard]] int elementCount() const noexcept { return static_cast<int>(tetrahedra_.corners.size()); }
   [[nodiscard]] int dofCount() const noexcept { return dof_count_; }
   [[nodiscard]] const std::vector<Vec3>& nodes() const noexcept { return nodes_; }
-  [[nodiscard]] const std::vector<std::array<std::int32_t, 4>>& tetrahedra() const noexcept {
-    return tetrahedra_;
-  }
+  [[nodiscard]] const Tetrahedra& tetrahedra() const noexcept { return tetrahedra_; }
+  [[nodiscard]] bool isQuadratic() const noexcept { return !tetrahedra_.midsides.empty(); }
   [[nodiscard]] const std::vector<std::int32_t>& fixedNodes() const noexcept { return fixed_; }
   [[nodiscard]] const Material& material() const noexcept { return material_; }
-  /// kPoints of each element, element by element.
-  [[nodiscard]] std::span<const Point> points() const noexcept { return points_; }
-  /// The nodes that have a part in an element.
-  [[nodiscard]] std::span<const std::int32_t> elementNodes(int element) const noexcept {
-    return points_[index(element) * kPoints].nodes;
-  }
+  /// Of each element one, or four of a quadratic one.
+  [[nodiscard]] const Points& points() const noexcept { return points_; }
+  /// Where det F is looked at: the integration points; of quadratic elements, in which it is cubic, the nodes too.
+  [[nodiscard]] const Points& detPoints() const noexcept { return det_points_ ? *det_points_ : points_; }
+  /// The nodes that have a part in an element, corners first.
+  [[nodiscard]] std::span<const std::int32_t> elementNodes(int element) const noexcept;
   [[nodiscard]] double volume(int element) const noexcept;
   /// First unknown of a node (its x; y and z follow), -1 for a clamped node.
   [[nodiscard]] int dof(int node) const noexcept { return dofs_[index(node)]; }
@@ -54,20 +66,17 @@ class FeModel {
   [[nodiscard]] double energy(const Eigen::VectorXd& u) const;
   /// Consistent tangent of one element in the order of elementNodes(), node-interleaved, N/m.
   [[nodiscard]] ElementMatrix elementTangent(int element, const Eigen::VectorXd& u) const;
-  /// Smallest det F over the integration points: at most 0 where an element is inside out.
+  /// Smallest det F over detPoints(): at most 0 where an element is inside out.
   [[nodiscard]] double minDetF(const Eigen::VectorXd& u) const;
 
  private:
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-  [[nodiscard]] std::span<const Point> pointsOf(int element) const noexcept {
-    return points().subspan(index(element) * kPoints, kPoints);
-  }
-
   std::vector<Vec3> nodes_;
-  std::vector<std::array<std::int32_t, 4>> tetrahedra_;
+  Tetrahedra tetrahedra_;
   std::vector<std::int32_t> fixed_;
   Material material_;
-  std::vector<Point> points_;
+  Points points_;
+  std::optional<Points> det_points_;  // of quadratic elements
   std::vector<int> dofs_;
   int dof_count_{0};
 };

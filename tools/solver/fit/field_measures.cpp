@@ -2,30 +2,37 @@
 #include "tools/solver/fit/field_measures.h"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
+#include <variant>
+
+#include "tools/solver/fem/quadratic_tetrahedra.h"
 
 namespace palpate::solver {
 
 double volumeChange(const FeModel& model, const Eigen::VectorXd& u) {
   double rest = 0.0, gain = 0.0;
-  for (const FeModel::Point& point : model.points()) {
-    rest += point.weight;
-    gain += point.weight * ((Mat3::Identity() + displacementGradient(point, u)).determinant() - 1.0);
-  }
+  std::visit(
+      [&](const auto& points) {
+        for (const auto& point : points) {
+          rest += point.weight;
+          gain += point.weight * ((Mat3::Identity() + displacementGradient(point, u)).determinant() - 1.0);
+        }
+      },
+      model.points());
   return gain / rest;
 }
 
 double normL2(const FeModel& model, const Eigen::VectorXd& u) {
   double squares = 0.0;
   for (int e = 0; e < model.elementCount(); ++e) {
-    Vec3 sum = Vec3::Zero();
-    double own = 0.0;
-    for (const std::int32_t node : model.tetrahedra()[static_cast<std::size_t>(e)]) {
-      sum += u.segment<3>(3 * node);
-      own += u.segment<3>(3 * node).squaredNorm();
-    }
-    squares += model.volume(e) / 20.0 * (sum.squaredNorm() + own);  // int N_a N_b = V (1 + delta_ab) / 20
+    const std::span<const std::int32_t> nodes = model.elementNodes(e);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        squares += model.volume(e) * productIntegral(nodes.size(), a, b) *
+                   u.segment<3>(3 * nodes[a]).dot(u.segment<3>(3 * nodes[b]));
   }
   return std::sqrt(squares);
 }

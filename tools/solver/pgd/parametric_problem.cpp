@@ -54,7 +54,7 @@ BodyProblem::BodyProblem(const FeModel& model, SparseMatrix loads, Eigen::Vector
                                 std::to_string(loads_.cols()) + ", weights " +
                                 std::to_string(weights_.size()) + "; expected " +
                                 std::to_string(model.dofCount()) + " rows and as many columns as weights");
-  places_.reserve(at(model.elementCount()) * FeModel::ElementMatrix::SizeAtCompileTime);
+  places_.reserve(at(model.elementCount()) * 9 * (model.isQuadratic() ? 100 : 16));
   for (int e = 0; e < model.elementCount(); ++e) {
     const std::span<const std::int32_t> nodes = model.elementNodes(e);
     for (std::size_t b = 0; b < 3 * nodes.size(); ++b)

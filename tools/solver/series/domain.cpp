@@ -8,6 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "tools/solver/base/lanes.h"
@@ -128,56 +131,63 @@ void laneMonomials(const MonomialBasis& basis, const Vec3& direction, const Lane
       monomials[static_cast<std::size_t>(k)] = power * unit[static_cast<std::size_t>(k)];
 }
 
-/// The integration points in which some lane could pass below the limit, det F >= (1 - |H|)^3, with their nodes
-/// and the fields there.
+/// The points in which some lane could pass below the limit, det F >= (1 - |H|)^3, with their nodes and the fields there.
 class Suspects {
  public:
   Suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f, const Lanes& radius);
-  [[nodiscard]] bool empty() const { return points_.empty(); }
+  [[nodiscard]] bool empty() const { return U_.empty(); }
   /// Smallest det F of each lane, at most 1. @param monomials  x^alpha of each lane's sample
   [[nodiscard]] Lanes leastDet(const LaneVector& monomials);
 
  private:
-  void take(const KernelInput& input, int point);
+  std::int32_t placeOf(const KernelInput& input, std::int32_t node);
 
   std::vector<std::int32_t> place_;  // of a node in the fields here, or -1
-  std::vector<FeModel::Point> points_;
+  FeModel::Points points_;
   LaneVector U_, summed_;
   KernelInput fields_;
 };
 
 Suspects::Suspects(const MonomialBasis& basis, const KernelInput& input, double min_det_f,
                    const Lanes& radius) {
-  FloatLaneVector powers, bounds(static_cast<std::size_t>(input.point_count));
+  const auto count = std::visit([](const auto& points) { return points.size(); }, *input.points);
+  FloatLaneVector powers, bounds(count);
   Lanes power = radius / input.length;
   for (int degree = 1; degree <= basis.order(); ++degree, power *= radius / input.length)
     powers.push_back(__builtin_convertvector(power, FloatLanes));
   gradientBounds(input, powers.data(), bounds.data());
   const double rounding = 1e-5;
   const double harmless = 1.0 - std::cbrt(min_det_f) - rounding;
-  for (int n = 0; n < input.point_count; ++n) {
+  const auto isSuspect = [&](std::size_t n) {
     bool suspect = false;
     for (int lane = 0; lane < kLanes; ++lane)
-      suspect = suspect || !(static_cast<double>(bounds[static_cast<std::size_t>(n)][lane]) < harmless);
-    if (suspect) take(input, n);
-  }
+      suspect = suspect || !(static_cast<double>(bounds[n][lane]) < harmless);
+    return suspect;
+  };
+  std::visit(
+      [&](const auto& points) {
+        std::decay_t<decltype(points)> taken;
+        for (std::size_t n = 0; n < points.size(); ++n)
+          if (isSuspect(n)) taken.push_back(points[n]);
+        for (auto& point : taken)
+          for (std::int32_t& node : point.nodes) node = placeOf(input, node);
+        points_ = std::move(taken);
+      },
+      *input.points);
   summed_.resize(U_.size() / static_cast<std::size_t>(input.coefficients));
-  fields_ = {
-      points_.data(), static_cast<int>(points_.size()), input.coefficients, U_.data(), input.law, {}, {}};
+  fields_ = {&points_, input.coefficients, U_.data(), input.law, {}, {}};
 }
 
-void Suspects::take(const KernelInput& input, int point) {
-  points_.push_back(input.points[point]);
-  for (std::int32_t& node : points_.back().nodes) {
-    const auto old = static_cast<std::size_t>(node);
-    const std::size_t count = static_cast<std::size_t>(input.coefficients) * 3;
-    if (place_.size() <= old) place_.resize(old + 1, -1);
-    if (place_[old] < 0) {
-      place_[old] = static_cast<std::int32_t>(U_.size() / count);
-      U_.insert(U_.end(), input.U + old * count, input.U + (old + 1) * count);
-    }
-    node = place_[old];
+/// Takes over the fields of a node when it is met first.
+std::int32_t Suspects::placeOf(const KernelInput& input, std::int32_t node) {
+  const auto old = static_cast<std::size_t>(node);
+  const std::size_t count = static_cast<std::size_t>(input.coefficients) * 3;
+  if (place_.size() <= old) place_.resize(old + 1, -1);
+  if (place_[old] < 0) {
+    place_[old] = static_cast<std::int32_t>(U_.size() / count);
+    U_.insert(U_.end(), input.U + old * count, input.U + (old + 1) * count);
   }
+  return place_[old];
 }
 
 Lanes Suspects::leastDet(const LaneVector& monomials) {

@@ -25,21 +25,29 @@ NodeOrder::NodeOrder(const FeModel& model, const Cholesky& factor) {
     if (clamped < 0) clamped = next++;
 }
 
-std::vector<FeModel::Point> NodeOrder::sorted(std::span<const FeModel::Point> of_the_mesh) const {
-  std::vector<FeModel::Point> points(of_the_mesh.begin(), of_the_mesh.end());
-  for (FeModel::Point& point : points)
-    for (std::int32_t& node : point.nodes) node = place[static_cast<std::size_t>(node)];
-  std::sort(points.begin(), points.end(), [](const FeModel::Point& l, const FeModel::Point& r) {
-    return *std::min_element(l.nodes.begin(), l.nodes.end()) <
-           *std::min_element(r.nodes.begin(), r.nodes.end());
-  });
+FeModel::Points NodeOrder::sorted(const FeModel::Points& of_the_mesh) const {
+  FeModel::Points points = of_the_mesh;
+  std::visit(
+      [this](auto& all) {
+        for (auto& point : all)
+          for (std::int32_t& node : point.nodes) node = place[static_cast<std::size_t>(node)];
+        std::stable_sort(all.begin(), all.end(), [](const auto& l, const auto& r) {
+          return *std::min_element(l.nodes.begin(), l.nodes.end()) <
+                 *std::min_element(r.nodes.begin(), r.nodes.end());
+        });
+      },
+      points);
   return points;
 }
 
-double pointLength(std::span<const FeModel::Point> points) {
-  double volume = 0.0;
-  for (const FeModel::Point& point : points) volume += point.weight;
-  return std::exp2(std::round(std::log2(std::cbrt(volume / static_cast<double>(points.size())))));
+double pointLength(const FeModel::Points& points) {
+  return std::visit(
+      [](const auto& all) {
+        double volume = 0.0;
+        for (const auto& point : all) volume += point.weight;
+        return std::exp2(std::round(std::log2(std::cbrt(volume / static_cast<double>(all.size())))));
+      },
+      points);
 }
 
 }  // namespace palpate::solver

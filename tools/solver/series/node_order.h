@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "tools/solver/fem/cholesky.h"
@@ -23,7 +22,7 @@ struct NodeRow {
 struct NodeOrder {
   NodeOrder(const FeModel& model, const Cholesky& factor);
   /// The points with places instead of nodes, sorted by them: each field is read once, not once per element.
-  [[nodiscard]] std::vector<FeModel::Point> sorted(std::span<const FeModel::Point> of_the_mesh) const;
+  [[nodiscard]] FeModel::Points sorted(const FeModel::Points& of_the_mesh) const;
   [[nodiscard]] std::size_t placeOf(int node) const {
     return static_cast<std::size_t>(place[static_cast<std::size_t>(node)]);
   }
@@ -38,6 +37,6 @@ struct NodeOrder {
 };
 
 /// A power of two of the order of an element's edge, m: a change of unit by it is exact.
-[[nodiscard]] double pointLength(std::span<const FeModel::Point> points);
+[[nodiscard]] double pointLength(const FeModel::Points& points);
 
 }  // namespace palpate::solver

@@ -30,6 +30,7 @@ struct SeriesSolver::State {
         energy_rows(CauchyProduct(energy_basis, answerOrder(order)), firstEnergy()),
         order_of_nodes(fe, factor),
         points(order_of_nodes.sorted(fe.points())),
+        det_points(order_of_nodes.sorted(fe.detPoints())),
         length(pointLength(points)),
         solver(factor) {
     U.resize(static_cast<std::size_t>(model.nodeCount()) * coefficients() * 3);
@@ -42,14 +43,8 @@ struct SeriesSolver::State {
   [[nodiscard]] int firstEnergy() const {
     return energy_basis.begin(std::min(basis.order() + 2, energy_basis.order() + 1));
   }
-  [[nodiscard]] KernelInput input() const {
-    return {points.data(),
-            static_cast<int>(points.size()),
-            basis.size(),
-            U.data(),
-            model.material().law,
-            V.data(),
-            length};
+  [[nodiscard]] KernelInput input(const FeModel::Points& of) const {
+    return {&of, basis.size(), U.data(), model.material().law, V.data(), length};
   }
   /// Of a coefficient in U and V.
   [[nodiscard]] std::size_t at(std::size_t place, int k) const {
@@ -75,7 +70,7 @@ struct SeriesSolver::State {
   CauchyProduct factor_product;  // of fields, for what the energy is made of, to the degree of the force
   CauchyRows energy_rows;        // of those, for the energy
   NodeOrder order_of_nodes;
-  std::vector<FeModel::Point> points;
+  FeModel::Points points, det_points;
   double length;  // unit of V, m
   OrderedSolver solver;
   std::span<const Patch> patches;
@@ -173,7 +168,7 @@ void SeriesSolver::State::nextDegree(int degree) {
   const int last = basis.begin(degree + 1);
   const int count = last - first;
   r.assign(static_cast<std::size_t>(model.nodeCount()) * static_cast<std::size_t>(count) * 3, Lanes{});
-  assembleDegree(input(), product, first, last, r.data());
+  assembleDegree(input(points), product, first, last, r.data());
   fillSides(static_cast<std::size_t>(count));
   solveSides(count);
   std::array<Lanes, 3 * MonomialBasis::kMaxCoefficients> mix;  // [k - first][i]: of U_{e_i}
@@ -196,7 +191,7 @@ void SeriesSolver::State::answerFromEnergy() {
   const int first = firstEnergy();
   LaneVector W(static_cast<std::size_t>(energy_basis.size() - first), Lanes{});
   const double sign = kind == SeriesKind::kDisplacement ? 1.0 : -1.0;
-  energyCoefficients(input(), factor_product, energy_rows, static_cast<int>(W.size()), W.data());
+  energyCoefficients(input(points), factor_product, energy_rows, static_cast<int>(W.size()), W.data());
   for (int k = basis.size(); k < answer_basis.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
       MultiIndex gamma = answer_basis[k];
@@ -291,7 +286,7 @@ std::vector<SeriesRadii> SeriesSolver::domainRadii(const DomainCriteria& criteri
     domain[lane] = fieldRadius(state_->basis, state_->patchFields(static_cast<int>(lane)),
                                state_->answer_basis, coefficients, domain[lane], criteria.field_error);
   }
-  limitByDetF(state_->basis, state_->input(), criteria.min_det_f, domain);
+  limitByDetF(state_->basis, state_->input(state_->det_points), criteria.min_det_f, domain);
   for (std::size_t lane = 0; lane < domain.size(); ++lane)
     radii[lane] = {by_force ? domain[lane] : std::max(radii[lane].series, domain[lane]), domain[lane]};
   return radii;

@@ -3,15 +3,40 @@
 
 namespace palpate::solver {
 
+namespace {
+
+template <int N>
+PALPATE_INLINE PointInput<N> inputOf(const KernelInput& input,
+                                     const std::vector<IntegrationPoint<N>>& points) {
+  return {points.data(), static_cast<int>(points.size()), input.coefficients, input.U, input.law, input.V,
+          input.length};
+}
+
+/// Calls body with the input for the nodes that elements have; std::visit would not be inlined. @param body  inlined as well
+template <typename Body>
+PALPATE_INLINE void withPoints(const KernelInput& input, const Body& body) {
+  if (const auto* linear = std::get_if<0>(input.points))
+    body(inputOf(input, *linear));
+  else
+    body(inputOf(input, *std::get_if<1>(input.points)));
+}
+
+}  // namespace
+
 PALPATE_MULTIVERSION
 void assembleDegree(const KernelInput& input, const CauchyProduct& product, int first, int last, Lanes* r) {
-  point_kernel::assembleAll(input, product, first, last, r);
+  withPoints(
+      input, [&](const auto& typed) __attribute__((always_inline)) {
+        point_kernel::assembleAll(typed, product, first, last, r);
+      });
 }
 
 PALPATE_MULTIVERSION
 void energyCoefficients(const KernelInput& input, const CauchyProduct& factors, const CauchyRows& rows,
                         int count, Lanes* W) {
-  point_kernel::energyAll(input, factors, rows, count, W);
+  withPoints(
+      input, [&](const auto& typed)
+                 __attribute__((always_inline)) { point_kernel::energyAll(typed, factors, rows, count, W); });
 }
 
 PALPATE_MULTIVERSION
@@ -52,12 +77,17 @@ void sumFields(const KernelInput& input, int nodes, const Lanes* monomials, Lane
 
 PALPATE_MULTIVERSION
 void leastDetF(const KernelInput& summed, Lanes* least) {
-  point_kernel::leastDetAll(summed, *least);
+  withPoints(
+      summed, [&](const auto& typed)
+                  __attribute__((always_inline)) { point_kernel::leastDetAll(typed, *least); });
 }
 
 PALPATE_MULTIVERSION
 void gradientBounds(const KernelInput& input, const FloatLanes* powers, FloatLanes* bounds) {
-  for (int n = 0; n < input.point_count; ++n) point_kernel::boundPoint(input, n, powers, bounds[n]);
+  withPoints(
+      input, [&](const auto& typed) __attribute__((always_inline)) {
+        for (int n = 0; n < typed.point_count; ++n) point_kernel::boundPoint(typed, n, powers, bounds[n]);
+      });
 }
 
 }  // namespace palpate::solver

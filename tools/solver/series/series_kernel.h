@@ -11,7 +11,15 @@
 
 namespace palpate::solver {
 
-using KernelInput = PointInput<FeModel::kNodes>;
+/// What the kernels read: the points of elements of four or of ten nodes, and fields as in PointInput.
+struct KernelInput {
+  const FeModel::Points* points;
+  int coefficients;  ///< stride of U and V
+  const Lanes* U;    ///< U_alpha
+  Law law;
+  const FloatLanes* V;  ///< U_alpha length^|alpha|, for energies and bounds
+  double length;        ///< of the order of an element, m
+};
 
 /// r[node][k - first][3] += r_alpha for the coefficients first <= k < last of one degree:
 ///   r_alpha = int P'_alpha : grad delta,  P'_alpha the part of P_alpha that lower degrees make

@@ -113,7 +113,7 @@ TEST(CcxDeck, RefusesStiffnessByElement) {
   Written w;
   const solver::FeModel& body = w.box.organ.body;
   solver::Material material = body.material();
-  material.by_element.assign(body.tetrahedra().size(), {3e5, 0.4});
+  material.by_element.assign(body.tetrahedra().corners.size(), {3e5, 0.4});
   w.box.organ.body = solver::FeModel(body.nodes(), body.tetrahedra(), body.fixedNodes(), material);
   EXPECT_EQ(errorOf([&] { (void)ccxDeck(w.box.organ, w.truth, "", 1); }),
             "a CalculiX deck has one stiffness, but the organ has one in each of its " +

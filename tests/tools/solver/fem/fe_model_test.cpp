@@ -62,7 +62,7 @@ TEST(FeModel, TangentIsDerivativeOfForce) {
   const Eigen::VectorXd v = randomField(model, 1.0, 2);
   Eigen::VectorXd Kv = Eigen::VectorXd::Zero(u.size());
   for (int e = 0; e < model.elementCount(); ++e) {
-    const auto& t = model.tetrahedra()[static_cast<std::size_t>(e)];
+    const auto& t = model.tetrahedra().corners[static_cast<std::size_t>(e)];
     Eigen::Matrix<double, 12, 1> local;
     for (int a = 0; a < 4; ++a) local.segment<3>(3 * a) = v.segment<3>(3 * t[static_cast<std::size_t>(a)]);
     const Eigen::Matrix<double, 12, 1> out = model.elementTangent(e, u) * local;
@@ -98,8 +98,8 @@ TEST(FeModel, RotationCostsNothing) {
 
 TEST(FeModel, RefusesAFlatTetrahedron) {
   try {
-    const FeModel model({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}, {{0, 1, 2, 3}}, {},
-                        kLiver);
+    const std::vector<std::array<std::int32_t, 4>> flat{{0, 1, 2, 3}};
+    const FeModel model({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}, flat, {}, kLiver);
     FAIL() << "a flat tetrahedron was taken";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("tetrahedron 0"), std::string::npos) << error.what();
