@@ -10,6 +10,7 @@
 
 #include "tools/mesh/manifold.h"
 #include "tools/mesh/mesh_error.h"
+#include "tools/mesh/midsides.h"
 #include "tools/mesh/topology.h"
 
 namespace palpate::mesh {
@@ -49,6 +50,10 @@ void checkSizes(const TetMesh& mesh) {
                     std::to_string(mesh.tetrahedra.size()) + " tetrahedra with " +
                     std::to_string(mesh.tetrahedron_tags.size()) + " numbers");
   }
+  if (mesh.isQuadratic() && mesh.midsides.size() != mesh.tetrahedra.size()) {
+    throw MeshError("the mesh has " + std::to_string(mesh.tetrahedra.size()) + " tetrahedra, " +
+                    std::to_string(mesh.midsides.size()) + " of them with mid-side nodes");
+  }
 }
 
 void checkNodes(const TetMesh& mesh) {
@@ -57,14 +62,17 @@ void checkNodes(const TetMesh& mesh) {
       throw MeshError(nodeName(mesh, i) + " has a coordinate that is not finite");
   }
   std::vector<bool> used(mesh.nodes.size(), false);
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    for (const auto node : mesh.tetrahedra[t]) {
-      if (node < 0 || static_cast<std::size_t>(node) >= used.size()) {
-        throw MeshError(tetName(mesh, t) + " refers to node index " + std::to_string(node) +
-                        ", but there are " + std::to_string(used.size()) + " nodes");
-      }
-      used[static_cast<std::size_t>(node)] = true;
+  const auto use = [&](std::size_t t, std::int32_t node) {
+    if (node < 0 || static_cast<std::size_t>(node) >= used.size()) {
+      throw MeshError(tetName(mesh, t) + " refers to node index " + std::to_string(node) +
+                      ", but there are " + std::to_string(used.size()) + " nodes");
     }
+    used[static_cast<std::size_t>(node)] = true;
+  };
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    for (const auto node : mesh.tetrahedra[t]) use(t, node);
+    if (!mesh.isQuadratic()) continue;
+    for (const auto node : mesh.midsides[t]) use(t, node);
   }
   const auto idle = std::find(used.begin(), used.end(), false);
   if (idle != used.end()) {
@@ -190,6 +198,10 @@ bool reorientIfAllNegative(TetMesh& mesh) {
     if (!(signedVolume(mesh, t) < 0)) return false;
   }
   for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
+  for (auto& m : mesh.midsides) {  // edges (1, 2) and (1, 3), (0, 2) and (0, 3) change places
+    std::swap(m[1], m[4]);
+    std::swap(m[2], m[3]);
+  }
   return !mesh.tetrahedra.empty();
 }
 
@@ -198,6 +210,7 @@ void checkMesh(const TetMesh& mesh) {
   checkNodes(mesh);
   checkVolumes(mesh);
   checkDuplicates(mesh);
+  checkMidsides(mesh);
   const std::vector<TetFace> faces = sortedFaces(mesh);
   checkFaces(mesh, faces);
   checkConnected(mesh, faces);

@@ -13,7 +13,7 @@ bool reorientIfAllNegative(TetMesh& mesh);
 
 /// Refuses meshes that the solver cannot use, in this order: empty mesh, wrong array sizes or indices out of
 /// range, non-finite coordinates, unreferenced nodes, repeated corners, flat tetrahedra (volume < 1e-9 of the
-/// longest edge cubed), inverted ones, duplicates, faces shared by more than two tetrahedra or by two on the
+/// longest edge cubed), inverted ones, duplicates, mid-side nodes (checkMidsides()), faces shared by more than two tetrahedra or by two on the
 /// same side, disconnected parts, boundary edges in other than two triangles, boundary vertices whose
 /// triangles are not one fan.
 /// @throw MeshError naming the entity by its number in the mesh file (node_tags, tetrahedron_tags)

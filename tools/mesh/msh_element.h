@@ -22,8 +22,8 @@ struct MshElementType {
   int nodes;
 };
 
-/// Looks up the type of element `tag`. Refuses volume elements that are not linear tetrahedra: without them
-/// the organ would have a hole.
+/// Looks up the type of element `tag`. Refuses volume elements that are not tetrahedra of 4 or 10 nodes:
+/// without them the organ would have a hole.
 MshElementType mshElementType(const ByteReader& in, std::int64_t type, std::int64_t tag);
 
 /// Reads the nodes of one element; keeps it if it is a tetrahedron, and adds its nodes to its physical

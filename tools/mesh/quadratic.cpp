@@ -2,8 +2,11 @@
 #include "tools/mesh/quadratic.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
+
+#include "tools/mesh/topology.h"
 
 namespace palpate::mesh {
 
@@ -22,6 +25,12 @@ std::vector<std::int32_t> withMiddles(const std::vector<std::int32_t>& corners, 
     if (has(edge.first) && has(edge.second)) all.push_back(middle);
   std::sort(all.begin(), all.end());
   return all;
+}
+
+std::vector<std::int32_t> common(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
+  std::vector<std::int32_t> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
 }
 
 }  // namespace
@@ -43,7 +52,13 @@ TetMesh quadraticOf(const TetMesh& linear) {
       mesh.node_tags.push_back(++tag);
     }
   }
-  for (auto& [name, nodes] : mesh.groups) nodes = withMiddles(nodes, middles);
+  const std::vector<std::int32_t> surface = boundaryOf(mesh).nodes;
+  for (auto& [name, nodes] : mesh.groups) {
+    const bool of_surface = !linear.regions.contains(name) && nodes.size() < linear.nodes.size() &&
+                            std::includes(surface.begin(), surface.end(), nodes.begin(), nodes.end());
+    nodes = withMiddles(nodes, middles);
+    if (of_surface) nodes = common(nodes, surface);
+  }
   return mesh;
 }
 

@@ -61,6 +61,52 @@ void addGroups(const std::string& file, const RawMesh& raw, const TagIndex& inde
   std::erase_if(mesh.groups, [](const auto& group) { return group.second.empty(); });
 }
 
+void addRegions(const RawMesh& raw, TetMesh& mesh) {
+  for (std::size_t t = 0; t < raw.tetrahedra.size(); ++t)
+    for (const auto group : raw.tetrahedra[t].groups) {
+      auto& region = mesh.regions[nameOf(raw, {3, group})];
+      const auto index = static_cast<std::int32_t>(t);
+      if (region.empty() || region.back() != index) region.push_back(index);  // two groups of one name
+    }
+}
+
+// Points of each tetrahedron, by their place in the file.
+void addTetrahedra(const std::string& file, const RawMesh& raw, const TagIndex& index, TetMesh& mesh) {
+  const std::size_t nodes = raw.tetrahedra.front().nodes.size();
+  for (const auto& tetrahedron : raw.tetrahedra) {
+    const std::string who = "tetrahedron " + std::to_string(tetrahedron.tag);
+    if (tetrahedron.nodes.size() != nodes) {
+      throw MeshError(file + ": " + who + " has " + std::to_string(tetrahedron.nodes.size()) +
+                      " nodes, tetrahedron " + std::to_string(raw.tetrahedra.front().tag) + " has " +
+                      std::to_string(nodes) + "; all must have 4 or all 10");
+    }
+    const auto point = [&](std::size_t i) {
+      return static_cast<std::int32_t>(find(file, index, tetrahedron.nodes[i], who));
+    };
+    mesh.tetrahedron_tags.push_back(tetrahedron.tag);
+    mesh.tetrahedra.push_back({point(0), point(1), point(2), point(3)});
+    if (nodes == 10) mesh.midsides.push_back({point(4), point(5), point(6), point(7), point(8), point(9)});
+  }
+}
+
+// Keeps the points that tetrahedra use. @return the node of each point, or -1
+std::vector<std::int32_t> keepUsed(const RawMesh& raw, TetMesh& mesh) {
+  std::vector<std::int32_t> kept(raw.points.size(), -1);
+  const auto forAllNodes = [&](const auto& work) {
+    for (auto& corners : mesh.tetrahedra) std::for_each(corners.begin(), corners.end(), work);
+    for (auto& middles : mesh.midsides) std::for_each(middles.begin(), middles.end(), work);
+  };
+  forAllNodes([&](std::int32_t point) { kept[static_cast<std::size_t>(point)] = 0; });
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i] < 0) continue;
+    kept[i] = static_cast<std::int32_t>(mesh.nodes.size());
+    mesh.nodes.push_back(raw.points[i]);
+    mesh.node_tags.push_back(raw.point_tags[i]);
+  }
+  forAllNodes([&](std::int32_t& point) { point = kept[static_cast<std::size_t>(point)]; });
+  return kept;
+}
+
 }  // namespace
 
 TetMesh assemble(const std::filesystem::path& path, const RawMesh& raw) {
@@ -71,28 +117,9 @@ TetMesh assemble(const std::filesystem::path& path, const RawMesh& raw) {
   }
   const TagIndex index = indexOf(file, raw);
   TetMesh mesh;
-  mesh.tetrahedron_tags = raw.tetrahedron_tags;
-  std::vector<std::int32_t> kept(raw.points.size(), -1);
-  for (std::size_t t = 0; t < raw.tetrahedra.size(); ++t) {
-    std::array<std::int32_t, 4> corners{};
-    const std::string who = "tetrahedron " + std::to_string(raw.tetrahedron_tags[t]);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t point = find(file, index, raw.tetrahedra[t][i], who);
-      kept[point] = 0;
-      corners[i] = static_cast<std::int32_t>(point);
-    }
-    mesh.tetrahedra.push_back(corners);
-  }
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i] < 0) continue;
-    kept[i] = static_cast<std::int32_t>(mesh.nodes.size());
-    mesh.nodes.push_back(raw.points[i]);
-    mesh.node_tags.push_back(raw.point_tags[i]);
-  }
-  for (auto& corners : mesh.tetrahedra) {
-    for (auto& corner : corners) corner = kept[static_cast<std::size_t>(corner)];
-  }
-  addGroups(file, raw, index, kept, mesh);
+  addTetrahedra(file, raw, index, mesh);
+  addGroups(file, raw, index, keepUsed(raw, mesh), mesh);
+  addRegions(raw, mesh);
   return mesh;
 }
 

@@ -43,12 +43,13 @@ void readElements(ByteReader& in, const std::string& keyword, const Element& kin
   for (std::size_t i = 0; i < count; ++i) {
     std::array<std::int64_t, 4> nodes{};
     for (int k = 0; k < kind.nodes; ++k) nodes[static_cast<std::size_t>(k)] = in.textInteger(what.c_str());
-    if (kind.dimension == 3) {
-      mesh.tetrahedra.push_back(nodes);
-      mesh.tetrahedron_tags.push_back(static_cast<std::int64_t>(mesh.tetrahedra.size()));
-    }
     const auto reference = in.textInteger(what.c_str());
+    if (kind.dimension == 3) {
+      mesh.tetrahedra.push_back(
+          {static_cast<std::int64_t>(mesh.tetrahedra.size()) + 1, {nodes.begin(), nodes.end()}, {}});
+    }
     if (reference == 0) continue;
+    if (kind.dimension == 3) mesh.tetrahedra.back().groups.push_back(reference);
     auto& group = mesh.groups[{kind.dimension, reference}];
     group.insert(group.end(), nodes.begin(), nodes.begin() + kind.nodes);
   }
@@ -86,7 +87,8 @@ RawMesh readMeditFile(const std::filesystem::path& path) {
       readVertices(in, mesh);
     } else if (keyword == "Dimension") {
       if (in.textInteger("the dimension") != 3) in.fail("the dimension is not 3");
-    } else if (keyword == "Hexahedra" || keyword == "Prisms" || keyword == "Pyramids") {
+    } else if (keyword == "Hexahedra" || keyword == "Prisms" || keyword == "Pyramids" ||
+               keyword == "TetrahedraP2") {
       if (countOf(in, keyword, 4) != 0)
         in.fail("the file holds " + keyword + "; only linear tetrahedra are taken");
     } else if (const char c = keyword.front(); (c < 'A' || c > 'Z') && (c < 'a' || c > 'z')) {

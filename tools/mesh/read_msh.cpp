@@ -70,28 +70,28 @@ void readNodes(ByteReader& in, const MshFormat& format, RawMesh& mesh) {
 }
 
 // Versions 1 and 2 list a tetrahedron once for each of its physical groups, under different numbers. The
-// first number stays; the groups have their nodes already. checkMesh() refuses a tetrahedron that one group
-// lists twice, or that is listed both in a group and without one (0).
-void keepFirstListing(RawMesh& mesh, const Tags& group_of) {
-  std::map<std::array<std::int64_t, 4>, Tags> listed;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    Tags& groups = listed[mesh.tetrahedra[t]];
-    groups.push_back(group_of[t]);
-    const bool again = groups.size() > 1 && std::count(groups.begin(), groups.end(), 0) == 0 &&
-                       std::count(groups.begin(), groups.end(), group_of[t]) == 1;
-    if (again) continue;
-    mesh.tetrahedra[kept] = mesh.tetrahedra[t];
-    mesh.tetrahedron_tags[kept++] = mesh.tetrahedron_tags[t];
+// first number stays. checkMesh() refuses a tetrahedron that one group lists twice, or that is listed both in
+// a group and without one.
+void keepFirstListing(RawMesh& mesh) {
+  std::map<Tags, std::size_t> first;
+  std::vector<RawMesh::Tetrahedron> kept;
+  for (auto& listed : mesh.tetrahedra) {
+    const auto [at, is_new] = first.try_emplace(listed.nodes, kept.size());
+    Tags* const groups = is_new ? nullptr : &kept[at->second].groups;
+    const bool again = groups != nullptr && !groups->empty() && !listed.groups.empty() &&
+                       std::count(groups->begin(), groups->end(), listed.groups.front()) == 0;
+    if (again) {
+      groups->push_back(listed.groups.front());
+    } else {
+      kept.push_back(std::move(listed));
+    }
   }
-  mesh.tetrahedra.resize(kept);
-  mesh.tetrahedron_tags.resize(kept);
+  mesh.tetrahedra = std::move(kept);
 }
 
 // number type physical elementary count nodes...
 void readElements1(ByteReader& in, RawMesh& mesh) {
   const auto count = in.checkedCount(in.textInteger("the number of elements"), 12, "the number of elements");
-  Tags group_of(mesh.tetrahedra.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto tag = in.textInteger("an element's number");
     const auto type = mshElementType(in, in.textInteger("an element's type"), tag);
@@ -103,9 +103,8 @@ void readElements1(ByteReader& in, RawMesh& mesh) {
               std::to_string(type.nodes));
     }
     readMshElement(in, mesh, false, tag, type, Tags{group});
-    group_of.resize(mesh.tetrahedra.size(), group);
   }
-  keepFirstListing(mesh, group_of);
+  keepFirstListing(mesh);
 }
 
 // The physical number is the first of the tags.
@@ -119,25 +118,21 @@ Tags readTags(ByteReader& in, std::int64_t count) {
   return tags;
 }
 
-// One element of version 2, whose number of tags is known. Notes its group if it is a tetrahedron.
-void readElement2(ByteReader& in, RawMesh& mesh, std::int64_t tag, std::int64_t type, std::int64_t tags,
-                  Tags& group_of) {
+// One element of version 2, whose number of tags is known.
+void readElement2(ByteReader& in, RawMesh& mesh, std::int64_t tag, std::int64_t type, std::int64_t tags) {
   const MshElementType known = mshElementType(in, type, tag);
-  const Tags groups = readTags(in, tags);
-  readMshElement(in, mesh, false, tag, known, groups);
-  group_of.resize(mesh.tetrahedra.size(), groups.empty() ? 0 : groups.front());
+  readMshElement(in, mesh, false, tag, known, readTags(in, tags));
 }
 
 void readElements2(ByteReader& in, const MshFormat& format, RawMesh& mesh) {
   const auto count = in.checkedCount(in.textInteger("the number of elements"), 8, "the number of elements");
   if (format.binary) in.line();
   in.setBinary(format.binary);
-  Tags group_of(mesh.tetrahedra.size(), 0);
   for (std::size_t i = 0; i < count;) {
     if (!format.binary) {
       const auto tag = in.textInteger("an element's number");
       const auto type = in.textInteger("an element's type");
-      readElement2(in, mesh, tag, type, in.textInteger("an element's number of tags"), group_of);
+      readElement2(in, mesh, tag, type, in.textInteger("an element's number of tags"));
       ++i;
       continue;
     }
@@ -149,10 +144,10 @@ void readElements2(ByteReader& in, const MshFormat& format, RawMesh& mesh) {
     }
     for (std::int64_t k = 0; k < follow; ++k, ++i) {
       const auto tag = in.integer32("an element's number");
-      readElement2(in, mesh, tag, type, tags, group_of);
+      readElement2(in, mesh, tag, type, tags);
     }
   }
-  keepFirstListing(mesh, group_of);
+  keepFirstListing(mesh);
 }
 
 void skipSection(ByteReader& in, const std::string& name) {

@@ -10,7 +10,7 @@
 namespace palpate::mesh {
 namespace {
 
-constexpr int kTetrahedron = 10;
+constexpr int kTetrahedron = 10, kQuadratic = 24;
 constexpr std::int64_t kMaxCorners = 1 << 20;  // of one cell; more is a corrupt count
 
 // Reads a legacy VTK file: https://docs.vtk.org, "VTK legacy file format". Binary data are big-endian.
@@ -185,15 +185,15 @@ class VtkFile {
       const bool flat = (type >= 1 && type <= 9) || (type >= 21 && type <= 23) || type == 28 || type == 30 ||
                         (type >= 34 && type <= 36);
       if (flat) continue;
-      if (type != kTetrahedron) {
+      if (type != kTetrahedron && type != kQuadratic) {
         in_.fail(name + " is of VTK type " + std::to_string(type) +
-                 "; of volume cells only linear tetrahedra (type 10) are taken");
+                 "; of volume cells only tetrahedra of 4 and 10 nodes (types 10 and 24) are taken");
       }
-      if (cells_[i].size() != 4)
-        in_.fail(name + " is a tetrahedron with " + std::to_string(cells_[i].size()) + " corners");
-      auto& tetrahedron = mesh_.tetrahedra.emplace_back();
-      for (std::size_t k = 0; k < 4; ++k) tetrahedron[k] = cells_[i][k] + 1;
-      mesh_.tetrahedron_tags.push_back(static_cast<std::int64_t>(i + 1));
+      if (cells_[i].size() != (type == kTetrahedron ? 4U : 10U))
+        in_.fail(name + " is a tetrahedron of type " + std::to_string(type) + " with " +
+                 std::to_string(cells_[i].size()) + " nodes");
+      for (auto& node : cells_[i]) ++node;  // points are numbered from 1
+      mesh_.tetrahedra.push_back({static_cast<std::int64_t>(i + 1), std::move(cells_[i]), {}});
     }
   }
 

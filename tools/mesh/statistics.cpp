@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,13 @@ std::vector<Edge> edgesOf(const std::vector<std::array<std::int32_t, Corners>>& 
   return edges;
 }
 
+template <std::size_t Corners>
+std::size_t cornersOf(const std::vector<std::array<std::int32_t, Corners>>& elements) {
+  std::set<std::int32_t> corners;
+  for (const auto& e : elements) corners.insert(e.begin(), e.end());
+  return corners.size();
+}
+
 double meanEdge(const TetMesh& mesh) {
   const std::vector<Edge> edges = edgesOf(mesh.tetrahedra);
   double sum = 0;
@@ -45,7 +53,7 @@ double meanEdge(const TetMesh& mesh) {
 
 double medianSurfaceEdge(const TetMesh& mesh, const BoundarySurface& boundary) {
   std::vector<double> lengths;
-  for (const auto& [a, b] : edgesOf(boundary.triangles)) {
+  for (const auto& [a, b] : edgesOf(boundary.faces)) {
     const auto i = static_cast<std::size_t>(boundary.nodes[static_cast<std::size_t>(a)]);
     const auto j = static_cast<std::size_t>(boundary.nodes[static_cast<std::size_t>(b)]);
     lengths.push_back((mesh.nodes[i] - mesh.nodes[j]).norm());
@@ -72,9 +80,11 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 MeshStatistics statisticsOf(const TetMesh& mesh, const BoundarySurface& boundary) {
   MeshStatistics s;
   s.nodes = mesh.nodes.size();
+  s.corners = cornersOf(mesh.tetrahedra);
   s.tetrahedra = mesh.tetrahedra.size();
   s.surface_nodes = boundary.nodes.size();
-  s.surface_triangles = boundary.triangles.size();
+  s.surface_corners = cornersOf(boundary.faces);
+  s.surface_triangles = boundary.faces.size();
   s.box_min = s.box_max = mesh.nodes.front();
   for (const auto& x : mesh.nodes) {
     s.box_min = s.box_min.cwiseMin(x);

@@ -9,7 +9,10 @@
 #include "tools/mesh/box_mesh.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/gmsh_session.h"
+#include "tools/mesh/midsides.h"
+#include "tools/mesh/quadratic.h"
 #include "tools/mesh/read_mesh.h"
+#include "tools/mesh/statistics.h"
 #include "tools/mesh/topology.h"
 #include "tools/mesh/write_msh.h"
 
@@ -20,6 +23,7 @@ struct Format {
   const char* name;
   double version;
   bool binary;
+  int order = 1;
 };
 
 class GmshFormat : public ::testing::TestWithParam<Format> {};
@@ -34,6 +38,8 @@ TetMesh saveBall(const GmshSession& session, const std::filesystem::path& file, 
     gmsh::option::setNumber("Mesh.MeshSizeMin", 0.5);
     gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
     gmsh::model::mesh::generate(3);
+    expected = session.tetrahedra();
+    gmsh::model::mesh::setOrder(format.order);
     gmsh::vectorpair surfaces;
     gmsh::model::getEntities(surfaces, 2);
     const int skin = gmsh::model::addPhysicalGroup(2, {surfaces.at(0).second});
@@ -44,7 +50,16 @@ TetMesh saveBall(const GmshSession& session, const std::filesystem::path& file, 
     gmsh::option::setNumber("Mesh.Binary", format.binary ? 1 : 0);
     gmsh::write(file.string());
   });
-  return session.tetrahedra();
+  return expected;
+}
+
+// Edges of the ball's surface, chords of 0.5 of the unit circle, bulge by h^2/8; edges inside are straight.
+void straightenBall(TetMesh& mesh, std::size_t surface_edges) {
+  const CurvedEdges curved = straighten(mesh);
+  EXPECT_LE(curved.count, surface_edges);
+  EXPECT_GE(curved.count, surface_edges / 2);
+  EXPECT_GT(curved.farthest, 0.02);
+  EXPECT_LT(curved.farthest, 0.06);
 }
 
 TEST_P(GmshFormat, IsRead) {
@@ -52,9 +67,11 @@ TEST_P(GmshFormat, IsRead) {
   const GmshSession session;
   const auto file = folder / GetParam().name;
   const TetMesh expected = saveBall(session, file, GetParam());
-  const TetMesh mesh = readMesh(file);
+  TetMesh mesh = readMesh(file);
+  ASSERT_EQ(mesh.isQuadratic(), GetParam().order == 2);
+  if (mesh.isQuadratic()) straightenBall(mesh, 3 * boundaryOf(expected).faces.size() / 2);
   EXPECT_NO_THROW(checkMesh(mesh));
-  EXPECT_EQ(mesh.nodes.size(), expected.nodes.size());
+  EXPECT_EQ(statisticsOf(mesh, boundaryOf(mesh)).corners, expected.nodes.size());
   EXPECT_EQ(mesh.tetrahedra.size(), expected.tetrahedra.size());
   double volume = 0;
   double wanted = 0;
@@ -69,6 +86,7 @@ TEST_P(GmshFormat, IsRead) {
                                                           : "surface:1";
     EXPECT_EQ(mesh.groups.at(skin), boundaryOf(mesh).nodes);
     EXPECT_EQ(mesh.groups.at("42").size(), mesh.nodes.size());
+    EXPECT_EQ(mesh.regions.at("42").size(), mesh.tetrahedra.size());
   }
   EXPECT_EQ(mesh.groups.empty(), std::string(GetParam().name).ends_with(".vtk"));
 }
@@ -78,7 +96,11 @@ INSTANTIATE_TEST_SUITE_P(All, GmshFormat,
                                            Format{"2b.msh", 2.2, true}, Format{"40.msh", 4.0, false},
                                            Format{"41.msh", 4.1, false}, Format{"41b.msh", 4.1, true},
                                            Format{"a.vtk", 4.1, false}, Format{"b.vtk", 4.1, true},
-                                           Format{"a.mesh", 4.1, false}),
+                                           Format{"a.mesh", 4.1, false}, Format{"1q.msh", 1, false, 2},
+                                           Format{"2q.msh", 2.2, false, 2}, Format{"2bq.msh", 2.2, true, 2},
+                                           Format{"40q.msh", 4.0, false, 2}, Format{"41q.msh", 4.1, false, 2},
+                                           Format{"41bq.msh", 4.1, true, 2}, Format{"aq.vtk", 4.1, false, 2},
+                                           Format{"bq.vtk", 4.1, true, 2}),
                          [](const auto& format) {
                            std::string name = format.param.name;
                            name[name.find('.')] = '_';
@@ -114,6 +136,57 @@ TEST(GmshAgrees, ReadsWhatWeWrite) {
   const TetMesh back = session.tetrahedra();
   EXPECT_EQ(back.nodes, box.nodes);
   EXPECT_EQ(back.tetrahedra, box.tetrahedra);
+}
+
+// One cube on another, with a conforming face: volumes 1 and 0.5.
+TEST(GmshAgrees, VolumeGroupsAreRegions) {
+  for (const double version : {2.2, 4.1}) {
+    const TemporaryFolder folder;
+    const GmshSession session;
+    session.run("cubes", [&] {
+      namespace occ = gmsh::model::occ;
+      gmsh::vectorpair parts;
+      std::vector<gmsh::vectorpair> origins;
+      occ::fragment({{3, occ::addBox(0, 0, 0, 1, 1, 1)}}, {{3, occ::addBox(0, 0, 1, 1, 1, 0.5)}}, parts,
+                    origins);
+      occ::synchronize();
+      gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {parts.at(0).second}), "lower");
+      gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {parts.at(1).second}), "upper");
+      gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {1, 2}), "both");
+      gmsh::option::setNumber("Mesh.MeshSizeMax", 0.4);
+      gmsh::model::mesh::generate(3);
+      gmsh::option::setNumber("Mesh.MshFileVersion", version);
+      gmsh::write((folder / "a.msh").string());
+    });
+    const TetMesh mesh = readMesh(folder / "a.msh");
+    EXPECT_NO_THROW(checkMesh(mesh));
+    const auto volumeOf = [&](const std::string& region) {
+      double volume = 0;
+      for (const auto t : mesh.regions.at(region)) volume += signedVolume(mesh, static_cast<std::size_t>(t));
+      return volume;
+    };
+    EXPECT_NEAR(volumeOf("lower"), 1, 1e-12);
+    EXPECT_NEAR(volumeOf("upper"), 0.5, 1e-12);
+    EXPECT_NEAR(volumeOf("both"), 1.5, 1e-12);
+    EXPECT_EQ(mesh.groups.at("both").size(), mesh.nodes.size());
+  }
+}
+
+// With its last two nodes exchanged, an element's Jacobian varies within it.
+TEST(GmshAgrees, ReadsQuadraticTetrahedraInOurOrder) {
+  const TemporaryFolder folder;
+  const TetMesh box = quadraticOf(makeBox({1, 2, 3}, {3, 3, 3}));
+  writeMsh(folder / "a.msh", box, boundaryOf(box));
+  const GmshSession session;
+  std::vector<double> determinants;
+  session.run("open", [&] {
+    gmsh::open((folder / "a.msh").string());
+    std::vector<double> points, weights, jacobians, coordinates;
+    gmsh::model::mesh::getIntegrationPoints(11, "Gauss4", points, weights);
+    gmsh::model::mesh::getJacobians(11, points, jacobians, determinants, coordinates);
+    ASSERT_EQ(determinants.size(), weights.size() * box.tetrahedra.size());
+  });
+  for (const double determinant : determinants) EXPECT_NEAR(determinant, 6 * 6.0 / 48, 1e-12);
 }
 
 TEST(GmshSession, LeavesSignalHandlersAlone) {

@@ -53,6 +53,23 @@ TEST_F(QuadraticMesh, AGroupTakesTheMiddlesBetweenItsNodes) {
   for (const std::int32_t node : all) EXPECT_EQ(mesh_.nodes[at(node)].x(), 0.0);
 }
 
+// The diagonal of a cell joins two nodes of the surface through the inside.
+TEST(QuadraticGroups, OfSurfaceNodesStayOnTheSurface) {
+  TetMesh cell = makeBox({1, 1, 1}, {2, 2, 2});
+  cell.nodes.emplace_back(0.5, 0.5, -0.5);  // a ninth node, so that the eight are a part
+  cell.node_tags.push_back(9);
+  cell.tetrahedra.push_back({0, 1, 3, 8});
+  cell.tetrahedron_tags.push_back(7);
+  cell.groups["skin"] = {0, 1, 2, 3, 4, 5, 6, 7};
+  cell.groups["tissue"] = cell.groups["skin"];
+  cell.regions["tissue"] = {0, 1, 2, 3, 4, 5};
+  const TetMesh mesh = quadraticOf(cell);
+  EXPECT_EQ(mesh.groups.at("tissue").size(), 8U + 19U);
+  EXPECT_EQ(mesh.groups.at("skin").size(), 8U + 18U);
+  for (const auto node : mesh.groups.at("skin"))
+    EXPECT_NE(mesh.nodes[at(node)], Eigen::Vector3d(0.5, 0.5, 0.5));
+}
+
 TEST_F(QuadraticMesh, EachFaceOfTheBoundaryIsFourFlatTriangles) {
   const BoundarySurface old = boundaryOf(linear_), boundary = boundaryOf(mesh_);
   ASSERT_EQ(boundary.faces.size(), old.triangles.size());

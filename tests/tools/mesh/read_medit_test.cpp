@@ -28,6 +28,7 @@ TEST(ReadMedit, TakesReferencesAsGroupsAndSkipsWhatItDoesNotNeed) {
   EXPECT_EQ(mesh.groups.at("6"), (Nodes{1, 2, 3}));
   EXPECT_EQ(mesh.groups.at("7"), (Nodes{1, 2, 3, 4}));
   EXPECT_EQ(mesh.groups.at("3"), (Nodes{4}));
+  EXPECT_EQ(mesh.regions, (std::map<std::string, Nodes>{{"7", {1}}}));
   EXPECT_NO_THROW(checkMesh(mesh));
 }
 
@@ -39,6 +40,7 @@ TEST(ReadMedit, RefusesOtherFiles) {
 
 TEST(ReadMedit, RefusesOtherVolumeElements) {
   EXPECT_REFUSED(readText(with(kMedit, "Tetrahedra", "Hexahedra")), "Hexahedra");
+  EXPECT_REFUSED(readText(with(kMedit, "Tetrahedra", "TetrahedraP2")), "TetrahedraP2");
 }
 
 TEST(ReadMedit, RefusesANodeThatIsNotThere) {

@@ -70,8 +70,38 @@ TEST(ReadVtk, RefusesACornerOutOfRange) {
 }
 
 TEST(ReadVtk, RefusesOtherVolumeCells) {
-  EXPECT_REFUSED(readText(with(kVtk, "5\n10\n10", "5\n10\n24")), "cell 3", "type 24");
-  EXPECT_REFUSED(readText(with(kVtk, "5\n10\n10", "10\n10\n10")), "cell 1", "3 corners");
+  EXPECT_REFUSED(readText(with(kVtk, "5\n10\n10", "5\n10\n25")), "cell 3", "type 25");
+  EXPECT_REFUSED(readText(with(kVtk, "5\n10\n10", "10\n10\n10")), "cell 1", "type 10 with 3 nodes");
+  EXPECT_REFUSED(readText(with(kVtk, "5\n10\n10", "5\n10\n24")), "cell 3", "type 24 with 4 nodes");
+}
+
+// The middles of edges 01 12 02 03 13 23, in this order.
+const std::string kQuadratic = R"(# vtk DataFile Version 3.0
+one quadratic tetrahedron
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 11 float
+0 0 0 1 0 0 0 1 0 0 0 1
+0.5 0 0 0.5 0.5 0 0 0.5 0 0 0 0.5 0.5 0 0.5 0 0.5 0.5
+1 1 1
+CELLS 1 11
+10 0 1 2 3 4 5 6 7 8 9
+CELL_TYPES 1
+24
+)";
+
+TEST(ReadVtk, QuadraticTetrahedra) {
+  const TetMesh mesh = readText(kQuadratic);
+  ASSERT_EQ(mesh.midsides.size(), 1U);
+  EXPECT_EQ(mesh.midsides[0], (std::array<std::int32_t, 6>{4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(mesh.nodes.size(), 10U);  // the last belongs to nothing
+  EXPECT_NO_THROW(checkMesh(mesh));
+}
+
+TEST(ReadVtk, RefusesTetrahedraOfFourAndOfTenNodesTogether) {
+  const std::string mixed =
+      with(with(kQuadratic, "CELLS 1 11", "CELLS 2 16\n4 1 3 2 10"), "TYPES 1", "TYPES 2\n10");
+  EXPECT_REFUSED(readText(mixed), "tetrahedron 2 has 10 nodes, tetrahedron 1 has 4");
 }
 
 TEST(ReadVtk, RefusesCountsThatDoNotFit) {

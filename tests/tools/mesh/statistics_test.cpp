@@ -5,6 +5,7 @@
 
 #include "helpers.h"
 #include "tools/mesh/box_mesh.h"
+#include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
 
 namespace palpate::mesh::test {
@@ -34,6 +35,22 @@ TEST(Statistics, OfABoxAreItsMeasures) {
   EXPECT_NEAR(s.median_surface_edge, 1, 0.42);
   EXPECT_GT(s.mean_edge, 1);
   EXPECT_LT(s.mean_edge, std::sqrt(3.0));
+}
+
+TEST(Statistics, OfQuadraticElementsAreThoseOfTheirCorners) {
+  const TetMesh box = makeBox({1, 2, 3}, {2, 3, 4});
+  const TetMesh raised = quadraticOf(box);
+  const MeshStatistics linear = statisticsOf(box, boundaryOf(box));
+  const MeshStatistics s = statisticsOf(raised, boundaryOf(raised));
+  EXPECT_EQ(linear.corners, 24U);
+  EXPECT_EQ(s.corners, 24U);
+  EXPECT_EQ(s.surface_corners, 24U);
+  EXPECT_EQ(s.nodes, 24U + 81U);          // Euler: nodes - edges + faces - tetrahedra = 1, with 94 faces
+  EXPECT_EQ(s.surface_nodes, 24U + 66U);  // 44 triangles have 66 edges
+  EXPECT_EQ(s.surface_triangles, 44U);
+  EXPECT_EQ(s.mean_edge, linear.mean_edge);
+  EXPECT_EQ(s.median_surface_edge, linear.median_surface_edge);
+  EXPECT_EQ(s.volume, linear.volume);
 }
 
 TEST(Statistics, NameTheWorstTetrahedronByItsNumber) {

@@ -2,9 +2,12 @@
 #include "tools/mesh/write_msh.h"
 
 #include <iterator>
+#include <set>
 
 #include "helpers.h"
 #include "tools/mesh/box_mesh.h"
+#include "tools/mesh/checks.h"
+#include "tools/mesh/quadratic.h"
 #include "tools/mesh/read_mesh.h"
 #include "tools/mesh/topology.h"
 
@@ -47,6 +50,53 @@ TEST(WriteMsh, GroupsOfAnyNodesComeBackTheSame) {
   TetMesh back = throughFile(mesh);
   back.groups.erase("organ");
   EXPECT_EQ(back.groups, wanted);
+}
+
+// In the unit box: the half below x = 0.4, a group of nodes on the plane x = 0 and one with the region's name.
+TetMesh boxOfTwoTissues() {
+  TetMesh mesh = makeBox({1, 1, 1}, {4, 4, 4});
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    double x = 0;
+    for (const auto node : mesh.tetrahedra[t]) x += mesh.nodes[static_cast<std::size_t>(node)].x() / 4;
+    mesh.regions[x < 1.0 / 3 ? "soft" : "hard"].push_back(static_cast<std::int32_t>(t));
+  }
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    if (mesh.nodes[i].x() == 0) mesh.groups["fixed"].push_back(static_cast<std::int32_t>(i));
+    if (mesh.nodes[i].x() < 0.4 || i == 63) mesh.groups["soft"].push_back(static_cast<std::int32_t>(i));
+  }
+  return mesh;
+}
+
+// The numbers of a region's tetrahedra: the file lists regions one after the other.
+std::set<std::int64_t> numbersIn(const TetMesh& mesh, const std::string& region) {
+  std::set<std::int64_t> numbers;
+  for (const auto t : mesh.regions.at(region))
+    numbers.insert(mesh.tetrahedron_tags[static_cast<std::size_t>(t)]);
+  return numbers;
+}
+
+TEST(WriteMsh, RegionsComeBackTheSame) {
+  for (const bool is_quadratic : {false, true}) {
+    const TetMesh mesh = is_quadratic ? quadraticOf(boxOfTwoTissues()) : boxOfTwoTissues();
+    const TetMesh back = throughFile(mesh);
+    EXPECT_NO_THROW(checkMesh(back));
+    EXPECT_EQ(back.nodes, mesh.nodes);
+    EXPECT_EQ(back.regions.size(), 3U);  // with that of the whole organ
+    EXPECT_EQ(numbersIn(back, "organ").size(), mesh.tetrahedra.size());
+    for (const char* region : {"soft", "hard"}) EXPECT_EQ(numbersIn(back, region), numbersIn(mesh, region));
+    EXPECT_EQ(numbersIn(back, "soft").size(), 54U);
+    for (const char* group : {"soft", "fixed"}) EXPECT_EQ(back.groups.at(group), mesh.groups.at(group));
+    EXPECT_EQ(throughFile(back).regions, back.regions);
+  }
+}
+
+TEST(WriteMsh, QuadraticTetrahedraComeBackTheSame) {
+  const TetMesh mesh = quadraticOf(makeBeam());
+  const TetMesh back = throughFile(mesh);
+  EXPECT_EQ(back.nodes, mesh.nodes);
+  EXPECT_EQ(back.tetrahedra, mesh.tetrahedra);
+  EXPECT_EQ(back.midsides, mesh.midsides);
+  for (const char* group : {"fixed", "accessible"}) EXPECT_EQ(back.groups.at(group), mesh.groups.at(group));
 }
 
 TEST(WriteMsh, CanBeRepeated) {
@@ -99,6 +149,9 @@ TEST(WriteMsh, RefusesGroupNamesThatTheFormatCannotHold) {
   mesh.groups["a \" quote"] = {0};
   EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)), "a \" quote");
   mesh.groups = {{"organ", {0}}};
+  EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)), "'organ' is kept");
+  mesh = boxOfTwoTissues();
+  mesh.regions["organ"] = {0};
   EXPECT_REFUSED(writeMsh(folder / "a.msh", mesh, boundaryOf(mesh)), "'organ' is kept");
 }
 

@@ -139,6 +139,7 @@ void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundar
   mesh.groups.clear();
   if (!fixed.empty()) mesh.groups["fixed"] = fixed;
   mesh.groups["accessible"] = std::move(accessible);
+  for (const char* name : {"fixed", "accessible"}) mesh.regions.erase(name);  // they name nodes, no tissue
 }
 
 std::vector<std::string> groupsNotKept(const mesh::TetMesh& mesh, const FixedRule& rule) {
@@ -146,7 +147,8 @@ std::vector<std::string> groupsNotKept(const mesh::TetMesh& mesh, const FixedRul
   for (const auto& [name, nodes] : mesh.groups) {
     const bool whole = name == "organ" && nodes.size() == mesh.nodes.size();  // writeMsh() adds it again
     const bool replaced = name == "fixed" && rule.kind != FixedRule::Kind::kKeep && rule.group != name;
-    const bool kept = name == "fixed" || name == "accessible" || name == rule.group;
+    const bool kept =
+        name == "fixed" || name == "accessible" || name == rule.group || mesh.regions.contains(name);
     if (replaced || !(kept || whole)) names.push_back(name);
   }
   return names;

@@ -23,15 +23,15 @@ struct FixedRule {
 /// @throw MeshError that quotes the text and says what is wrong with it
 [[nodiscard]] FixedRule parseFixedRule(const std::string& text);
 
-/// Sets the groups `fixed` (by the rule) and `accessible`, and drops all others. Accessible are the surface nodes
+/// Sets the groups `fixed` (by the rule) and `accessible`, and drops all others; regions stay. Accessible are the surface nodes
 /// that are not fixed; where the file has a group `accessible`, only those in it. By height and by box only
 /// surface nodes are fixed.
 /// @throw MeshError when the group is unknown, what would be fixed does not hold the organ (mesh::checkHeld()),
 ///        or no node would be accessible
 void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const FixedRule& rule);
 
-/// The groups that setBoundaryGroups() will drop or replace: all but `accessible`, what the rule fixes and the
-/// whole `organ`. In ascending order.
+/// The groups that setBoundaryGroups() will drop or replace: all but `accessible`, what the rule fixes, regions
+/// and the whole `organ`. In ascending order.
 [[nodiscard]] std::vector<std::string> groupsNotKept(const mesh::TetMesh& mesh, const FixedRule& rule);
 
 }  // namespace palpate::organ

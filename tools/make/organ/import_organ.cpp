@@ -2,11 +2,13 @@
 #include "tools/make/organ/import_organ.h"
 
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include "tools/mesh/checks.h"
 #include "tools/mesh/fill_surface.h"
 #include "tools/mesh/mesh_error.h"
+#include "tools/mesh/midsides.h"
 #include "tools/mesh/read_mesh.h"
 #include "tools/mesh/read_surface.h"
 #include "tools/mesh/topology.h"
@@ -46,11 +48,22 @@ void noteGroupsNotKept(ImportedOrgan& organ, const FixedRule& rule) {
   if (!names.empty()) organ.notes.push_back("groups of the file that are not kept: " + names);
 }
 
+void noteCurvedEdges(ImportedOrgan& organ) {
+  const mesh::CurvedEdges curved = mesh::straighten(organ.mesh);
+  if (curved.count == 0) return;
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "%zu edges were curved; their nodes were moved into the middle, by %.3g mm at most",
+                curved.count, curved.farthest * 1e3);
+  organ.notes.emplace_back(text);
+}
+
 ImportedOrgan importChecked(const std::filesystem::path& path, const ImportOptions& options) {
   ImportedOrgan organ{readScaled(path, options), {}, {}};
   if (mesh::reorientIfAllNegative(organ.mesh)) {
     organ.notes.emplace_back("all tetrahedra had negative volume and were turned over");
   }
+  noteCurvedEdges(organ);
   mesh::checkMesh(organ.mesh);
   organ.boundary = mesh::boundaryOf(organ.mesh);
   noteGroupsNotKept(organ, options.fixed);

@@ -82,6 +82,16 @@ TEST(FixedRule, GroupsThatAreDroppedOrReplacedAreNamed) {
   EXPECT_EQ(groupsNotKept(box, {}), (Names{"vessel"}));
 }
 
+TEST(FixedRule, TissuesStayButNoneIsCalledFixed) {
+  TetMesh box = mesh::makeBox({1, 1, 1}, {5, 5, 5});
+  box.regions = {{"vessel", {0, 1}}, {"fixed", {0, 1, 2}}};
+  box.groups = {{"vessel", {0, 1, 5}}, {"fixed", {0, 1, 5}}};
+  EXPECT_TRUE(groupsNotKept(box, {}).empty());
+  setBoundaryGroups(box, mesh::boundaryOf(box), {});
+  EXPECT_EQ(box.regions, (std::map<std::string, Nodes>{{"vessel", {0, 1}}}));
+  EXPECT_EQ(box.groups.size(), 2U);
+}
+
 TEST(FixedRule, UnknownGroupListsThoseThereAre) {
   TetMesh box = mesh::makeBox({1, 1, 1}, {5, 5, 5});
   EXPECT_REFUSED(grouped("group:vesel", box), "group:vesel", "the file has none");

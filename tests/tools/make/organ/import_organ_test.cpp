@@ -5,6 +5,7 @@
 #include "samples.h"
 #include "tools/make/organ/liver.h"
 #include "tools/mesh/box_mesh.h"
+#include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
 #include "tools/mesh/write_msh.h"
 
@@ -35,11 +36,11 @@ TEST(ImportOrgan, TellsThatNothingIsFixed) {
 TEST(ImportOrgan, NamesTheGroupsThatAreNotKept) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.msh", mesh::test::kMsh1);
-  EXPECT_EQ(importOrgan(file, {}).notes.front(), "groups of the file that are not kept: 5, 6, 7");
+  EXPECT_EQ(importOrgan(file, {}).notes.front(), "groups of the file that are not kept: 5, 6");
   ImportOptions options;
   options.fixed = parseFixedRule("group:6");
   EXPECT_EQ(importOrgan(file, options).notes,
-            std::vector<std::string>{"groups of the file that are not kept: 5, 7"});
+            std::vector<std::string>{"groups of the file that are not kept: 5"});
 }
 
 TEST(ImportOrgan, LiverComesBackWithItsGroups) {
@@ -52,6 +53,29 @@ TEST(ImportOrgan, LiverComesBackWithItsGroups) {
   EXPECT_LT(back.mesh.groups.at("accessible").size() + back.mesh.groups.at("fixed").size(),
             boundary.nodes.size());  // the rim is in neither
   EXPECT_TRUE(back.notes.empty());
+}
+
+TEST(ImportOrgan, KeepsRegions) {
+  const TemporaryFolder folder;
+  const ImportedOrgan organ = importOrgan(folder.write("a.msh", mesh::test::kMsh2), {});
+  EXPECT_EQ(organ.mesh.regions, (std::map<std::string, std::vector<std::int32_t>>{{"upper", {1}}}));
+  EXPECT_EQ(organ.mesh.groups.size(), 1U);  // accessible
+}
+
+TEST(ImportOrgan, StraightensCurvedEdgesAndSaysSo) {
+  const TemporaryFolder folder;
+  mesh::TetMesh box = mesh::quadraticOf(mesh::makeBox({0.1, 0.1, 0.1}, {3, 3, 3}));
+  const auto node = static_cast<std::size_t>(box.midsides[5][2]);
+  const Eigen::Vector3d middle = box.nodes[node];
+  box.nodes[node].y() += 0.0015;
+  mesh::writeMsh(folder / "a.msh", box, mesh::boundaryOf(box));
+  ImportOptions options;
+  options.fixed = parseFixedRule("lowest-z:0.3");
+  const ImportedOrgan organ = importOrgan(folder / "a.msh", options);
+  ASSERT_EQ(organ.notes.size(), 1U);
+  EXPECT_NE(organ.notes[0].find("1 edges were curved"), std::string::npos) << organ.notes[0];
+  EXPECT_NE(organ.notes[0].find("1.5 mm"), std::string::npos) << organ.notes[0];
+  EXPECT_EQ(organ.mesh.nodes[node], middle);
 }
 
 TEST(ImportOrgan, TurnsAnInvertedMeshOverAndSaysSo) {
