@@ -97,11 +97,12 @@ void checkMidsides(const TetMesh& mesh) {
              "is another than that of tetrahedron " +
                  std::to_string(mesh.tetrahedron_tags[edges[i - 1].tetrahedron]) + " on the same edge");
     }
-    if (isCurved(mesh, edges[i])) {
-      refuse(mesh, edges[i],
-             "is " + inMillimetres(distanceFromMiddle(mesh, edges[i])) +
-                 " off the middle of its edge (palpate-organ import moves it there)");
-    }
+  }
+  for (const EdgeNode& e : edges) {
+    if (!isCurved(mesh, e)) continue;
+    refuse(mesh, e,
+           "is " + inMillimetres(distanceFromMiddle(mesh, e)) +
+               " off the middle of its edge (palpate-organ import moves it there)");
   }
 }
 
