@@ -33,7 +33,7 @@ enum class Parameters {
 }
 
 /// The laws of the material that model files may name. The solver's MaterialLaw says what they are.
-inline constexpr std::array<std::string_view, 1> kLaws{"stvk"};
+inline constexpr std::array<std::string_view, 2> kLaws{"stvk", "stable-neo-hookean"};
 
 /// Root attributes of a model file.
 struct ModelAttributes {

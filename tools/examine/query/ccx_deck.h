@@ -10,8 +10,8 @@ namespace palpate::query {
 /// A number as CalculiX reads it: at most 20 characters, as exact as fits.
 [[nodiscard]] std::string ccxNumber(double value);
 
-/// The problem that Newton solved, as a CalculiX deck for anybody to check: NLGEOM (where *ELASTIC is the
-/// Saint Venant-Kirchhoff material), the mesh's own node and element numbers, Newton's force spread over the
+/// The problem that Newton solved, as a CalculiX deck for anybody to check: NLGEOM, the law as its
+/// MaterialLaw::ccx says it, the mesh's own node and element numbers, Newton's force spread over the
 /// patch as nodal loads w_i f, U of all nodes in the .dat. SI units.
 /// @param about  one line for the head of the deck  @param steps  load steps to begin with, >= 1
 /// @throw QueryError naming a node or element whose number CalculiX cannot take, or for stiffness by element

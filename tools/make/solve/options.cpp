@@ -2,6 +2,7 @@
 #include "tools/make/solve/options.h"
 
 #include <sstream>
+#include <stdexcept>
 
 namespace palpate::solve_program {
 
@@ -31,6 +32,14 @@ void override(const Options& options, solver::Case& c) {
       throw solver::CaseError(std::string("--method ") + error.what());
     }
   }
+  if (options.law) {
+    try {
+      (void)solver::lawOf(*options.law);
+    } catch (const std::invalid_argument& error) {
+      throw solver::CaseError(std::string("--law ") + error.what());
+    }
+    c.law = *options.law;
+  }
   if (options.modes) {
     c.modes = options.modes;
     c.field_error.reset();
@@ -49,6 +58,7 @@ void describe(program::Options line, Options& options) {
   line.add("-o,--output", &options.output, "model file to write");
   line.add("--method", &options.method,
            "series-displacement (the default), series-force, pgd-linear, pgd-explicit or pgd-euler");
+  line.add("--law", &options.law, "law of the material: stvk (the default) or stable-neo-hookean");
   line.add("--modes", &options.modes,
            "modes of the model (default: 167; series-displacement: as many as its field_error of 1 % wants)")
       .range(1, 2000);

@@ -20,7 +20,7 @@ struct Options {
   bool json{false};
   bool quiet{false};
 
-  std::optional<std::string> method;
+  std::optional<std::string> method, law;
   std::optional<int> modes, order, steps;
   std::optional<std::string> direction;  ///< "x,y,z" or "any"
   std::optional<double> load;            ///< N

@@ -7,8 +7,8 @@
 
 namespace palpate::solver {
 
-/// The unordered pairs {b, c}, b + c = alpha, both of degree 1 to factor_order, that make up each coefficient
-/// of a basis.
+/// The unordered pairs {b, c}, b + c = alpha, b <= c, that make up each coefficient of a basis. Those with factors above
+/// factor_order come first.
 struct CauchyProduct {
   struct Pair {
     int b;
@@ -16,7 +16,9 @@ struct CauchyProduct {
   };
   CauchyProduct(const MonomialBasis& basis, int factor_order);
   std::vector<Pair> pairs;
-  std::vector<int> begin;  ///< coefficients + 1, offsets into pairs
+  std::vector<int> begin;    ///< coefficients + 1, offsets into pairs
+  std::vector<int> factors;  ///< coefficients, offsets: from here on both are of degree factor_order at most
+  std::vector<int> degree;   ///< coefficients, |alpha|
 };
 
 /// The pairs of a product from coefficient `first` on, by their first factor: a kernel that takes them in this

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +21,12 @@ struct Elasticity {
 
   [[nodiscard]] Lame lame() const noexcept {
     return {E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), E / (2.0 * (1.0 + nu))};
+  }
+  /// @throw std::invalid_argument for numbers that no solid has
+  void requireSolid() const {
+    if (!(E > 0.0) || !(nu > -1.0) || !(nu < 0.5))
+      throw std::invalid_argument("material: E = " + std::to_string(E) + " Pa, nu = " + std::to_string(nu) +
+                                  "; expected E > 0 and -1 < nu < 0.5");
   }
 };
 

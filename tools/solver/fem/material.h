@@ -12,6 +12,7 @@
 #include "tools/solver/base/part_tensors.h"
 #include "tools/solver/fem/elasticity.h"
 #include "tools/solver/fem/st_venant_kirchhoff.h"
+#include "tools/solver/fem/stable_neo_hookean.h"
 
 namespace palpate::solver {
 
@@ -56,7 +57,7 @@ template <MaterialLaw... L>
 using LawList = std::variant<L...>;
 
 /// Every law that there is. A further one is its own file and its name here and in core's kLaws.
-using Law = LawList<StVenantKirchhoff>;
+using Law = LawList<StVenantKirchhoff, StableNeoHookean>;
 
 /// The law of a name. @throw std::invalid_argument that lists the names
 [[nodiscard]] Law lawOf(std::string_view name);

@@ -4,8 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "core/base/multi_index.h"
@@ -23,11 +21,7 @@ struct StVenantKirchhoff {
 
   static constexpr std::string_view kName = "stvk";
 
-  static void check(const Elasticity& e) {
-    if (!(e.E > 0.0) || !(e.nu > -1.0) || !(e.nu < 0.5))
-      throw std::invalid_argument("material: E = " + std::to_string(e.E) +
-                                  " Pa, nu = " + std::to_string(e.nu) + "; expected E > 0 and -1 < nu < 0.5");
-  }
+  static void check(const Elasticity& e) { e.requireSolid(); }
 
   /// Under NLGEOM *ELASTIC is this law.
   static CcxMaterial ccx(const Elasticity& e) { return {"*ELASTIC", {e.E, e.nu}}; }
@@ -82,7 +76,7 @@ template <typename Scalar>
 PALPATE_INLINE void StVenantKirchhoff::quadraticStrain(const CauchyProduct& product, int k,
                                                        const Tensor<Scalar>* H, Symmetric<Scalar>& E) {
   Tensor<Scalar> mixed{};
-  const int begin = product.begin[static_cast<std::size_t>(k)];
+  const int begin = product.factors[static_cast<std::size_t>(k)];
   const int end = product.begin[static_cast<std::size_t>(k) + 1];
   for (int p = begin; p < end; ++p) {
     const auto [b, c] = product.pairs[static_cast<std::size_t>(p)];

@@ -42,10 +42,11 @@ struct BoxMesh {
 };
 
 /// Writes the model of the box. Its near field covers the box whole: what the modes miss is all in there.
-inline void writeBoxModel(const std::filesystem::path& path) {
+inline void writeBoxModel(const std::filesystem::path& path, const std::string& law = "stvk") {
   solver::Case c;
   c.mesh = "box";
   c.accessible = "accessible";
+  c.law = law;
   c.E = 1e5;
   c.nu = 0.4;
   c.patch_radius = 0.012;
@@ -60,8 +61,11 @@ inline void writeBoxModel(const std::filesystem::path& path) {
 
 /// The model of the box, loaded, and its full problem.
 struct BoxModel {
+  explicit BoxModel(std::string of_law = "stvk") : law(std::move(of_law)) {}
+
+  std::string law;
   TemporaryFolder folder;
-  std::filesystem::path path{(writeBoxModel(folder / "box.h5"), folder / "box.h5")};
+  std::filesystem::path path{(writeBoxModel(folder / "box.h5", law), folder / "box.h5")};
   MetaModel model{MetaModel::load(path)};
   Organ organ{organOf(model, modelfile::readVolumeMesh(path))};
 

@@ -126,6 +126,11 @@ TEST_F(SolveMethods, TheCommandLineOverridesTheCaseFile) {
   EXPECT_EQ(summary.at("order"), 2);
 }
 
+TEST_F(SolveMethods, TheCommandLineNamesTheLaw) {
+  (void)solved({"--method", "pgd-linear", "--modes", "5", "--law", "stable-neo-hookean"});
+  EXPECT_EQ(inspected().at("material").at("law"), "stable-neo-hookean");
+}
+
 TEST_F(SolveMethods, ThreeDirectionsMakeALinearFunctionOfTheForce) {
   const json summary = solved({"--method", "pgd-linear", "--modes", "60", "--load-direction", "any"});
   EXPECT_EQ(summary.at("parameters"), "force");
@@ -133,6 +138,9 @@ TEST_F(SolveMethods, ThreeDirectionsMakeALinearFunctionOfTheForce) {
   EXPECT_EQ(summary.at("load").at("direction"), "any");
 }
 
+TEST_F(SolveMethods, RefusesALawThatThereIsNot) {
+  expectRefusal({"--law", "jelly"}, "--law = \"jelly\" is not known (known: stvk, stable-neo-hookean)");
+}
 TEST_F(SolveMethods, RefusesAMethodThatThereIsNot) {
   expectRefusal({"--method", "pod"}, "--method = \"pod\" is not known (known: series-displacement");
 }

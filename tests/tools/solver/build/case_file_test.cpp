@@ -37,7 +37,7 @@ TEST_F(CaseFile, ReadsEveryKey) {
 fixed = "back"
 accessible = "front"
 [material]
-law = "stvk"
+law = "stable-neo-hookean"
 E = 2000
 nu = 0.3
 [model]
@@ -51,6 +51,7 @@ sweeps = 3
   EXPECT_EQ(c.mesh.parent_path(), folder_.path());
   EXPECT_EQ(c.fixed, "back");
   EXPECT_EQ(c.accessible.value(), "front");
+  EXPECT_EQ(c.law, "stable-neo-hookean");
   EXPECT_EQ(c.E, 2000.0);
   EXPECT_EQ(c.nu, 0.3);
   EXPECT_EQ(c.patch_radius.value(), 0.008);

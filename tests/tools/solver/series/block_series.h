@@ -28,8 +28,8 @@ class BlockSeries : public ::testing::Test {
   const Box box_{6, 5, 4, Vec3(0.06, 0.05, 0.04)};
 
   struct Case {
-    explicit Case(const Box& box, double E)
-        : model(box.clamped({{E, 0.45}})), surface(box.surface(model)), factor(model) {
+    explicit Case(const Box& box, double E, Law law = {})
+        : model(box.clamped({{E, 0.45}, law})), surface(box.surface(model)), factor(model) {
       factor.factorize(Eigen::VectorXd::Zero(3 * model.nodeCount()));
       for (const int node : {box.node(4, 2, 4), box.node(6, 3, 2), box.node(3, 5, 2)}) {
         const auto at = std::find(surface.nodes.begin(), surface.nodes.end(), node) - surface.nodes.begin();

@@ -5,15 +5,18 @@
 
 #include <Eigen/LU>
 #include <random>
+#include <string>
+#include <string_view>
 
 #include "../quadratic_box.h"
+#include "core/data/model_view.h"
 
 namespace palpate::solver {
 namespace {
 
 /// The kernels of the series, which serve elements of 4 nodes, with elements of 10. The reference is the plain loops of
 /// integration_point.h: along a ray d = t e forces and energies are polynomials in t, whose coefficients are known.
-class QuadraticKernels : public ::testing::Test {
+class QuadraticKernels : public ::testing::TestWithParam<std::string_view> {
  protected:
   static constexpr int kOrder = 2;  // of the fields
   const QuadraticBox body_{Box{2, 1, 1, Vec3(0.02, 0.01, 0.01)}};
@@ -21,6 +24,7 @@ class QuadraticKernels : public ::testing::Test {
   const MonomialBasis basis_{3};
   const Vec3 direction_ = Vec3(0.3, -0.5, 0.8).normalized();
   static constexpr double kLength = 0.25;  // m, a power of two as in SeriesSolver: no rounding by it
+  const Law law_ = lawOf(GetParam());
   LaneVector U_;
   FloatLaneVector V_;
 
@@ -42,7 +46,7 @@ class QuadraticKernels : public ::testing::Test {
             static_cast<int>(body_.points.size()),
             basis_.size(),
             U_.data(),
-            {},
+            law_,
             V_.data(),
             kLength};
   }
@@ -62,26 +66,32 @@ class QuadraticKernels : public ::testing::Test {
               monomials[static_cast<std::size_t>(k)] * at(node, k, c)[lane];
     return u;
   }
-  /// Coefficients of t^0 .. t^8 of what `value` says at t, one a row. Exact for polynomials of that degree.
+  /// Coefficients of t^0 .. t^12 of what `value` says at t, one a row. Exact for polynomials of that degree.
   template <typename Value>
   static Eigen::MatrixXd coefficients(const Value& value) {
-    constexpr int kSamples = 9;
-    constexpr double kStep = 0.02;
+    constexpr int kSamples = 13;  // the energy is of degree 6 in F, and F of degree 2 in t
+    constexpr double kLargest = 0.05;
     Eigen::MatrixXd powers(kSamples, kSamples), values;
     for (int i = 0; i < kSamples; ++i) {
-      const double t = i - kSamples / 2;
+      const double t = std::cos(M_PI * i / (kSamples - 1));
       for (int n = 0; n < kSamples; ++n) powers(i, n) = std::pow(t, n);
-      const Eigen::VectorXd sample = value(kStep * t);
+      const Eigen::VectorXd sample = value(kLargest * t);
       if (i == 0) values.resize(kSamples, sample.size());
       values.row(i) = sample.transpose();
     }
     Eigen::MatrixXd result = powers.fullPivLu().solve(values);
-    for (int n = 0; n < kSamples; ++n) result.row(n) /= std::pow(kStep, n);
+    for (int n = 0; n < kSamples; ++n) result.row(n) /= std::pow(kLargest, n);
     return result;
   }
 };
 
-TEST_F(QuadraticKernels, LowerOrdersMakeTheForceOfTheNextDegree) {
+INSTANTIATE_TEST_SUITE_P(Material, QuadraticKernels, ::testing::ValuesIn(kLaws), [](const auto& test) {
+  std::string name(test.param);
+  std::erase(name, '-');
+  return name;
+});
+
+TEST_P(QuadraticKernels, LowerOrdersMakeTheForceOfTheNextDegree) {
   const CauchyProduct product(basis_, basis_.order());
   for (const int degree : {2, 3}) {
     const PointInput<10> fields = input(degree - 1);
@@ -91,11 +101,13 @@ TEST_F(QuadraticKernels, LowerOrdersMakeTheForceOfTheNextDegree) {
     std::vector<double> monomials(static_cast<std::size_t>(basis_.size()));
     basis_.evaluate(direction_, monomials);
     for (const int lane : {0, 3, kLanes - 1}) {
-      const Eigen::VectorXd wanted = coefficients([&](double t) {
-                                       Eigen::VectorXd f = Eigen::VectorXd::Zero(body_.size());
-                                       addInternalForce<StVenantKirchhoff>(points_, displacement(t, lane), f);
-                                       return f;
-                                     }).row(degree);
+      const Eigen::VectorXd wanted =
+          coefficients([&](double t) {
+            Eigen::VectorXd f = Eigen::VectorXd::Zero(body_.size());
+            const Eigen::VectorXd u = displacement(t, lane);
+            std::visit([&](auto law) { addInternalForce<decltype(law)>(points_, u, f); }, law_);
+            return f;
+          }).row(degree);
       Eigen::VectorXd found = Eigen::VectorXd::Zero(body_.size());
       for (Eigen::Index i = 0; i < found.size(); ++i)
         for (int k = first; k < last; ++k)
@@ -107,7 +119,7 @@ TEST_F(QuadraticKernels, LowerOrdersMakeTheForceOfTheNextDegree) {
   }
 }
 
-TEST_F(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
+TEST_P(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
   const PointInput<10> fields = input(kOrder);
   const MonomialBasis strains(2 * kOrder), energies(2 * kOrder + 1);
   const CauchyProduct factors(strains, kOrder);
@@ -118,7 +130,9 @@ TEST_F(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
   energies.evaluate(direction_, monomials);
   for (const int lane : {0, kLanes - 1}) {
     const Eigen::VectorXd wanted = coefficients([&](double t) {
-      return Eigen::VectorXd::Constant(1, elasticEnergy<StVenantKirchhoff>(points_, displacement(t, lane)));
+      const Eigen::VectorXd u = displacement(t, lane);
+      return Eigen::VectorXd::Constant(
+          1, std::visit([&](auto law) { return elasticEnergy<decltype(law)>(points_, u); }, law_));
     });
     for (int degree = 2; degree <= energies.order(); ++degree) {
       double found = 0.0;
@@ -130,7 +144,7 @@ TEST_F(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
   }
 }
 
-TEST_F(QuadraticKernels, DetFIsThatOfTheSumAndWithinItsBound) {
+TEST_P(QuadraticKernels, DetFIsThatOfTheSumAndWithinItsBound) {
   const PointInput<10> fields = input(kOrder);
   const double radius = 5e-3;
   LaneVector monomials(static_cast<std::size_t>(basis_.size())), summed(body_.nodes.size() * 3);

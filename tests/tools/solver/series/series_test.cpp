@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "block_series.h"
+#include "core/data/model_view.h"
 
 namespace palpate::solver {
 namespace {
@@ -14,8 +17,18 @@ constexpr double precision(int degree, int field_order) {
   return degree <= field_order ? 1e-9 : 2e-5;
 }
 
-TEST_F(BlockSeries, AgreesWithNewtonToItsOrder) {
-  Case c(box_, 160e3);
+class SeriesOfEveryLaw : public BlockSeries, public ::testing::WithParamInterface<std::string_view> {
+ protected:
+  Case c{box_, 160e3, lawOf(GetParam())};
+};
+
+INSTANTIATE_TEST_SUITE_P(Material, SeriesOfEveryLaw, ::testing::ValuesIn(kLaws), [](const auto& test) {
+  std::string name(test.param);
+  std::erase(name, '-');
+  return name;
+});
+
+TEST_P(SeriesOfEveryLaw, AgreesWithNewtonToItsOrder) {
   SeriesSolver series(c.model, c.factor, kOrder);
   series.solve(c.patches);
   NewtonSolver newton(c.model);
@@ -37,8 +50,7 @@ TEST_F(BlockSeries, AgreesWithNewtonToItsOrder) {
   }
 }
 
-TEST_F(BlockSeries, FieldsOfDegree3GiveTheForceToDegree6) {
-  Case c(box_, 160e3);
+TEST_P(SeriesOfEveryLaw, FieldsOfDegree3GiveTheForceToDegree6) {
   SeriesSolver low(c.model, c.factor, 3), high(c.model, c.factor, 6);
   low.solve(c.patches);
   high.solve(c.patches);
@@ -69,8 +81,7 @@ TEST_F(BlockSeries, PatchMovesByExactlyD) {
   }
 }
 
-TEST_F(BlockSeries, ForceIsGradientOfEnergy) {
-  Case c(box_, 160e3);
+TEST_P(SeriesOfEveryLaw, ForceIsGradientOfEnergy) {
   SeriesSolver series(c.model, c.factor, kOrder);
   series.solve(c.patches);
   const MonomialBasis& basis = series.answerBasis();
