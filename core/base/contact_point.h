@@ -9,7 +9,7 @@ namespace palpate {
 
 /// A contact position s: a material point of the rest surface (docs/design.md, Symbols).
 struct ContactPoint {
-  std::int32_t triangle{-1};            ///< 0-based into /surface/triangles; -1: none
+  std::int32_t triangle{-1};            ///< 0-based into /contact/triangles; -1: none
   std::array<double, 3> barycentric{};  ///< weights of the triangle's nodes, >= 0, sum 1
 
   [[nodiscard]] bool operator==(const ContactPoint&) const noexcept = default;

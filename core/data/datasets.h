@@ -36,7 +36,7 @@ inline constexpr Dataset<std::int32_t> kPositionOfNode{"surface/position_of_node
 
 inline constexpr Dataset<std::int32_t> kContactNode{"contact/node", {"M"}, ""};
 inline constexpr Dataset<std::uint8_t> kContactAccessible{"contact/accessible", {"M"}, ""};
-/// Surface nodes of the triangles between contact positions: those of the surface.
+/// Surface nodes of the triangles between contact positions: those of the surface, or of each four of these (quadratic faces).
 inline constexpr Dataset<std::int32_t> kContactTriangles{"contact/triangles", {"Tc", "3"}, ""};
 inline constexpr Dataset<double> kContactDomainRadius{"contact/domain_radius", {"M"}, "m, N or none"};
 inline constexpr Dataset<double> kContactSeriesRadius{"contact/series_radius", {"M"}, "m"};
@@ -71,6 +71,8 @@ inline constexpr Dataset<float> kGreenNearScale{"green/near_scale", {"G", "3"}, 
 
 inline constexpr Dataset<double> kMeshNodes{"mesh/nodes", {"N", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kMeshTetrahedra{"mesh/tetrahedra", {"V", "4"}, ""};
+/// Of quadratic elements: nodes in the middle of the edges 01, 12, 02, 03, 13, 23. Optional.
+inline constexpr Dataset<std::int32_t> kMeshMidsides{"mesh/midsides", {"V", "6"}, ""};
 inline constexpr Dataset<std::int64_t> kMeshNodeTag{"mesh/node_tag", {"N"}, ""};
 inline constexpr Dataset<std::int64_t> kMeshTetrahedronTag{"mesh/tetrahedron_tag", {"V"}, ""};
 inline constexpr Dataset<std::int32_t> kMeshFixed{"mesh/fixed", {"F"}, ""};

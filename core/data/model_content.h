@@ -77,6 +77,7 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
   }
   visit(dataset::kMeshNodes, v.mesh_nodes);
   visit(dataset::kMeshTetrahedra, v.mesh_tetrahedra);
+  if (!v.mesh_midsides.empty()) visit(dataset::kMeshMidsides, v.mesh_midsides);
   visit(dataset::kMeshNodeTag, v.mesh_node_tag);
   visit(dataset::kMeshTetrahedronTag, v.mesh_tetrahedron_tag);
   visit(dataset::kMeshFixed, v.mesh_fixed);

@@ -127,6 +127,8 @@ void readGreens(const Hdf5Reader& file, Lengths& size, ModelView& v) {
 void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.mesh_nodes = file.dataset(dataset::kMeshNodes, size);
   v.mesh_tetrahedra = file.dataset(dataset::kMeshTetrahedra, size);
+  if (file.hasDataset(dataset::kMeshMidsides.path))
+    v.mesh_midsides = file.dataset(dataset::kMeshMidsides, size);
   v.mesh_node_tag = file.dataset(dataset::kMeshNodeTag, size);
   v.mesh_tetrahedron_tag = file.dataset(dataset::kMeshTetrahedronTag, size);
   v.mesh_fixed = file.dataset(dataset::kMeshFixed, size);

@@ -105,6 +105,7 @@ struct ModelView {
   std::span<const float> green_near_scale;        ///< [G][3] m/N
   std::span<const double> mesh_nodes;             ///< [N][3] m
   std::span<const std::int32_t> mesh_tetrahedra;  ///< [V][4]
+  std::span<const std::int32_t> mesh_midsides;    ///< [V][6] of quadratic elements, else empty
   std::span<const std::int64_t> mesh_node_tag;    ///< [N]
   std::span<const std::int64_t> mesh_tetrahedron_tag;  ///< [V]
   std::span<const std::int32_t> mesh_fixed;            ///< volume nodes
@@ -116,6 +117,7 @@ struct ModelView {
 
   [[nodiscard]] std::size_t surfaceNodes() const noexcept { return surface_mesh_tag.size(); }
   [[nodiscard]] std::size_t triangles() const noexcept { return surface_triangles.size() / 3; }
+  [[nodiscard]] std::size_t contactTriangles() const noexcept { return contact_triangles.size() / 3; }
   [[nodiscard]] std::size_t positions() const noexcept { return contact_node.size(); }
   [[nodiscard]] std::size_t modes() const noexcept { return modes_X_scale.size(); }
 };

@@ -17,15 +17,16 @@ ContactDimple::ContactDimple(const Parts& parts, const SmoothPlaces& places)
   for (std::size_t place = 0; place < places.size(); ++place) {
     const ContactPoint& s = places.views(place).front().s;
     parts.patches.at(s, false, patch);
-    const std::int32_t* const corner = parts.view.surface_triangles.data() + 3 * index(s.triangle);
+    const NodeMix nodes = parts.surface.nodesAt(s);
     Mat3 per_load = Mat3::Zero();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       std::fill(y.begin(), y.end(), 0.0F);
       parts.linear.addAmplitudes(patch, Vec3::Unit(axis), y);
       for (std::size_t k = 0; k < 3; ++k)
-        if (s.barycentric[k] > 0.0)
-          per_load.col(axis) += s.barycentric[k] * (parts.modes.at(y, corner[k]) +
-                                                    parts.linear.nearAt(patch, Vec3::Unit(axis), corner[k]));
+        if (nodes.weight[k] > 0.0)
+          per_load.col(axis) +=
+              nodes.weight[k] * (parts.modes.at(y, nodes.node[k]) +
+                                 parts.linear.nearAt(patch, Vec3::Unit(axis), nodes.node[k]));
     }
     PatchStiffness::Value stiffness;
     parts.stiffness.at(parts.surface, s, stiffness);

@@ -47,17 +47,11 @@ Vec3 loadOf(const MetaModel& model, const ContactPoint& s, const Vec3& d) noexce
   return stiffness.K * d;
 }
 
-std::array<std::int32_t, 3> cornersOf(const MetaModel& model,
-                                      const ContactPoint& point) noexcept PALPATE_NONBLOCKING {
-  const std::int32_t* const corner = model.view().surface_triangles.data() + 3 * index(point.triangle);
-  return {corner[0], corner[1], corner[2]};
-}
-
 /// What the others add at a point: the modes, and near fields where they reach.
 Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, const ContactPoint& point,
               FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
   const bool displaced = isDisplaced(model);
-  const std::array<std::int32_t, 3> corners = cornersOf(model, point);
+  const NodeMix at_point = model.surface().nodesAt(point);
   std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
   Vec3 u = Vec3::Zero();
   for (const FieldSource& source : sources) {
@@ -69,7 +63,8 @@ Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, cons
       const double weight = source.gain * stencil.weight[b];
       model.amplitudes().add(stencil.position[b], at.modes, weight, scratch.amplitudes);
       for (std::size_t k = 0; k < 3; ++k)
-        u += weight * point.barycentric[k] * model.nearField().at(stencil.position[b], at.modes, corners[k]);
+        u += weight * at_point.weight[k] *
+             model.nearField().at(stencil.position[b], at.modes, at_point.node[k]);
     }
     if (!displaced) continue;
     const Vec3 f = source.gain * loadOf(model, source.s, at.parameter);
@@ -79,14 +74,13 @@ Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, cons
       for (std::size_t k = 0; k < load.size(); ++k)
         scratch.amplitudes[k] += static_cast<float>(f[axis]) * load[k];
     }
-    const double apart =
-        model.surface().distanceToCorners(point.triangle, model.surface().position(source.s));
+    const double apart = model.surface().distanceToNodes(point.triangle, model.surface().position(source.s));
     if (apart > model.reachOfPatches() + model.linearField().reach()) continue;
     for (std::size_t k = 0; k < 3; ++k)
-      u += point.barycentric[k] * model.linearField().nearAt(from.nodes(), f, corners[k]);
+      u += at_point.weight[k] * model.linearField().nearAt(from.nodes(), f, at_point.node[k]);
   }
   for (std::size_t k = 0; k < 3; ++k)
-    u += point.barycentric[k] * model.farField().at(scratch.amplitudes, corners[k]);
+    u += at_point.weight[k] * model.farField().at(scratch.amplitudes, at_point.node[k]);
   return u;
 }
 

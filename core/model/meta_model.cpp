@@ -55,8 +55,8 @@ std::vector<std::uint8_t> freeNodes(const ModelView& view) {
 /// The nodes of all triangles where the model answers, also of those that have a corner without a contact position.
 std::vector<std::int32_t> centresOf(const ModelView& view) {
   std::vector<std::uint8_t> in(view.surfaceNodes(), 0);
-  for (std::size_t t = 0; t < view.triangles(); ++t) {
-    const std::span<const std::int32_t> corner = view.surface_triangles.subspan(3 * t, 3);
+  for (std::size_t t = 0; t < view.contactTriangles(); ++t) {
+    const std::span<const std::int32_t> corner = view.contact_triangles.subspan(3 * t, 3);
     const auto answers = [&](std::int32_t node) { return view.position_of_node[index(node)] >= 0; };
     if (std::any_of(corner.begin(), corner.end(), answers))
       for (const std::int32_t node : corner) in[index(node)] = 1;
@@ -69,8 +69,8 @@ std::vector<std::int32_t> centresOf(const ModelView& view) {
 
 ContactPatches patchesOf(const ModelView& view, const ModelAttributes& attributes) {
   constexpr double kLeastRadius = 1e-9;  // m; below, its square vanishes, and no mesh is that fine
-  return {SurfaceGraph(view.surface_positions, view.surface_triangles), freeNodes(view),
-          std::max(attributes.patch_radius, kLeastRadius), centresOf(view)};
+  return {SurfaceGraph(view.surface_positions, view.surface_triangles, view.contact_triangles),
+          freeNodes(view), std::max(attributes.patch_radius, kLeastRadius), centresOf(view)};
 }
 
 /// Each node that a patch may load has its Green's function: without it the field would lack what it carries.
@@ -151,7 +151,7 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
       digest_(digest),
       functions_(view_, attributes_, attributes_.order),
       surface_(view_),
-      places_(view_.surface_positions, view_.surface_triangles, view_.position_of_node),
+      places_(view_.surface_positions, view_.contact_triangles, view_.position_of_node),
       contact_surface_(view_, surface_),
       response_(view_, attributes_),
       stiffness_(view_, attributes_, places_),

@@ -22,7 +22,7 @@ Mat3 symmetric(const Vec6& entries) noexcept PALPATE_NONBLOCKING {
 
 PatchStiffness::PatchStiffness(const ModelView& view, const ModelAttributes& attributes,
                                const SmoothPlaces& places)
-    : stiffness_(view.contact_stiffness), cubic_of_(view.triangles(), -1) {
+    : stiffness_(view.contact_stiffness), cubic_of_(view.contactTriangles(), -1) {
   if (attributes.parameters != Parameters::kDisplacement) return;
   const std::size_t found = stiffness_.size() / kStiffnessNumbers;
   if (found != places.size())
@@ -36,7 +36,7 @@ PatchStiffness::PatchStiffness(const ModelView& view, const ModelAttributes& att
     std::array<Vec3, 3> X;
     for (std::size_t k = 0; k < 3; ++k)
       X[k] = Eigen::Map<const Vec3>(view.surface_positions.data() +
-                                    3 * index(view.surface_triangles[3 * t + k]));
+                                    3 * index(view.contact_triangles[3 * t + k]));
     SmoothCubic<6> cubic;
     for (std::size_t k = 0; k < 3; ++k) cubic.squares[k] = (X[(k + 1) % 3] - X[(k + 2) % 3]).squaredNorm();
     for (std::size_t p = 0; p < place.size(); ++p) {

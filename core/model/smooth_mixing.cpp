@@ -48,7 +48,7 @@ Stencil linearStencil(const PositionMix& mix) noexcept PALPATE_NONBLOCKING {
 }
 
 SmoothMixing::SmoothMixing(const ModelView& view, const SurfaceMesh& surface)
-    : triangles_(view.surface_triangles), position_of_node_(view.position_of_node) {
+    : triangles_(view.contact_triangles), position_of_node_(view.position_of_node) {
   constexpr std::size_t kMostParts = Stencil::kMost / 3;  // of a node; beyond, its gradient is taken as zero
   std::vector<std::vector<Part>> parts(index(surface.nodes()));
   std::vector<double> area(parts.size(), 0.0);

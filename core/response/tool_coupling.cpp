@@ -18,7 +18,7 @@ namespace {
 bool meets(const MetaModel& model, std::int32_t position, const TouchPatch& to) noexcept PALPATE_NONBLOCKING {
   const auto node = index(model.view().contact_node[index(position)]);
   const Vec3 X = Eigen::Map<const Vec3>(model.view().surface_positions.data() + 3 * node);
-  const double apart = model.surface().distanceToCorners(to.s().triangle, X);
+  const double apart = model.surface().distanceToNodes(to.s().triangle, X);
   return apart <= model.reachOfPatches() + model.reachOfNearFields();
 }
 

@@ -31,12 +31,14 @@ Fall fallAt(double square, double a) noexcept PALPATE_NONBLOCKING {
   return {gauss * taper, gauss * (by_square - 0.5 / (a * a) * taper)};
 }
 
-/// How far from a centre its triangles reach, m.
-double longestEdge(const SurfaceGraph& graph, std::int32_t centre) {
-  double longest = 0.0;
-  for (const std::int32_t t : graph.trianglesOf(centre))
-    for (const std::int32_t node : graph.triangle(t))
-      longest = std::max(longest, (graph.position(node) - graph.position(centre)).norm());
+/// How far from each corner its faces reach, m.
+std::vector<double> longestEdges(const SurfaceGraph& graph) {
+  std::vector<double> longest(index(graph.nodes()), 0.0);
+  for (std::int32_t f = 0; f < graph.faces(); ++f)
+    for (const std::int32_t from : graph.face(f))
+      for (const std::int32_t to : graph.face(f))
+        longest[index(from)] =
+            std::max(longest[index(from)], (graph.position(to) - graph.position(from)).norm());
   return longest;
 }
 
@@ -44,9 +46,9 @@ double longestEdge(const SurfaceGraph& graph, std::int32_t centre) {
 
 ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::uint8_t> free, double a,
                                std::span<const std::int32_t> centres)
-    : a_(a), load_(graph.lumpedAreas()), free_(free.begin(), free.end()), range_(free.size(), {0, 0}) {
-  for (std::int32_t t = 0; t < graph.triangles(); ++t) {
-    const std::span<const std::int32_t> node = graph.triangle(t);
+    : a_(a), load_(graph.loadAreas()), free_(free.begin(), free.end()), range_(free.size(), {0, 0}) {
+  for (std::int32_t f = 0; f < graph.faces(); ++f) {
+    const std::span<const std::int32_t> node = graph.face(f);
     triangles_.insert(triangles_.end(), node.begin(), node.end());
     std::array<double, 3> squares{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -54,12 +56,13 @@ ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::u
     edges_.push_back(squares);
   }
   SurfaceFront front(graph);
+  const std::vector<double> longest = longestEdges(graph);
   for (const std::int32_t centre : centres) {
     const std::int32_t t = graph.trianglesOf(centre).front();
     ContactPoint s{t, {}};
     for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
     const std::size_t first = near_.size();
-    for (const auto& [node, r] : front.from(s, kReach * a + longestEdge(graph, centre)))
+    for (const auto& [node, r] : front.from(s, kReach * a + longest[index(centre)]))
       near_.push_back({node, r * r});
     const std::size_t count = near_.size() - first;
     // A hostile file's patches would fill the memory and take all day, those over fixed nodes too.

@@ -35,7 +35,7 @@ class ContactPatches {
   static constexpr std::size_t kMostTogether = 64ULL << 20U;  ///< near all nodes: half a GiB
 
   /// @param free  [Ns] 1: the node may carry load  @param a  m, > 0
-  /// @param centres  nodes whose triangles may be asked for; O(k log k) each for k nodes within 3 a. Not real-time.
+  /// @param centres  corners whose faces may be asked for; O(k log k) each for k nodes within 3 a. Not real-time.
   /// @throw std::invalid_argument when a is so large that patches exceed the limits above
   ContactPatches(const SurfaceGraph& graph, std::span<const std::uint8_t> free, double a,
                  std::span<const std::int32_t> centres);
@@ -58,10 +58,10 @@ class ContactPatches {
   [[nodiscard]] std::span<const Near> nearTo(std::int32_t centre) const noexcept PALPATE_NONBLOCKING;
 
   double a_;
-  std::vector<std::int32_t> triangles_;            // [T][3]
-  std::vector<std::array<double, 3>> edges_;       // [T] squared length of the edge opposite to corner k, m^2
-  std::vector<double> load_;                       // [Ns] A_i, m^2
-  std::vector<std::uint8_t> free_;                 // [Ns]
+  std::vector<std::int32_t> triangles_;       // [faces][3]
+  std::vector<std::array<double, 3>> edges_;  // [faces] squared length of the edge opposite to corner k, m^2
+  std::vector<double> load_;                  // [Ns] A_i, m^2
+  std::vector<std::uint8_t> free_;            // [Ns]
   std::vector<std::array<std::size_t, 2>> range_;  // [Ns] into near_
   std::vector<Near> near_;                         // of each centre by node
   std::size_t most_{0};

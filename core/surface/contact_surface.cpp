@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/prefetch.h"
+#include "core/surface/face_points.h"
 
 namespace palpate {
 
@@ -110,8 +111,8 @@ Draft draftOf(const ModelView& view, const SurfaceMesh& rest) {
     draft.normal.push_back(rest.nodeNormal(i));
   }
   for (std::size_t t = 0; t < index(rest.triangles()); ++t)
-    draft.triangle.push_back({view.surface_triangles[3 * t], view.surface_triangles[3 * t + 1],
-                              view.surface_triangles[3 * t + 2]});
+    draft.triangle.push_back({view.contact_triangles[3 * t], view.contact_triangles[3 * t + 1],
+                              view.contact_triangles[3 * t + 2]});
   return draft;
 }
 
@@ -184,13 +185,7 @@ void ContactSurface::findSlopes(const SurfaceMesh& rest) {
 
 ContactPoint ContactSurface::rest(const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING {
   ContactPoint s = fine;
-  for (int level = 0; level < levels_ && s.triangle >= 0; ++level) {
-    const auto child = static_cast<std::size_t>(s.triangle % 4);
-    const std::array<double, 3> w = s.barycentric;
-    s.triangle /= 4;
-    for (std::size_t k = 0; k < 3; ++k)
-      s.barycentric[k] = child == 3 ? 0.5 * (1.0 - w[k]) : 0.5 * w[k] + (k == child ? 0.5 : 0.0);
-  }
+  for (int level = 0; level < levels_ && s.triangle >= 0; ++level) s = faceOf(s);
   return s;
 }
 
@@ -219,15 +214,7 @@ void ContactSurface::expect(std::int32_t triangle) const noexcept PALPATE_NONBLO
 
 ContactPoint ContactSurface::fine(const ContactPoint& rest) const noexcept PALPATE_NONBLOCKING {
   ContactPoint s = rest;
-  for (int level = 0; level < levels_ && s.triangle >= 0; ++level) {
-    const std::array<double, 3> w = s.barycentric;
-    std::size_t child = 3;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (w[k] >= 0.5) child = k;
-    s.triangle = 4 * s.triangle + static_cast<std::int32_t>(child);
-    for (std::size_t k = 0; k < 3; ++k)
-      s.barycentric[k] = child == 3 ? 1.0 - 2.0 * w[k] : 2.0 * w[k] - (k == child ? 1.0 : 0.0);
-  }
+  for (int level = 0; level < levels_ && s.triangle >= 0; ++level) s = partOf(s);
   return s;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/surface/face_points.h"
+
 namespace palpate {
 
 namespace {
@@ -33,8 +35,11 @@ double unfold(const SurfaceGraph::Corner& C, double da, double db) {
 
 }  // namespace
 
-SurfaceGraph::SurfaceGraph(std::span<const double> positions, std::span<const std::int32_t> triangles)
-    : triangles_(triangles.begin(), triangles.end()), first_(positions.size() / 3 + 1) {
+SurfaceGraph::SurfaceGraph(std::span<const double> positions, std::span<const std::int32_t> triangles,
+                           std::span<const std::int32_t> faces)
+    : triangles_(triangles.begin(), triangles.end()),
+      faces_(faces.empty() ? triangles_ : std::vector(faces.begin(), faces.end())),
+      first_(positions.size() / 3 + 1) {
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
     positions_.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
   for (const std::int32_t node : triangles_) ++first_[at(node) + 1];
@@ -54,6 +59,24 @@ SurfaceGraph::SurfaceGraph(std::span<const double> positions, std::span<const st
 std::span<const std::int32_t> SurfaceGraph::trianglesOf(std::int32_t node) const noexcept {
   const std::int32_t first = first_[at(node)];
   return std::span(around_).subspan(at(first), at(first_[at(node) + 1] - first));
+}
+
+ContactPoint SurfaceGraph::atNode(std::int32_t node) const noexcept {
+  ContactPoint s{trianglesOf(node).front(), {}};
+  for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = triangle(s.triangle)[k] == node ? 1.0 : 0.0;
+  return faces_.size() == triangles_.size() ? s : faceOf(s);
+}
+
+std::vector<double> SurfaceGraph::loadAreas() const {
+  if (faces_.size() == triangles_.size()) return lumpedAreas();
+  std::vector<double> areas(positions_.size());
+  for (std::int32_t f = 0; f < faces(); ++f) {
+    const std::span<const std::int32_t> corner = face(f);
+    const Vec3& A = position(corner[0]);
+    const double area = 0.5 * (position(corner[1]) - A).cross(position(corner[2]) - A).norm();
+    for (const std::int32_t middle : triangle(4 * f + 3)) areas[at(middle)] += area / 3.0;
+  }
+  return areas;
 }
 
 std::vector<double> SurfaceGraph::lumpedAreas() const {

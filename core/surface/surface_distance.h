@@ -13,7 +13,8 @@
 
 namespace palpate {
 
-/// A triangulated surface, and which triangles meet at a node. Owns its numbers; const once built.
+/// A triangulated surface, and which triangles meet at a node. Of quadratic elements four triangles make a face, and points of
+/// the surface are points of faces: docs/design.md, Elements. Owns its numbers; const once built.
 class SurfaceGraph {
  public:
   /// A triangle in its plane, seen from one corner C: the other two, A and B, on the x axis.
@@ -23,8 +24,10 @@ class SurfaceGraph {
     double x, height;   ///< C, m
   };
 
-  /// @param positions  [Ns][3] m  @param triangles  [T][3] indices of nodes, in range. O(Ns + T), allocates.
-  SurfaceGraph(std::span<const double> positions, std::span<const std::int32_t> triangles);
+  /// @param positions  [Ns][3] m  @param triangles  [T][3] indices of nodes, in range
+  /// @param faces  [T][3] or [T / 4][3] corners, in the order of the triangles; empty: the triangles. O(Ns + T), allocates.
+  SurfaceGraph(std::span<const double> positions, std::span<const std::int32_t> triangles,
+               std::span<const std::int32_t> faces = {});
 
   [[nodiscard]] int nodes() const noexcept { return static_cast<int>(positions_.size()); }
   [[nodiscard]] int triangles() const noexcept { return static_cast<int>(triangles_.size() / 3); }
@@ -35,18 +38,28 @@ class SurfaceGraph {
   [[nodiscard]] std::span<const std::int32_t> triangle(std::int32_t t) const noexcept {
     return std::span(triangles_).subspan(3 * static_cast<std::size_t>(t), 3);
   }
+  [[nodiscard]] int faces() const noexcept { return static_cast<int>(faces_.size() / 3); }
+  /// Corners of a face, 3.
+  [[nodiscard]] std::span<const std::int32_t> face(std::int32_t f) const noexcept {
+    return std::span(faces_).subspan(3 * static_cast<std::size_t>(f), 3);
+  }
+  /// The node as a point of a face.
+  [[nodiscard]] ContactPoint atNode(std::int32_t node) const noexcept;
   /// Corner k of a triangle; A and B are the corners k + 1 and k + 2, modulo 3.
   [[nodiscard]] const Corner& corner(std::int32_t t, std::size_t k) const noexcept {
     return corners_[3 * static_cast<std::size_t>(t) + k];
   }
   /// Triangles that a node belongs to, in rising order.
   [[nodiscard]] std::span<const std::int32_t> trianglesOf(std::int32_t node) const noexcept;
-  /// A_i, the lumped rest area of each node, [Ns], m^2: a third of each of its triangles.   docs/design.md, Symbols
+  /// The lumped rest area of each node, [Ns], m^2: a third of each of its triangles.
   [[nodiscard]] std::vector<double> lumpedAreas() const;
+  /// A_i, the integral of each node's shape function over the surface, [Ns], m^2: of linear elements its lumped area, of
+  /// quadratic ones a third of each face in the middles of its edges.             docs/design.md, Symbols, Elements
+  [[nodiscard]] std::vector<double> loadAreas() const;
 
  private:
   std::vector<Vec3> positions_;
-  std::vector<std::int32_t> triangles_;
+  std::vector<std::int32_t> triangles_, faces_;
   std::vector<Corner> corners_;      ///< [T][3]
   std::vector<std::int32_t> first_;  ///< [Ns + 1] into around_
   std::vector<std::int32_t> around_;

@@ -9,6 +9,7 @@
 #include "core/base/index.h"
 #include "core/base/prefetch.h"
 #include "core/data/datasets.h"
+#include "core/surface/face_points.h"
 
 namespace palpate {
 
@@ -25,7 +26,7 @@ struct Edge {
 };
 
 [[noreturn]] void refuse(std::int32_t triangle, const std::string& what) {
-  throw std::invalid_argument(dataset::kSurfaceTriangles.name() + " number " + std::to_string(triangle) +
+  throw std::invalid_argument(dataset::kContactTriangles.name() + " number " + std::to_string(triangle) +
                               " " + what);
 }
 
@@ -48,11 +49,12 @@ std::string name(const Edge& edge) {
 
 SurfaceMesh::SurfaceMesh(const ModelView& view)
     : positions_(view.surface_positions),
-      triangles_(view.surface_triangles),
+      triangles_(view.contact_triangles),
+      drawn_(view.surface_triangles),
       position_of_node_(view.position_of_node),
       position_accessible_(view.contact_accessible),
       triangle_at_node_(view.surface_positions.size() / 3, -1),
-      tree_(view.surface_positions, view.surface_triangles) {
+      tree_(view.surface_positions, view.contact_triangles) {
   buildFaceNormals();
   buildNodeNormals();
   findNeighbours();
@@ -95,6 +97,7 @@ void SurfaceMesh::buildNodeNormals() {
       node_normals_[index(triangles_[3 * index(t) + k])] += angle * face_normals_[index(t)];
     }
   }
+  placeMiddles();
   for (std::size_t i = 0; i < node_normals_.size(); ++i) {
     if (triangle_at_node_[i] < 0)
       throw std::invalid_argument(dataset::kSurfacePositions.name() + " number " + std::to_string(i) +
@@ -104,10 +107,31 @@ void SurfaceMesh::buildNodeNormals() {
   }
 }
 
-double SurfaceMesh::distanceToCorners(std::int32_t triangle,
-                                      const Vec3& x) const noexcept PALPATE_NONBLOCKING {
+/// Nodes in the middle of a face's edges lie on it; their normals are those of the edges' ends.
+void SurfaceMesh::placeMiddles() {
+  if (drawn_.size() == triangles_.size()) return;
+  for (std::size_t t = 0; t < index(triangles()); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t node = index(drawn_[12 * t + 9 + k]);  // across from corner k
+      triangle_at_node_[node] = static_cast<std::int32_t>(t);
+      node_normals_[node] = node_normals_[index(triangles_[3 * t + (k + 1) % 3])].normalized() +
+                            node_normals_[index(triangles_[3 * t + (k + 2) % 3])].normalized();
+    }
+}
+
+double SurfaceMesh::distanceToNodes(std::int32_t triangle, const Vec3& x) const noexcept PALPATE_NONBLOCKING {
   const std::array<Vec3, 3> X = corners(triangle);
-  return std::min({(X[0] - x).norm(), (X[1] - x).norm(), (X[2] - x).norm()});
+  double nearest = (X[0] - x).squaredNorm();
+  for (std::size_t k = 0; k < 3; ++k)
+    nearest =
+        std::min({nearest, (X[k] - x).squaredNorm(), (0.5 * (X[k] + X[(k + 1) % 3]) - x).squaredNorm()});
+  return std::sqrt(nearest);
+}
+
+NodeMix SurfaceMesh::nodesAt(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
+  const ContactPoint part = drawn_.size() == triangles_.size() ? s : partOf(s);
+  const std::int32_t* const node = drawn_.data() + 3 * index(part.triangle);
+  return {{node[0], node[1], node[2]}, part.barycentric};
 }
 
 bool SurfaceMesh::complete(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING {
@@ -177,10 +201,14 @@ Vec3 SurfaceMesh::normal(const ContactPoint& s) const noexcept PALPATE_NONBLOCKI
 }
 
 ContactPoint SurfaceMesh::atNode(int node) const noexcept PALPATE_NONBLOCKING {
-  ContactPoint s;
-  s.triangle = triangle_at_node_[index(node)];
-  for (std::size_t k = 0; k < 3; ++k)
-    s.barycentric[k] = triangles_[3 * index(s.triangle) + k] == node ? 1.0 : 0.0;
+  ContactPoint s{triangle_at_node_[index(node)], {}};
+  const std::int32_t* const corner = triangles_.data() + 3 * index(s.triangle);
+  if (const auto* const found = std::find(corner, corner + 3, node); found < corner + 3) {
+    s.barycentric[index(found - corner)] = 1.0;
+    return s;
+  }
+  const std::int32_t* const middle = drawn_.data() + 12 * index(s.triangle) + 9;
+  for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = middle[k] == node ? 0.0 : 0.5;
   return s;
 }
 
@@ -218,16 +246,6 @@ void SurfaceMesh::expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKI
     prefetch(node_normals_[node]);
     if (!position_of_node_.empty()) prefetch(position_of_node_[node]);
   }
-}
-
-Vec3 SurfaceMesh::interpolate(std::span<const float> field,
-                              const ContactPoint& s) const noexcept PALPATE_NONBLOCKING {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t node = 3 * index(triangles_[3 * index(s.triangle) + k]);
-    sum += s.barycentric[k] * Eigen::Map<const Eigen::Vector3f>(field.data() + node).cast<double>();
-  }
-  return sum;
 }
 
 }  // namespace palpate

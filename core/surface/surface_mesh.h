@@ -33,7 +33,14 @@ struct TangentFrame {
 /// Whether a way over the surface may leave the accessible part.
 enum class Reach { kAccessible, kEverywhere };
 
-/// The rest surface: positions, normals, nearest points, and where the organ can be touched (docs/design.md, Contact).
+/// A point of the surface as its fields have it.
+struct NodeMix {
+  std::array<std::int32_t, 3> node;  ///< surface nodes, of one flat triangle
+  std::array<double, 3> weight;      ///< sum 1
+};
+
+/// The rest surface: positions, normals, nearest points, and where the organ can be touched (docs/design.md, Contact). Its
+/// triangles are the faces of the elements; of quadratic ones each is drawn as four, see partOf(), docs/design.md, Elements.
 /// Borrows the arrays of the view; built before the loop, then const.
 class SurfaceMesh {
  public:
@@ -97,16 +104,15 @@ class SurfaceMesh {
   [[nodiscard]] Mat3 slopes(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// Rest positions of a triangle's nodes, m. Real-time: yes.
   [[nodiscard]] std::array<Vec3, 3> corners(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
-  /// From a point to the nearest of a triangle's nodes, m. Real-time: yes.
-  [[nodiscard]] double distanceToCorners(std::int32_t triangle,
-                                         const Vec3& x) const noexcept PALPATE_NONBLOCKING;
+  /// From a point to the nearest of a triangle's corners and middles of edges, m. Real-time: yes.
+  [[nodiscard]] double distanceToNodes(std::int32_t triangle,
+                                       const Vec3& x) const noexcept PALPATE_NONBLOCKING;
+  /// The nodes between which fields are linear at s, and their weights. Real-time: yes.
+  [[nodiscard]] NodeMix nodesAt(const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
   /// Each of the triangle's nodes has a contact position. Real-time: yes.
   [[nodiscard]] bool complete(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
   /// Asks the cache for what is read of a triangle and its nodes. Real-time: yes.
   void expect(std::int32_t triangle) const noexcept PALPATE_NONBLOCKING;
-  /// A field given at the nodes, at s. @param field  [Ns][3]. Real-time: yes.
-  [[nodiscard]] Vec3 interpolate(std::span<const float> field,
-                                 const ContactPoint& s) const noexcept PALPATE_NONBLOCKING;
 
  private:
   [[nodiscard]] Vec3 nodePosition(std::int32_t node) const noexcept PALPATE_NONBLOCKING;
@@ -117,11 +123,14 @@ class SurfaceMesh {
                  Vec3& w) const noexcept PALPATE_NONBLOCKING;
   void buildFaceNormals();
   void buildNodeNormals();
+  void placeMiddles();
   void findReachable();
   void findNeighbours();
 
   std::span<const double> positions_;
   std::span<const std::int32_t> triangles_;
+  std::span<const std::int32_t>
+      drawn_;  ///< flat: triangles_, or four for each of these; none of a surface without fields
   std::span<const std::int32_t> position_of_node_;
   std::span<const std::uint8_t> position_accessible_;
   std::vector<Vec3> face_normals_;                       ///< [T] unit

@@ -41,13 +41,14 @@ struct BoundarySurface {
 inline constexpr std::array<std::array<int, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
-/// The four flat triangles of a face. @param corner, middle  nodes; middle[k] between corners k and k + 1
+/// The four flat triangles of a face: at its corners, then the one between, whose node k lies across from corner k.
+/// @param corner, middle  nodes; middle[k] between corners k and k + 1
 [[nodiscard]] constexpr std::array<std::array<std::int32_t, 3>, 4> splitFace(
     const std::array<std::int32_t, 3>& corner, const std::array<std::int32_t, 3>& middle) noexcept {
   return {{{corner[0], middle[0], middle[2]},
            {middle[0], corner[1], middle[1]},
            {middle[2], middle[1], corner[2]},
-           {middle[0], middle[1], middle[2]}}};
+           {middle[1], middle[2], middle[0]}}};
 }
 
 }  // namespace palpate::mesh

@@ -80,6 +80,8 @@ void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t 
 void checkMesh(const ModelData& d) {
   expectSize(dataset::kMeshNodes.name(), d.mesh_nodes.size(), 3 * d.mesh_node_tag.size());
   expectSize(dataset::kMeshTetrahedra.name(), d.mesh_tetrahedra.size(), 4 * d.mesh_tetrahedron_tag.size());
+  expectSize(dataset::kMeshMidsides.name(), d.mesh_midsides.size(),
+             d.mesh_midsides.empty() ? 0 : 6 * d.mesh_tetrahedron_tag.size());
   const std::size_t R = d.region_name.size();
   expectSize(dataset::kElementRegion.name(), d.mesh_element_region.size(),
              R == 0 ? 0 : d.mesh_tetrahedron_tag.size());

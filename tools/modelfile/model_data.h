@@ -57,6 +57,7 @@ struct ModelData {
   std::vector<float> near_field;                   ///< per position [Cm][K_m][3] m
   std::vector<double> mesh_nodes;                  ///< [N][3] m
   std::vector<std::int32_t> mesh_tetrahedra;       ///< [V][4]
+  std::vector<std::int32_t> mesh_midsides;         ///< [V][6] of quadratic elements, else empty
   std::vector<std::int64_t> mesh_node_tag;         ///< [N]
   std::vector<std::int64_t> mesh_tetrahedron_tag;  ///< [V]
   std::vector<std::int32_t> mesh_fixed;            ///< volume nodes

@@ -11,6 +11,7 @@ namespace palpate::modelfile {
 struct VolumeMesh {
   std::vector<double> nodes;                  ///< [N][3] m
   std::vector<std::int32_t> tetrahedra;       ///< [V][4] 0-based
+  std::vector<std::int32_t> midsides;         ///< [V][6] of quadratic elements, else empty
   std::vector<std::int64_t> node_tag;         ///< [N] number in the mesh file
   std::vector<std::int64_t> tetrahedron_tag;  ///< [V]
   std::vector<std::int32_t> fixed;            ///< volume nodes

@@ -202,6 +202,7 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.green_near_scale = fields.green_near.scale;
   v.mesh_nodes = d.mesh_nodes;
   v.mesh_tetrahedra = d.mesh_tetrahedra;
+  v.mesh_midsides = d.mesh_midsides;
   v.mesh_node_tag = d.mesh_node_tag;
   v.mesh_tetrahedron_tag = d.mesh_tetrahedron_tag;
   v.mesh_fixed = d.mesh_fixed;

@@ -88,7 +88,7 @@ TEST(LoadRegions, AreRefusedWhereTheyMakeNoSense) {
       {"/regions/E number 0 is 0, expected more than 0 Pa", [](ModelData& d) { d.region_E[0] = 0.0; }},
       {"/regions/nu number 1 is 0.5, expected more than -1 and less than 0.5",
        [](ModelData& d) { d.region_nu[1] = 0.5; }},
-      {"/contact/triangles has 79 triangles, expected 80, as /surface/triangles in this version",
+      {"/contact/triangles has 79 triangles, expected 80, as /surface/triangles, or a quarter of that",
        [](ModelData& d) {
          d.contact_triangles = d.surface_triangles;
          d.contact_triangles.resize(3 * 79);

@@ -92,7 +92,7 @@ struct Ball {
     std::iota(position_of_node.begin(), position_of_node.end(), 0);
     accessible.assign(position_of_node.size(), 1);
     view.surface_positions = positions;
-    view.surface_triangles = triangles;
+    view.surface_triangles = view.contact_triangles = triangles;
     view.position_of_node = position_of_node;
     view.contact_accessible = accessible;
   }

@@ -25,7 +25,7 @@ struct Shape {
     position_of_node.assign(positions.size() / 3, -1);
     ModelView v;
     v.surface_positions = positions;
-    v.surface_triangles = triangles;
+    v.surface_triangles = v.contact_triangles = triangles;
     v.position_of_node = position_of_node;
     return v;
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../interpolated.h"
 #include "../round_organ.h"
 
 namespace palpate::testing {
@@ -52,7 +53,7 @@ TEST(ShownSurface, ThatNobodyTakesChangesNoAnswer) {
       ASSERT_EQ(a.anchor, b.anchor);
       ASSERT_EQ(a.proxy, b.proxy);
       const ContactPoint here = organ().surface().closestPoint(vec(a.anchor)).s;
-      const Vec3 shown = organ().surface().interpolate(every.field(), here);
+      const Vec3 shown = interpolated(organ().surface(), every.field(), here);
       const double off = (vec(a.proxy) - vec(a.anchor) - shown).norm();
       ASSERT_LT(off, jumped ? 2e-4 : 2e-5)
           << "tool " << i << ": the proxy is on the surface, of a travel of 3 mm";

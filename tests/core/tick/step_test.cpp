@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "../interpolated.h"
 #include "../round_organ.h"
 #include "core/response/tool_coupling.h"
 
@@ -56,7 +57,7 @@ TEST(Step, ProxyIsTheDeformedSurfaceAtTheAnchor) {
   FieldScratch scratch(organ());
   std::vector<float> u(driver.field().size());
   evaluateField(organ(), top.s, vec(r.displacement), scratch, u);
-  EXPECT_LT((vec(r.proxy) - vec(r.anchor) - organ().surface().interpolate(u, top.s)).norm(), 1e-7);
+  EXPECT_LT((vec(r.proxy) - vec(r.anchor) - interpolated(organ().surface(), u, top.s)).norm(), 1e-7);
   EXPECT_LT(r.proxy[2], r.anchor[2]);
 }
 

@@ -46,7 +46,7 @@ int surfaceNode(const MetaModel& model, std::int64_t number) {
 
 /// The node as a point of a triangle that may be touched: a node at the rim belongs to others as well.
 ContactPoint touchableAt(const MetaModel& model, int node) {
-  const auto& corners = model.view().surface_triangles;
+  const auto& corners = model.view().contact_triangles;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto triangle = static_cast<std::int32_t>(i / 3);
     if (corners[i] != node || !model.surface().accessible(triangle)) continue;

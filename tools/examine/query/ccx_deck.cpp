@@ -36,10 +36,13 @@ class Deck {
     }
   }
   void elements() {
-    out_ << "*ELEMENT,TYPE=C3D4,ELSET=BODY\n";
+    const bool quadratic = !organ_.mesh.midsides.empty();
+    out_ << "*ELEMENT,TYPE=" << (quadratic ? "C3D10" : "C3D4") << ",ELSET=BODY\n";
     for (std::size_t e = 0; e < organ_.mesh.tetrahedron_tag.size(); ++e) {
       out_ << checked("tetrahedron", organ_.mesh.tetrahedron_tag[e]);
       for (std::size_t k = 0; k < 4; ++k) out_ << ',' << number(organ_.mesh.tetrahedra[4 * e + k]);
+      for (std::size_t k = 0; quadratic && k < 6; ++k)
+        out_ << ',' << number(organ_.mesh.midsides[6 * e + k]);  // C3D10 has them in the order of kTetEdges
       out_ << '\n';
     }
   }

@@ -30,8 +30,8 @@ std::vector<Vec3> points(std::span<const double> flat) {
 
 solver::FeModel bodyOf(const ModelAttributes& a, const modelfile::VolumeMesh& mesh) {
   try {
-    return solver::FeModel(points(mesh.nodes), tuples<4>(mesh.tetrahedra), mesh.fixed,
-                           {{a.E, a.nu}, solver::lawOf(a.law), {}});
+    return solver::FeModel(points(mesh.nodes), {tuples<4>(mesh.tetrahedra), tuples<6>(mesh.midsides)},
+                           mesh.fixed, {{a.E, a.nu}, solver::lawOf(a.law), {}});
   } catch (const std::invalid_argument& error) {
     throw QueryError(std::string("the mesh in the model file: ") + error.what());
   }
@@ -47,7 +47,7 @@ std::string text(const Vec3& v) {
 solver::Patch pointPatch(const Organ& organ, const ContactPoint& s) {
   solver::Patch patch;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::int32_t corner = organ.surface.triangles[static_cast<std::size_t>(s.triangle)][k];
+    const std::int32_t corner = organ.surface.faces[static_cast<std::size_t>(s.triangle)][k];
     const std::int32_t node = organ.surface.nodes[static_cast<std::size_t>(corner)];
     if (s.barycentric[k] <= 0.0 || !organ.body.isFree(node)) continue;
     patch.nodes.push_back(node);
@@ -84,7 +84,8 @@ double ratio(double error, double reference) {
 
 Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh) {
   solver::FeModel body = bodyOf(model.attributes(), mesh);
-  solver::PatchSurface surface(body, mesh.surface_node, tuples<3>(model.view().surface_triangles));
+  solver::PatchSurface surface(body, mesh.surface_node, tuples<3>(model.view().surface_triangles),
+                               tuples<3>(model.view().contact_triangles));
   return {std::move(body), std::move(surface), std::move(mesh)};
 }
 

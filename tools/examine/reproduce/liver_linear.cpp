@@ -50,7 +50,7 @@ solver::SparseMatrix mixing(const solver::SolverSetup& setup, const std::vector<
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto node = setup.surface.triangles[static_cast<std::size_t>(points[i].s.triangle)][c];
+      const auto node = setup.surface.faces[static_cast<std::size_t>(points[i].s.triangle)][c];
       entries.emplace_back(position_of_node[static_cast<std::size_t>(node)], static_cast<int>(i),
                            points[i].s.barycentric[c]);
     }

@@ -27,7 +27,7 @@ std::vector<double> reachableAreas(const solver::SolverSetup& setup) {
   for (std::size_t i = 0; i < setup.positions.nodes.size(); ++i)
     has_position[static_cast<std::size_t>(setup.positions.nodes[i])] = setup.positions.accessible[i] != 0;
   std::vector<double> areas;
-  for (const auto& t : setup.surface.triangles) {
+  for (const auto& t : setup.surface.faces) {
     const auto corner = [&](std::size_t i) {
       return setup.surface.positions[static_cast<std::size_t>(t[i])];
     };

@@ -211,7 +211,7 @@ modelfile::ModelData Builder::run() {
   fit(table, greens);  // by each position's own radius
   report_.fit_seconds = fit_watch.seconds();
   data_.contact_domain_radius =
-      leastWithinTwoRings(setup_.surface.triangles, setup_.positions.nodes, data_.contact_domain_radius);
+      leastWithinTwoRings(setup_.surface.faces, setup_.positions.nodes, data_.contact_domain_radius);
 
   storeOrgan(setup_, mesh_, data_);
   ModelAttributes& a = data_.attributes;

@@ -104,7 +104,7 @@ std::vector<std::int32_t> loadedNodes(const SolverSetup& setup, const ContactPat
 
 std::vector<double> patchStiffness(const SolverSetup& setup, const ContactPatches& patches,
                                    const CloseGreens& greens, int workers) {
-  const auto& triangles = setup.surface.triangles;
+  const auto& triangles = setup.surface.faces;
   const SmoothPlaces places(numbers(setup.surface.positions),
                             {triangles.front().data(), 3 * triangles.size()}, positionOfNode(setup));
   constexpr std::size_t kNumbers = 24;

@@ -32,9 +32,9 @@ std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, cons
   std::vector<bool> by_volume_node(mesh.nodes.size(), !c.accessible.has_value());
   if (c.accessible)
     for (const std::int32_t node : groupOf(c, mesh, *c.accessible)) by_volume_node[at(node)] = true;
-  std::vector<bool> accessible;
-  for (const std::int32_t node : surface.nodes)
-    accessible.push_back(by_volume_node[at(node)] && model.isFree(node));
+  std::vector<bool> accessible = surface.corners();
+  for (std::size_t i = 0; i < surface.nodes.size(); ++i)
+    accessible[i] = accessible[i] && by_volume_node[at(surface.nodes[i])] && model.isFree(surface.nodes[i]);
   if (std::none_of(accessible.begin(), accessible.end(), [](bool yes) { return yes; }))
     throw CaseError(c.mesh.string() + ": no accessible node on the free surface");
   return accessible;
@@ -51,14 +51,15 @@ void clampedLast(const FeModel& model, mesh::BoundarySurface& boundary) {
     boundary.nodes[i] = nodes[at(order[i])];
     place[at(order[i])] = static_cast<int>(i);
   }
-  for (auto& triangle : boundary.triangles)
-    for (std::int32_t& node : triangle) node = place[at(node)];
+  for (auto* list : {&boundary.triangles, &boundary.faces})
+    for (auto& triangle : *list)
+      for (std::int32_t& node : triangle) node = place[at(node)];
 }
 
 PatchSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
   mesh::BoundarySurface boundary = mesh::boundaryOf(mesh);
   clampedLast(model, boundary);
-  return PatchSurface(model, std::move(boundary.nodes), std::move(boundary.triangles));
+  return {model, std::move(boundary.nodes), std::move(boundary.triangles), std::move(boundary.faces)};
 }
 
 std::string text(double x) {
@@ -75,9 +76,13 @@ double nodalRadius(const PatchSurface& surface) {
 /// The given or default a. A patch that reaches no neighbour is a point load; one as wide as the organ is no
 /// contact.
 double patchRadius(const Case& c, const PatchSurface& surface) {
+  const bool quadratic = surface.faces.size() < surface.triangles.size();
+  if (c.nodalLoad() && quadratic)
+    throw CaseError(c.mesh.string() +
+                    ": load.node needs linear elements: a pressure loads no corner of quadratic ones");
   if (c.nodalLoad()) return nodalRadius(surface);
   const double edge = surface.medianEdge();
-  const double a = c.patch_radius.value_or(1.3 * edge);
+  const double a = c.patch_radius.value_or((quadratic ? 0.8 : 1.3) * edge);
   Vec3 low = surface.positions.front(), high = low;
   for (const Vec3& x : surface.positions) {
     low = low.cwiseMin(x);
@@ -99,6 +104,8 @@ void storeSurface(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile
   data.contact_accessible = setup.positions.accessible;
   for (const auto& t : setup.surface.triangles)
     data.surface_triangles.insert(data.surface_triangles.end(), t.begin(), t.end());
+  for (const auto& t : setup.surface.faces)
+    data.contact_triangles.insert(data.contact_triangles.end(), t.begin(), t.end());
   for (std::size_t i = 0; i < setup.surface.nodes.size(); ++i) {
     data.surface_mesh_tag.push_back(mesh.node_tags[at(setup.surface.nodes[i])]);
     for (int c = 0; c < 3; ++c) data.surface_positions.push_back(setup.surface.positions[i][c]);
@@ -109,6 +116,7 @@ void storeMesh(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::M
   for (const Vec3& X : mesh.nodes) data.mesh_nodes.insert(data.mesh_nodes.end(), X.data(), X.data() + 3);
   for (const auto& t : mesh.tetrahedra)
     data.mesh_tetrahedra.insert(data.mesh_tetrahedra.end(), t.begin(), t.end());
+  for (const auto& t : mesh.midsides) data.mesh_midsides.insert(data.mesh_midsides.end(), t.begin(), t.end());
   data.mesh_node_tag = mesh.node_tags;
   data.mesh_tetrahedron_tag = mesh.tetrahedron_tags;
   data.mesh_fixed = setup.model.fixedNodes();
@@ -132,7 +140,7 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
   // A helper needs enough of its patch on free nodes to have an answer of its own.
   constexpr double kEnough = 0.05;
   std::vector<bool> wanted = accessible;
-  for (const auto& t : surface.triangles)
+  for (const auto& t : surface.faces)
     if (std::any_of(t.begin(), t.end(), [&](std::int32_t node) { return accessible[at(node)]; }))
       for (const std::int32_t node : t) wanted[at(node)] = true;
   std::vector<std::int32_t> centres;
@@ -159,7 +167,8 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
 }
 
 SolverSetup::SolverSetup(const Case& c, const mesh::TetMesh& mesh)
-    : model(mesh.nodes, mesh.tetrahedra, groupOf(c, mesh, c.fixed), {{c.E, c.nu}, lawOf(c.law), {}}),
+    : model(mesh.nodes, {mesh.tetrahedra, mesh.midsides}, groupOf(c, mesh, c.fixed),
+            {{c.E, c.nu}, lawOf(c.law), {}}),
       surface(surfaceOf(model, mesh)),
       patch_radius(patchRadius(c, surface)),
       positions(

@@ -30,29 +30,31 @@ std::span<const std::int32_t> numbers(const std::vector<std::array<std::int32_t,
 }  // namespace
 
 PatchSurface::PatchSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
-                           std::vector<std::array<std::int32_t, 3>> surface_triangles)
+                           std::vector<std::array<std::int32_t, 3>> surface_triangles,
+                           std::vector<std::array<std::int32_t, 3>> element_faces)
     : nodes(std::move(surface_nodes)),
       triangles(std::move(surface_triangles)),
+      faces(element_faces.empty() ? triangles : std::move(element_faces)),
       positions(positionsOf(model, nodes)),
-      graph(numbers(positions), numbers(triangles)),
+      graph(numbers(positions), numbers(triangles), numbers(faces)),
       areas(graph.lumpedAreas()) {}
 
 Vec3 PatchSurface::position(const ContactPoint& s) const {
   Vec3 x = Vec3::Zero();
-  for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * positions[at(triangles[at(s.triangle)][k])];
+  for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * positions[at(faces[at(s.triangle)][k])];
   return x;
 }
 
-ContactPoint PatchSurface::atNode(int node) const {
-  ContactPoint s;
-  s.triangle = graph.trianglesOf(node).front();
-  for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = triangles[at(s.triangle)][k] == node ? 1.0 : 0.0;
-  return s;
+std::vector<bool> PatchSurface::corners() const {
+  std::vector<bool> corner(nodes.size(), false);
+  for (const auto& face : faces)
+    for (const std::int32_t node : face) corner[at(node)] = true;
+  return corner;
 }
 
 double PatchSurface::medianEdge() const {
   std::vector<double> lengths;
-  for (const auto& t : triangles)
+  for (const auto& t : faces)
     for (std::size_t k = 0; k < 3; ++k)
       lengths.push_back((positions[at(t[k])] - positions[at(t[(k + 1) % 3])]).norm());
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
@@ -75,8 +77,7 @@ Patch patchOf(const PatchSurface& surface, const PatchNodes& nodes) {
 }
 
 Patch makePatch(const FeModel& model, const PatchSurface& surface, const ContactPoint& s, double a) {
-  const ContactPatches patches(surface.graph, freeNodes(model, surface), a,
-                               surface.graph.triangle(s.triangle));
+  const ContactPatches patches(surface.graph, freeNodes(model, surface), a, surface.graph.face(s.triangle));
   PatchNodes nodes = patches.room();
   patches.at(s, false, nodes);
   return patchOf(surface, nodes);

@@ -17,18 +17,24 @@ namespace palpate::solver {
 /// patches.
 struct PatchSurface {
   std::vector<std::int32_t> nodes;                     ///< Ns volume nodes, in any order
-  std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, outward
-  std::vector<Vec3> positions;                         ///< Ns, m
-  SurfaceGraph graph;                                  ///< of the same surface, for distances along it
-  std::vector<double> areas;                           ///< Ns lumped rest areas A_i, m^2
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< T x 3 into nodes, flat, outward
+  std::vector<std::array<std::int32_t, 3>>
+      faces;                    ///< corners of the elements' faces; points s are points of these
+  std::vector<Vec3> positions;  ///< Ns, m
+  SurfaceGraph graph;           ///< of the same surface, for distances along it
+  std::vector<double> areas;    ///< Ns lumped rest areas, m^2
 
+  /// @param element_faces  the triangles, or one for each four of them; empty: the triangles. docs/design.md, Elements
   PatchSurface(const FeModel& model, std::vector<std::int32_t> surface_nodes,
-               std::vector<std::array<std::int32_t, 3>> surface_triangles);
+               std::vector<std::array<std::int32_t, 3>> surface_triangles,
+               std::vector<std::array<std::int32_t, 3>> element_faces = {});
 
   [[nodiscard]] Vec3 position(const ContactPoint& s) const;
   /// The point that is surface node i.
-  [[nodiscard]] ContactPoint atNode(int node) const;
-  /// Median edge length, m.
+  [[nodiscard]] ContactPoint atNode(int node) const { return graph.atNode(node); }
+  /// [Ns] whether the node is a corner of a face, and not in the middle of an edge.
+  [[nodiscard]] std::vector<bool> corners() const;
+  /// Median edge length of the faces, m.
   [[nodiscard]] double medianEdge() const;
 };
 

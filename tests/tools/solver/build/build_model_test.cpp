@@ -5,81 +5,31 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
+#include <memory>
 #include <random>
 
-#include "core/model/field_evaluation.h"
-#include "core/model/meta_model.h"
-#include "core/response/patch_response.h"
-#include "core/response/response.h"
-#include "palpate/testing/files.h"
+#include "block_model.h"
 #include "tools/mesh/box_mesh.h"
-#include "tools/modelfile/write_model.h"
-#include "tools/solver/build/solver_setup.h"
-#include "tools/solver/fem/newton.h"
 
 namespace palpate::solver {
 namespace {
 
-/// A block held at x = 0, solved once, loaded as the server loads it.
+/// Solved once for all tests.
 class SolvedBlock : public ::testing::Test {
  protected:
-  struct World {
-    World() : organ(mesh::makeBox(Vec3(0.06, 0.05, 0.04), {9, 8, 7})) {
-      c.mesh = "block";
-      c.patch_radius = 0.009;
-      c.modes = 160;
-      c.near_radius = 0.027;
-      for (std::int32_t node = 0; node < static_cast<std::int32_t>(organ.nodes.size()); ++node)
-        if (organ.nodes[static_cast<std::size_t>(node)].x() < 1e-9) organ.groups["fixed"].push_back(node);
-      BuildReport report;
-      modelfile::ModelData data =
-          buildModel(c, organ, {2, std::filesystem::temp_directory_path(), true}, report);
-      data.attributes.provenance = "{}";
-      modelfile::writeModel(file.path(), data);
-      fe = std::make_unique<FeModel>(organ.nodes, organ.tetrahedra, organ.groups.at("fixed"),
-                                     Material{{c.E, c.nu}});
-      surface = std::make_unique<PatchSurface>(SolverSetup(c, organ).surface);
-    }
-
-    mesh::TetMesh organ;
+  static void SetUpTestSuite() {
     Case c;
-    palpate::testing::TemporaryFile file{"block.h5"};
-    std::unique_ptr<FeModel> fe;
-    std::unique_ptr<PatchSurface> surface;
-  };
-
-  static void SetUpTestSuite() { world_ = std::make_unique<World>(); }
+    c.patch_radius = 0.009;
+    c.modes = 160;
+    c.near_radius = 0.027;
+    world_ = std::make_unique<BlockModel>(mesh::makeBox(Vec3(0.06, 0.05, 0.04), {9, 8, 7}), c);
+  }
   static void TearDownTestSuite() { world_.reset(); }
 
-  struct Errors {
-    double force, field;
-  };
-
-  /// Model against Newton with the patch at s.
-  static Errors compare(const MetaModel& model, const ContactPoint& s, const Vec3& d) {
-    ContactPoint contact;
-    contact.triangle = s.triangle;
-    contact.barycentric = s.barycentric;
-    Response response;
-    EXPECT_EQ(respond(model, contact, d, response), ResponseStatus::kOk);
-    FieldScratch scratch(model);
-    std::vector<float> u(3 * world_->surface->nodes.size());
-    evaluateField(model, contact, d, scratch, u);
-    const Patch patch = makePatch(*world_->fe, *world_->surface, s, *world_->c.patch_radius);
-    const NewtonResult truth = NewtonSolver(*world_->fe).solvePatch(patch, d, {});
-    double largest = 0.0;
-    for (std::size_t i = 0; i < world_->surface->nodes.size(); ++i)
-      largest = std::max(largest, (Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * i).cast<double>() -
-                                   truth.u.segment<3>(3 * world_->surface->nodes[i]))
-                                      .norm());
-    return {(response.force - truth.force).norm() / truth.force.norm(), largest / d.norm()};
-  }
-
-  static std::unique_ptr<World> world_;
+  static std::unique_ptr<BlockModel> world_;
 };
 
-std::unique_ptr<SolvedBlock::World> SolvedBlock::world_;
+std::unique_ptr<BlockModel> SolvedBlock::world_;
 
 TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
   const MetaModel model = MetaModel::load(world_->file.path());
@@ -88,10 +38,10 @@ TEST_F(SolvedBlock, AnswersLikeNewtonAtNodes) {
   for (int i = 0; i < 8; ++i) {
     int node = 0;
     // Two rings from the clamped end: positions beside it answer for less than 1.5 mm.
-    do node = static_cast<int>(random() % world_->surface->nodes.size());
-    while (world_->surface->positions[static_cast<std::size_t>(node)].x() < 0.03);
+    do node = static_cast<int>(random() % world_->surface.nodes.size());
+    while (world_->surface.positions[static_cast<std::size_t>(node)].x() < 0.03);
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
-    const Errors errors = compare(model, world_->surface->atNode(node), d);
+    const BlockModel::Errors errors = world_->compare(model, world_->surface.atNode(node), d);
     EXPECT_LT(errors.force, 2e-5);
     EXPECT_LT(errors.field, 0.01);
   }
@@ -104,10 +54,10 @@ TEST_F(SolvedBlock, AnswersBetweenNodesThatWereNotInTheFit) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 8; ++i) {
     ContactPoint s{0, {0.3, 0.3, 0.4}};
-    do s.triangle = static_cast<int>(random() % world_->surface->triangles.size());
-    while (world_->surface->position(s).x() < 0.02);
+    do s.triangle = static_cast<int>(random() % world_->surface.triangles.size());
+    while (world_->surface.position(s).x() < 0.02);
     const Vec3 d = 1.5e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
-    const Errors errors = compare(model, s, d);
+    const BlockModel::Errors errors = world_->compare(model, s, d);
     EXPECT_LT(errors.force, 0.01);
     EXPECT_LT(errors.field, 0.015);  // some are at edges of the block, across which they are mixed
   }
@@ -120,10 +70,10 @@ TEST_F(SolvedBlock, SmallTouchesBetweenNodesAreAsNewtonSays) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 6; ++i) {
     ContactPoint s{0, {0.2, 0.3, 0.5}};
-    do s.triangle = static_cast<int>(random() % world_->surface->triangles.size());
-    while (world_->surface->position(s).x() < 0.02);
+    do s.triangle = static_cast<int>(random() % world_->surface.triangles.size());
+    while (world_->surface.position(s).x() < 0.02);
     const Vec3 d = 1e-7 * Vec3(normal(random), normal(random), normal(random)).normalized();
-    const Errors errors = compare(model, s, d);
+    const BlockModel::Errors errors = world_->compare(model, s, d);
     EXPECT_LT(errors.force, 1e-3);
     EXPECT_LT(errors.field, 0.01);
   }
@@ -137,8 +87,8 @@ TEST_F(SolvedBlock, WhatOnePatchDoesToAnotherIsWhatThatDoesToIt) {
   for (int i = 0; i < 40; ++i) {
     std::array<ContactPoint, 2> s{ContactPoint{0, {0.2, 0.3, 0.5}}, ContactPoint{0, {0.6, 0.3, 0.1}}};
     for (ContactPoint& point : s) do
-        point.triangle = static_cast<int>(random() % world_->surface->triangles.size());
-      while (world_->surface->position(point).x() < 0.02);
+        point.triangle = static_cast<int>(random() % world_->surface.triangles.size());
+      while (world_->surface.position(point).x() < 0.02);
     const auto between = [&](const ContactPoint& a, const ContactPoint& b) {
       return complianceBetween(model, scratch.touchAt(model, a), scratch.touchAt(model, b), scratch)[0];
     };
@@ -155,7 +105,7 @@ TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
   const ModelView& view = model.view();
   bool clamped = false;
   for (std::size_t i = 0; i < view.surfaceNodes(); ++i) {
-    const bool held = !world_->fe->isFree(view.mesh_surface_node[i]);
+    const bool held = !world_->fe.isFree(view.mesh_surface_node[i]);
     EXPECT_LE(clamped, held) << "node " << i << " is free behind clamped ones";
     clamped = held;
     for (std::size_t mode = 0; held && mode < view.modes(); ++mode)
@@ -170,7 +120,7 @@ TEST_F(SolvedBlock, HelpersAreNotAccessible) {
   int helpers = 0;
   for (std::size_t p = 0; p < model.view().positions(); ++p) {
     const auto node = static_cast<std::size_t>(model.view().contact_node[p]);
-    const bool held = world_->surface->positions[node].x() < 1e-9;
+    const bool held = world_->surface.positions[node].x() < 1e-9;
     EXPECT_EQ(model.view().contact_accessible[p] == 0, held);
     helpers += held ? 1 : 0;
   }
