@@ -63,7 +63,7 @@ void run(solve_program::Options options) {
   checkOutput(options.output);
   solver::Case c = solve_program::readCase(options);
   // 2. The organ.
-  const mesh::TetMesh organ = readOrgan(c.mesh, c.fixed);
+  const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
   adoptGroups(c, organ);
   // 3. The model, by the method of the case.
   if (options.scratch.empty()) options.scratch = std::filesystem::absolute(options.output).parent_path();

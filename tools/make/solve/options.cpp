@@ -40,6 +40,7 @@ void override(const Options& options, solver::Case& c) {
     }
     c.law = *options.law;
   }
+  if (options.element_order) c.element_order = options.element_order;
   if (options.modes) {
     c.modes = options.modes;
     c.field_error.reset();
@@ -59,6 +60,10 @@ void describe(program::Options line, Options& options) {
   line.add("--method", &options.method,
            "series-displacement (the default), series-force, pgd-linear, pgd-explicit or pgd-euler");
   line.add("--law", &options.law, "law of the material: stvk (the default) or stable-neo-hookean");
+  line.add("--element-order", &options.element_order,
+           "raise a linear mesh to quadratic elements (2), or not (1) (default: 2 for series-displacement "
+           "and nu > 0.3)")
+      .range(1, 2);
   line.add("--modes", &options.modes,
            "modes of the model (default: 167; series-displacement: as many as its field_error of 1 % wants)")
       .range(1, 2000);

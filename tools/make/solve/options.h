@@ -21,6 +21,7 @@ struct Options {
   bool quiet{false};
 
   std::optional<std::string> method, law;
+  std::optional<int> element_order;
   std::optional<int> modes, order, steps;
   std::optional<std::string> direction;  ///< "x,y,z" or "any"
   std::optional<double> load;            ///< N

@@ -7,7 +7,9 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "tools/mesh/quadratic.h"
 #include "tools/solver/fem/material.h"
 
 namespace palpate::solver {
@@ -204,7 +206,16 @@ Case readCase(const std::filesystem::path& path) {
                     std::string(error.description()));
   }
   Section section(file, "", root);
-  const std::optional<std::string> mesh = section.take<std::string>("mesh", "a string");
+  std::optional<std::string> mesh;
+  if (const toml::node* node = root.get("mesh"); node != nullptr && node->is_table()) {
+    Section part(file, "mesh", *section.table("mesh"));
+    mesh = part.take<std::string>("file", "a string");
+    c.element_order = part.integer("element_order", 1, 2);
+    part.refuseTheRest();
+    if (!mesh) throw CaseError(file + ": mesh.file is missing");
+  } else {
+    mesh = section.take<std::string>("mesh", "a string or a table");
+  }
   if (const toml::table* t = section.table("boundary")) readBoundary(file, *t, c);
   if (const toml::table* t = section.table("material")) readMaterial(file, *t, c);
   if (const toml::table* t = section.table("model")) readModel(file, *t, c);
@@ -214,6 +225,16 @@ Case readCase(const std::filesystem::path& path) {
   if (!mesh) throw CaseError(file + ": mesh is missing");
   c.mesh = path.parent_path() / *mesh;
   return c;
+}
+
+mesh::TetMesh raised(const Case& c, mesh::TetMesh mesh) {
+  constexpr double kLocks = 0.3;  // nu above which linear elements are much too stiff
+  const int suits = c.method == Method::kSeriesDisplacement && c.nu > kLocks ? 2 : 1;
+  if (mesh.isQuadratic() && c.element_order == 1)
+    throw CaseError("mesh.element_order = 1 does not go with " + c.mesh.string() +
+                    ", whose elements are quadratic");
+  if (mesh.isQuadratic() || c.element_order.value_or(suits) == 1) return mesh;
+  return mesh::quadraticOf(mesh);
 }
 
 Case defaultCase(const std::filesystem::path& mesh) {

@@ -79,12 +79,12 @@ class SlidesOnACoarseLiver : public ::testing::TestWithParam<double> {
   static const MetaModel* model() {
     static const std::unique_ptr<const MetaModel> model = [] {
       const TemporaryFile organ("coarse.msh"), solved("coarse.h5");
-      const bool made =
-          runProgram("palpate-organ", {"import", mesh(), "--scale", "0.0933", "--fixed", "lowest-z:0.08",
-                                       "-o", organ.path().string()})
-                  .exit_code == 0 &&
-          runProgram("palpate-solve", {organ.path().string(), "-o", solved.path().string(), "-q"})
-                  .exit_code == 0;
+      const bool made = runProgram("palpate-organ", {"import", mesh(), "--scale", "0.0933", "--fixed",
+                                                     "lowest-z:0.08", "-o", organ.path().string()})
+                                .exit_code == 0 &&
+                        runProgram("palpate-solve", {organ.path().string(), "--element-order", "1", "-o",
+                                                     solved.path().string(), "-q"})
+                                .exit_code == 0;
       return made ? std::make_unique<const MetaModel>(MetaModel::load(solved.path())) : nullptr;
     }();
     return model.get();

@@ -42,11 +42,13 @@ struct BoxMesh {
 };
 
 /// Writes the model of the box. Its near field covers the box whole: what the modes miss is all in there.
-inline void writeBoxModel(const std::filesystem::path& path, const std::string& law = "stvk") {
+inline void writeBoxModel(const std::filesystem::path& path, const std::string& law = "stvk",
+                          int element_order = 1) {
   solver::Case c;
   c.mesh = "box";
   c.accessible = "accessible";
   c.law = law;
+  c.element_order = element_order;
   c.E = 1e5;
   c.nu = 0.4;
   c.patch_radius = 0.012;
@@ -54,18 +56,21 @@ inline void writeBoxModel(const std::filesystem::path& path, const std::string& 
   c.near_radius = 1.0;
   c.sweeps = 2;
   solver::BuildReport report;
-  modelfile::ModelData data = solver::buildModel(c, BoxMesh::make(), {1, path.parent_path(), true}, report);
+  modelfile::ModelData data =
+      solver::buildModel(c, solver::raised(c, BoxMesh::make()), {1, path.parent_path(), true}, report);
   data.attributes.provenance = "{}";
   modelfile::writeModel(path, data);
 }
 
 /// The model of the box, loaded, and its full problem.
 struct BoxModel {
-  explicit BoxModel(std::string of_law = "stvk") : law(std::move(of_law)) {}
+  explicit BoxModel(std::string of_law = "stvk", int order = 1)
+      : law(std::move(of_law)), element_order(order) {}
 
   std::string law;
+  int element_order;
   TemporaryFolder folder;
-  std::filesystem::path path{(writeBoxModel(folder / "box.h5", law), folder / "box.h5")};
+  std::filesystem::path path{(writeBoxModel(folder / "box.h5", law, element_order), folder / "box.h5")};
   MetaModel model{MetaModel::load(path)};
   Organ organ{organOf(model, modelfile::readVolumeMesh(path))};
 

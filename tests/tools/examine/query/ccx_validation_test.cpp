@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 #include "box_model.h"
 #include "palpate/testing/run_program.h"
@@ -28,16 +29,20 @@ std::map<std::int64_t, Vec3> printedBy(const std::filesystem::path& dat) {
   return u;
 }
 
-class CalculixValidation : public ::testing::TestWithParam<std::string_view> {};
-INSTANTIATE_TEST_SUITE_P(Material, CalculixValidation, ::testing::ValuesIn(kLaws), [](const auto& test) {
-  std::string name(test.param);
-  std::erase(name, '-');
-  return name;
-});
+/// A law, and elements of four nodes (C3D4) or of ten (C3D10).
+class CalculixValidation : public ::testing::TestWithParam<std::tuple<std::string_view, int>> {};
+INSTANTIATE_TEST_SUITE_P(Body, CalculixValidation,
+                         ::testing::Combine(::testing::ValuesIn(kLaws), ::testing::Values(1, 2)),
+                         [](const auto& test) {
+                           std::string name(std::get<0>(test.param));
+                           std::erase(name, '-');
+                           return name + (std::get<1>(test.param) == 1 ? "Linear" : "Quadratic");
+                         });
 
 TEST_P(CalculixValidation, EveryNodeMovesAsInNewton) {
   if (!palpate::testing::isInstalled("ccx")) GTEST_SKIP() << "ccx (package calculix-ccx) is missing";
-  const BoxModel box{std::string(GetParam())};
+  const auto& [law, element_order] = GetParam();
+  const BoxModel box{std::string(law), element_order};
   const Vec3 d(0.003, -0.004, -0.012);
   const FullSolution truth = box.solve(anchorNear(box.model, {0.083, 0.031, 0.06}), d);
   program::writeFile(box.folder / "deck.inp", ccxDeck(box.organ, truth, "validation", 1));

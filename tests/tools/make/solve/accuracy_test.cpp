@@ -42,8 +42,8 @@ class CoarseLiver : public ::testing::Test {
     const auto made = runProgram(
         "palpate-organ", {"liver", "--element-size", "0.017", "-o", (*folder_ / "liver.msh").string()});
     ASSERT_EQ(made.exit_code, 0) << made.err;
-    const auto solved = runProgram(
-        "palpate-solve", {(*folder_ / "liver.msh").string(), "-o", (*folder_ / "liver.h5").string(), "-q"});
+    const auto solved = runProgram("palpate-solve", {(*folder_ / "liver.msh").string(), "--element-order",
+                                                     "1", "-o", (*folder_ / "liver.h5").string(), "-q"});
     ASSERT_EQ(solved.exit_code, 0) << solved.err;
   }
   static void TearDownTestSuite() { folder_.reset(); }

@@ -9,6 +9,8 @@
 #include "palpate/testing/files.h"
 #include "palpate/testing/run_program.h"
 #include "tools/mesh/box_mesh.h"
+#include "tools/mesh/quadratic.h"
+#include "tools/mesh/read_mesh.h"
 #include "tools/mesh/topology.h"
 #include "tools/mesh/write_msh.h"
 
@@ -70,7 +72,7 @@ TEST_F(SolveProgram, MakesAModelThatInspectReads) {
       solve({writeCase("[model]\nmodes = 20\nnear_radius = 0.02\n"), "-o", path("out.h5"), "--json", "-q"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto summary = nlohmann::json::parse(result.out);
-  EXPECT_EQ(summary.at("nodes"), 80);
+  EXPECT_EQ(summary.at("nodes"), 9 * 7 * 7);  // 5 x 4 x 4, raised to quadratic elements
   EXPECT_EQ(summary.at("modes"), 20);
   EXPECT_GT(summary.at("peak_memory_MiB"), 1.0);
   for (const char* key : {"factor", "series", "fit", "write", "total"})
@@ -85,6 +87,34 @@ TEST_F(SolveProgram, MakesAModelThatInspectReads) {
     EXPECT_EQ(model.at(radius).at("p05"), summary.at(radius).at("p05"));
   EXPECT_GE(model.at("series_radius").at("p05"), model.at("domain_radius").at("p05"));
   EXPECT_NE(model.at("provenance").at("case").get<std::string>().find("modes = 20"), std::string::npos);
+}
+
+TEST_F(SolveProgram, RaisesALinearMeshOrNot) {
+  const auto nodes = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", path("out.h5"), "-q", "--json", "--modes", "20"});
+    const ProgramResult result = solve(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out).at("nodes").get<int>();
+  };
+  const std::string steady = "[material]\nnu = 0.3\n";
+  EXPECT_EQ(nodes({path("block.msh"), "--element-order", "1"}), 80);
+  EXPECT_EQ(nodes({writeCase(steady)}), 80) << "linear elements do not lock";
+  EXPECT_EQ(nodes({writeCase(steady), "--element-order", "2"}), 441);
+  EXPECT_EQ(nodes({path("block.msh"), "--method", "series-force"}), 80) << "the paper's";
+  std::ofstream(folder_ / "case.toml") << "[mesh]\nfile = \"block.msh\"\nelement_order = 1\n";
+  EXPECT_EQ(nodes({path("case.toml")}), 80);
+}
+
+TEST_F(SolveProgram, RefusesElementsThatThereAreNot) {
+  std::ofstream(folder_ / "case.toml") << "[mesh]\nfile = \"block.msh\"\nelement_order = 3\n";
+  expectRefusal(solve({path("case.toml"), "-o", path("out.h5")}), "case.toml:3: mesh.element_order");
+  std::ofstream(folder_ / "case.toml") << "[mesh]\nelement_order = 2\n";
+  expectRefusal(solve({path("case.toml"), "-o", path("out.h5")}), "mesh.file is missing");
+  mesh::TetMesh block = mesh::quadraticOf(mesh::readMesh(folder_ / "block.msh"));
+  block.groups.erase("organ");
+  writeBlock("quadratic.msh", block);
+  expectRefusal(solve({path("quadratic.msh"), "--element-order", "1", "-o", path("out.h5")}),
+                "whose elements are quadratic");
 }
 
 TEST_F(SolveProgram, SolvesABareMeshWithItsAccessibleGroup) {
