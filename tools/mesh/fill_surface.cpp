@@ -3,7 +3,6 @@
 
 #include <gmsh.h>
 
-#include <cmath>
 #include <iomanip>
 #include <numbers>
 #include <sstream>
@@ -11,6 +10,7 @@
 
 #include "tools/mesh/gmsh_session.h"
 #include "tools/mesh/mesh_error.h"
+#include "tools/mesh/size_field.h"
 
 namespace palpate::mesh {
 namespace {
@@ -58,20 +58,29 @@ void addVolume() {
   gmsh::model::geo::synchronize();
 }
 
+void fillGraded(const ElementSizes& sizes) {
+  gmsh::model::mesh::generate(2);
+  const InnerSizes inner = innerSizesOfModel(sizes);
+  gmsh::model::mesh::field::setAsBackgroundMesh(-1);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", 0);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", sizes.inner);
+  const SizeField field([&](int, int, const Eigen::Vector3d& x) { return inner.at(x); });
+  gmsh::model::mesh::generate(3);
+}
+
 }  // namespace
 
-TetMesh fillSurface(const TriangleSurface& surface, double element_size) {
-  if (!(element_size >= 0) || !std::isfinite(element_size))
-    throw MeshError("the element size must be positive");
+TetMesh fillSurface(const TriangleSurface& surface, const ElementSizes& sizes) {
+  checkElementSizes(sizes);
   const GmshSession gmsh_session;
   TetMesh mesh;
   gmsh_session.run("the surface cannot be filled with tetrahedra", [&] {
     gmsh::model::add("surface");
     addSurface(surface);
-    if (element_size > 0) prepareRemeshing(element_size);
+    if (sizes.surface > 0) prepareRemeshing(sizes.surface);
     addVolume();
     gmsh::option::setNumber("Mesh.Optimize", 1);
-    gmsh::model::mesh::generate(3);
+    sizes.isGraded() ? fillGraded(sizes) : gmsh::model::mesh::generate(3);
     mesh = gmsh_session.tetrahedra();
   });
   if (mesh.tetrahedra.empty())

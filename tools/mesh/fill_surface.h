@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tools/mesh/element_sizes.h"
 #include "tools/mesh/tet_mesh.h"
 #include "tools/mesh/triangle_surface.h"
 
 namespace palpate::mesh {
 
-/// Fills a closed surface with tetrahedra (Gmsh). With `element_size` 0 it keeps the surface's triangles, and
+/// Fills a closed surface with tetrahedra (Gmsh). With size 0 at the surface it keeps the surface's triangles, and
 /// the vertices are nodes 1..V in their order; otherwise it remeshes the surface at that size first.
 /// @param surface has passed checkSurface()
-/// @param element_size  m; 0 or positive
-/// @throw MeshError when Gmsh cannot mesh it
+/// @throw MeshError when sizes are out of range or Gmsh cannot mesh it
 /// Cost seconds for 1e4 triangles. Threads: one at a time (Gmsh is global state).
-[[nodiscard]] TetMesh fillSurface(const TriangleSurface& surface, double element_size);
+[[nodiscard]] TetMesh fillSurface(const TriangleSurface& surface, const ElementSizes& sizes);
 
 }  // namespace palpate::mesh

@@ -3,6 +3,7 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -22,6 +23,8 @@ extern "C" const char* __lsan_default_suppressions() {
 namespace palpate::mesh {
 namespace {
 
+constexpr int kTetrahedron = 4;
+
 [[noreturn]] void fail(const std::string& what, std::string reason) {
   for (auto& c : reason) c = c == '\n' ? ' ' : c;
   throw MeshError(what + ": " + (reason.empty() ? "Gmsh gives no reason" : reason));
@@ -31,6 +34,28 @@ std::string lastError() {
   std::string error;
   gmsh::logger::getLastError(error);
   return error;
+}
+
+/// @param element_tags  Gmsh's numbers of the mesh's tetrahedra
+void addRegions(const std::vector<std::size_t>& element_tags, TetMesh& mesh) {
+  std::map<std::size_t, std::int32_t> index;
+  for (std::size_t t = 0; t < element_tags.size(); ++t) index[element_tags[t]] = static_cast<std::int32_t>(t);
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 3);
+  for (const auto& [dimension, number] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, number, name);
+    if (name.empty()) continue;
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, number, entities);
+    std::vector<std::int32_t>& region = mesh.regions[name];
+    for (const int entity : entities) {
+      std::vector<std::size_t> tags, corners;
+      gmsh::model::mesh::getElementsByType(kTetrahedron, tags, corners, entity);
+      for (const auto tag : tags) region.push_back(index.at(tag));
+    }
+    std::sort(region.begin(), region.end());
+  }
 }
 
 }  // namespace
@@ -64,7 +89,6 @@ TetMesh GmshSession::tetrahedra() const {
   std::vector<std::size_t> node_tags, element_tags, corners;
   std::vector<double> coordinates, parameters;
   gmsh::model::mesh::getNodes(node_tags, coordinates, parameters);
-  constexpr int kTetrahedron = 4;
   gmsh::model::mesh::getElementsByType(kTetrahedron, element_tags, corners);
   std::map<std::size_t, std::size_t> position;  // by Gmsh number: of the nodes that tetrahedra use
   for (std::size_t i = 0; i < node_tags.size(); ++i) position[node_tags[i]] = i;
@@ -84,6 +108,7 @@ TetMesh GmshSession::tetrahedra() const {
   mesh.tetrahedron_tags.resize(mesh.tetrahedra.size());
   std::iota(mesh.node_tags.begin(), mesh.node_tags.end(), 1);
   std::iota(mesh.tetrahedron_tags.begin(), mesh.tetrahedron_tags.end(), 1);
+  addRegions(element_tags, mesh);
   return mesh;
 }
 

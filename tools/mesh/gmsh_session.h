@@ -20,8 +20,8 @@ class GmshSession {
   /// Runs `work`, which calls Gmsh, and turns every exception of Gmsh into a MeshError `what: reason`.
   void run(const std::string& what, const std::function<void()>& work) const;
 
-  /// The tetrahedra of the current Gmsh model, nodes in order of Gmsh's numbers, renumbered from 1; no
-  /// groups.
+  /// The tetrahedra of the current Gmsh model, nodes in order of Gmsh's numbers, renumbered from 1. Named
+  /// physical volumes are regions; no groups.
   [[nodiscard]] TetMesh tetrahedra() const;
 };
 

@@ -17,7 +17,7 @@ double volumeOf(const TetMesh& mesh) {
 
 TEST(FillSurface, KeepsTheTrianglesOfACube) {
   const TriangleSurface surface = cube();
-  const TetMesh mesh = fillSurface(surface, 0);
+  const TetMesh mesh = fillSurface(surface, {0});
   EXPECT_NO_THROW(checkMesh(mesh));
   EXPECT_NEAR(volumeOf(mesh), 1, 1e-12);
   EXPECT_EQ(boundaryOf(mesh).triangles.size(), 12U);
@@ -25,8 +25,8 @@ TEST(FillSurface, KeepsTheTrianglesOfACube) {
 }
 
 TEST(FillSurface, RemeshesACubeAtTheGivenSize) {
-  const TetMesh coarse = fillSurface(cube(), 0.5);
-  const TetMesh fine = fillSurface(cube(), 0.2);
+  const TetMesh coarse = fillSurface(cube(), {0.5});
+  const TetMesh fine = fillSurface(cube(), {0.2});
   EXPECT_NO_THROW(checkMesh(fine));
   EXPECT_NEAR(volumeOf(fine), 1, 1e-9);
   EXPECT_GT(boundaryOf(fine).triangles.size(), 4 * boundaryOf(coarse).triangles.size());
@@ -39,14 +39,39 @@ TEST(FillSurface, MakesAFineSurfaceCoarser) {
   for (const auto node : boundary.nodes)
     surface.vertices.push_back(box.nodes[static_cast<std::size_t>(node)]);
   surface.triangles = boundary.triangles;
-  const TetMesh mesh = fillSurface(surface, 0.3);
+  const TetMesh mesh = fillSurface(surface, {0.3});
   EXPECT_NO_THROW(checkMesh(mesh));
   EXPECT_NEAR(volumeOf(mesh), 1, 1e-9);
   EXPECT_LT(boundaryOf(mesh).triangles.size(), surface.triangles.size() / 4);
 }
 
+// Interior elements of a large cube grow; its surface is the same.
+TEST(FillSurface, GrowsInsideWhetherTheSurfaceIsKeptOrMadeAnew) {
+  const TetMesh box = makeBox({1, 1, 1}, {11, 11, 11});
+  const BoundarySurface boundary = boundaryOf(box);
+  TriangleSurface surface;
+  for (const auto node : boundary.nodes)
+    surface.vertices.push_back(box.nodes[static_cast<std::size_t>(node)]);
+  surface.triangles = boundary.triangles;
+  for (const double size : {0.0, 0.1}) {
+    const TetMesh even = fillSurface(surface, {size});
+    const TetMesh graded = fillSurface(surface, {size, 0.4, 0.5});
+    EXPECT_NO_THROW(checkMesh(graded));
+    EXPECT_NEAR(volumeOf(graded), 1, 1e-9);
+    const auto triangles = static_cast<double>(boundaryOf(even).triangles.size());
+    EXPECT_NEAR(static_cast<double>(boundaryOf(graded).triangles.size()) / triangles, 1, size > 0 ? 0.05 : 0);
+    const auto inner = [](const TetMesh& mesh) { return mesh.nodes.size() - boundaryOf(mesh).nodes.size(); };
+    EXPECT_LT(inner(graded), 200U) << size;
+    EXPECT_GT(inner(graded), 20U) << size;
+    const TetMesh steep = fillSurface(surface, {size, 0.4, 1});
+    EXPECT_LT(inner(steep), inner(graded)) << size;
+  }
+}
+
 TEST(FillSurface, RefusesANegativeSize) {
-  EXPECT_REFUSED(fillSurface(cube(), -1), "element size");
+  EXPECT_REFUSED(fillSurface(cube(), {-1}), "--element-size");
+  EXPECT_REFUSED(fillSurface(cube(), {0.2, 0.1}), "--inner-size must be at least --element-size");
+  EXPECT_REFUSED(fillSurface(cube(), {0.2, 0.4, 3}), "--growth", "3.0");
 }
 
 }  // namespace

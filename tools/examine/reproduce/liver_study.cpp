@@ -9,7 +9,7 @@
 #include "tools/examine/reproduce/liver_nonlinear.h"
 #include "tools/examine/reproduce/liver_organ.h"
 #include "tools/examine/reproduce/liver_ten_terms.h"
-#include "tools/make/organ/liver.h"
+#include "tools/make/organ/paper_liver.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/read_mesh.h"
@@ -144,7 +144,7 @@ Json reproduceLiver(const LiverOptions& asked, Output& out) {
   std::sort(options.pairs.begin(), options.pairs.end());
   out.step("the organ, its clamp and its load positions");
   const mesh::TetMesh mesh =
-      options.mesh.empty() ? organ::makeLiver(options.element_size) : readOrgan(options.mesh);
+      options.mesh.empty() ? organ::makePaperLiver(options.element_size) : readOrgan(options.mesh);
   const solver::Case c = wholeBoundary(options.mesh);
   const solver::SolverSetup setup(c, mesh);
   if (options.pairs.back() >= static_cast<int>(setup.positions.nodes.size()))

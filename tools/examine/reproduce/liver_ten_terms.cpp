@@ -6,7 +6,7 @@
 
 #include "tools/examine/reproduce/liver_organ.h"
 #include "tools/examine/reproduce/touches.h"
-#include "tools/make/organ/liver.h"
+#include "tools/make/organ/paper_liver.h"
 #include "tools/solver/pgd/explicit_pgd.h"
 
 namespace palpate::reproduce {
@@ -51,7 +51,7 @@ void studyTenTerms(const LiverOptions& options, Output& out, Json& results) {
   char size[32];
   std::snprintf(size, sizeof size, "%.3g", 1e3 * options.coarse_element_size);
   out.step("ten terms, Eq. (19), on a liver of " + std::string(size) + " mm elements");
-  const mesh::TetMesh mesh = organ::makeLiver(options.coarse_element_size);
+  const mesh::TetMesh mesh = organ::makePaperLiver(options.coarse_element_size);
   const solver::SolverSetup setup(wholeBoundary({}), mesh);
   double load = 1.0;
   const solver::BodyProblem problem = downwardProblem(setup, kTravel, load);

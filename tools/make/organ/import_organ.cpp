@@ -9,6 +9,7 @@
 #include "tools/mesh/fill_surface.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/midsides.h"
+#include "tools/mesh/quadratic.h"
 #include "tools/mesh/read_mesh.h"
 #include "tools/mesh/read_surface.h"
 #include "tools/mesh/topology.h"
@@ -21,13 +22,14 @@ using mesh::MeshError;
 void checkOptions(const std::filesystem::path& path, const ImportOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale))
     throw MeshError("--scale must be a positive number");
-  if (!(options.element_size >= 0) || !std::isfinite(options.element_size)) {
-    throw MeshError("--element-size must be a positive number");
+  mesh::checkElementSizes(options.sizes);
+  const bool is_sized = options.sizes.surface > 0 || options.sizes.isGraded();
+  if (is_sized && !mesh::isSurfaceFile(path)) {
+    throw MeshError("--element-size and --inner-size are for surfaces (.stl, .obj); the tetrahedra of " +
+                    path.string() + " are taken as they are");
   }
-  if (options.element_size > 0 && !mesh::isSurfaceFile(path)) {
-    throw MeshError("--element-size is for surfaces (.stl, .obj); the tetrahedra of " + path.string() +
-                    " are taken as they are");
-  }
+  if (options.order && *options.order != 1 && *options.order != 2)
+    throw MeshError("--element-order must be 1 or 2, not " + std::to_string(*options.order));
 }
 
 mesh::TetMesh readScaled(const std::filesystem::path& path, const ImportOptions& options) {
@@ -39,7 +41,7 @@ mesh::TetMesh readScaled(const std::filesystem::path& path, const ImportOptions&
   mesh::TriangleSurface surface = mesh::readSurface(path);
   for (auto& x : surface.vertices) x *= options.scale;
   mesh::checkSurface(surface);
-  return mesh::fillSurface(surface, options.element_size);
+  return mesh::fillSurface(surface, options.sizes);
 }
 
 void noteGroupsNotKept(ImportedOrgan& organ, const FixedRule& rule) {
@@ -58,6 +60,13 @@ void noteCurvedEdges(ImportedOrgan& organ) {
   organ.notes.emplace_back(text);
 }
 
+void setOrder(ImportedOrgan& organ, const std::optional<int>& order) {
+  if (!order || (*order == 2) == organ.mesh.isQuadratic()) return;
+  if (*order == 1) throw MeshError("--element-order 1: the elements of the file are quadratic");
+  organ.mesh = mesh::quadraticOf(organ.mesh);
+  organ.boundary = mesh::boundaryOf(organ.mesh);
+}
+
 ImportedOrgan importChecked(const std::filesystem::path& path, const ImportOptions& options) {
   ImportedOrgan organ{readScaled(path, options), {}, {}};
   if (mesh::reorientIfAllNegative(organ.mesh)) {
@@ -71,6 +80,7 @@ ImportedOrgan importChecked(const std::filesystem::path& path, const ImportOptio
   if (!organ.mesh.groups.contains("fixed")) {
     organ.notes.emplace_back("nothing is fixed: name a group, a height or a box with --fixed");
   }
+  setOrder(organ, options.order);
   return organ;
 }
 

@@ -4,146 +4,142 @@
 #include <gmsh.h>
 
 #include <algorithm>
-#include <functional>
-#include <numbers>
-#include <queue>
-#include <utility>
+#include <string>
 #include <vector>
 
+#include "tools/make/organ/clamp.h"
+#include "tools/make/organ/liver_shape.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/gmsh_session.h"
 #include "tools/mesh/mesh_error.h"
+#include "tools/mesh/quadratic.h"
+#include "tools/mesh/size_field.h"
 #include "tools/mesh/topology.h"
 
 namespace palpate::organ {
 namespace {
 
 namespace occ = gmsh::model::occ;
-constexpr double kRounding = 0.020;      // radius of the rounded creases, m; OpenCASCADE gives up at 0.022
-constexpr double kFixedFraction = 0.10;  // of the surface nodes
-constexpr double kRimWidth = 0.015;      // m; a contact patch nearer to the clamp would lie half on it
+using Vec3 = Eigen::Vector3d;
 
-struct Ellipsoid {
-  Eigen::Vector3d centre, radii;
-  double turn;  // about y, rad
-};
-const Ellipsoid kRightLobe{{-0.033, 0, 0}, {0.074, 0.065, 0.069}, 0};
-const Ellipsoid kLeftLobe{{0.038, 0.006, 0.0134}, {0.081, 0.046, 0.046}, -0.15};
-const Ellipsoid kHollow{{0.0285, -0.015, -0.074}, {0.1235, 0.060, 0.056}, 0};  // the visceral face
+const Vec3 kBareArea{-0.042, 0.056, 0.014};  // at the back of the right lobe
+constexpr double kBareRadius = 0.045;        // m
+const Vec3 kInFrontOfNodule{-0.045, -0.090, 0.012};
 
-gmsh::vectorpair addEllipsoid(const Ellipsoid& e) {
-  gmsh::vectorpair body{{3, occ::addSphere(0, 0, 0, 1)}};
-  // Poles along x: where they meet the creases, tiny faces would force slivers into the mesh.
-  occ::rotate(body, 0, 0, 0, 0, 1, 0, std::numbers::pi / 2);
-  occ::dilate(body, 0, 0, 0, e.radii.x(), e.radii.y(), e.radii.z());
-  occ::rotate(body, 0, 0, 0, 0, 1, 0, e.turn);
-  occ::translate(body, e.centre.x(), e.centre.y(), e.centre.z());
-  return body;
-}
-
-// The edges between two different faces; the seams of the spheres lie within one.
-std::vector<int> creases(int volume) {
-  std::vector<int> found;
-  gmsh::vectorpair faces, curves;
-  gmsh::model::getBoundary({{3, volume}}, faces, false, false);
-  gmsh::model::getBoundary(faces, curves, false, false);
-  std::sort(curves.begin(), curves.end());
-  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
-  for (const auto& curve : curves) {
-    std::vector<int> upward, downward;
-    gmsh::model::getAdjacencies(1, curve.second, upward, downward);
-    if (upward.size() > 1) found.push_back(curve.second);
+void checkOptions(const LiverOptions& options) {
+  if (!(options.sizes.surface >= 0.003 && options.sizes.surface <= 0.02)) {
+    throw mesh::MeshError("--element-size must be between 0.003 and 0.02 m, not " +
+                          std::to_string(options.sizes.surface));
   }
-  return found;
+  mesh::checkElementSizes(options.sizes);
+  if (options.order != 1 && options.order != 2)
+    throw mesh::MeshError("--element-order must be 1 or 2, not " + std::to_string(options.order));
 }
 
-void buildBody() {
+// A smooth solid through all sections. @return its number
+int buildBody() {
+  std::vector<int> wires;
+  for (const LiverSection& section : liverSections()) {
+    std::vector<int> points;
+    for (const auto& p : section.points) points.push_back(occ::addPoint(section.x, p.x(), p.y()));
+    points.push_back(points.front());
+    wires.push_back(occ::addWire({occ::addBSpline(points)}));
+  }
   gmsh::vectorpair body;
-  std::vector<gmsh::vectorpair> origins;
-  occ::fuse(addEllipsoid(kRightLobe), addEllipsoid(kLeftLobe), body, origins);
-  gmsh::vectorpair cut;
-  occ::cut(body, addEllipsoid(kHollow), cut, origins);
+  occ::addThruSections(wires, body, -1, true, false);
   occ::synchronize();
-  const int volume = cut.at(0).second;
-  gmsh::vectorpair rounded;
-  occ::fillet({volume}, creases(volume), {kRounding}, rounded);
-  occ::synchronize();
+  return std::find_if(body.begin(), body.end(), [](const auto& part) { return part.first == 3; })->second;
 }
 
-void meshBody(double element_size) {
-  gmsh::option::setNumber("Mesh.MeshSizeMin", element_size);
-  gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
-  gmsh::option::setNumber("Mesh.Algorithm", 6);  // Frontal-Delaunay: the most regular triangles
+// Under the point of the surface that is nearest to a point in front of it.
+Nodule placeNodule(int body) {
+  gmsh::vectorpair faces;
+  gmsh::model::getBoundary({{3, body}}, faces, false, false);
+  Nodule nodule{};
+  for (const auto& face : faces) {
+    std::string type;
+    gmsh::model::getType(2, face.second, type);
+    if (type == "Plane") continue;  // a cap
+    std::vector<double> place, parameters;
+    gmsh::model::getClosestPoint(2, face.second, {kInFrontOfNodule.begin(), kInFrontOfNodule.end()}, place,
+                                 parameters);
+    nodule.above = Vec3(place.data());
+  }
+  nodule.centre = nodule.above + Nodule::kDepth * (nodule.above - kInFrontOfNodule).normalized();
+  return nodule;
+}
+
+// Parts the body into nodule and liver with one face between them. @return the number of the nodule
+int partNodule(int body, const Vec3& centre) {
+  const int sphere = occ::addSphere(centre.x(), centre.y(), centre.z(), Nodule::kRadius);
+  gmsh::vectorpair parts;
+  std::vector<gmsh::vectorpair> parts_of;
+  occ::fragment({{3, body}}, {{3, sphere}}, parts, parts_of);
+  occ::synchronize();
+  const int nodule = parts_of.at(1).at(0).second;
+  for (const auto& [dimension, part] : parts) {
+    const int group = gmsh::model::addPhysicalGroup(3, {part});
+    gmsh::model::setPhysicalName(3, group, part == nodule ? "nodule" : "liver");
+  }
+  return nodule;
+}
+
+void meshSurfaces(const mesh::ElementSizes& sizes, double nodule_size, const Vec3& centre) {
+  gmsh::option::setNumber("Mesh.Algorithm", 1);  // MeshAdapt: no slivers along the edge, unlike 5 and 6
+  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 6);  // a turn of the edge takes six elements
+  gmsh::option::setNumber("Mesh.MeshSizeMin", std::min(nodule_size, 0.6 * sizes.surface));
+  gmsh::option::setNumber("Mesh.MeshSizeMax", sizes.surface);
+  const mesh::SizeField field([&](int, int, const Vec3& x) {
+    return nodule_size + sizes.growth * std::max(0.0, (x - centre).norm() - Nodule::kRadius);
+  });
+  gmsh::model::mesh::generate(2);
+}
+
+void meshVolumes(const mesh::ElementSizes& sizes, double nodule_size, int nodule) {
+  const mesh::InnerSizes inner = mesh::innerSizesOfModel(sizes);
+  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 0);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", 0);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", sizes.inner);
   gmsh::option::setNumber("Mesh.Optimize", 1);
+  gmsh::option::setNumber("Mesh.OptimizeThreshold", 0.5);
+  const mesh::SizeField field([&](int dimension, int entity, const Vec3& x) {
+    return dimension == 3 && entity == nodule ? nodule_size : inner.at(x);
+  });
   gmsh::model::mesh::generate(3);
 }
 
-// Surface nodes in order of their distance from `start` along the edges of the surface.
-std::vector<std::int32_t> byDistance(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary,
-                                     std::size_t start) {
-  const std::size_t count = boundary.nodes.size();
-  const auto at = [&](std::size_t i) { return mesh.nodes[static_cast<std::size_t>(boundary.nodes[i])]; };
-  std::vector<std::vector<std::size_t>> neighbours(count);
-  for (const auto& t : boundary.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      neighbours[static_cast<std::size_t>(t[i])].push_back(static_cast<std::size_t>(t[(i + 1) % 3]));
-    }
-  }
-  std::vector<bool> done(count, false);
-  std::vector<std::int32_t> order;
-  using Entry = std::pair<double, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  open.emplace(0.0, start);
-  while (!open.empty()) {
-    const auto [distance, i] = open.top();
-    open.pop();
-    if (done[i]) continue;
-    done[i] = true;
-    order.push_back(boundary.nodes[i]);
-    for (const auto j : neighbours[i]) open.emplace(distance + (at(i) - at(j)).norm(), j);
-  }
-  return order;
-}
-
-void addGroups(mesh::TetMesh& mesh) {
-  const mesh::BoundarySurface boundary = mesh::boundaryOf(mesh);
-  std::size_t rearmost = 0;
-  const auto y = [&](std::size_t i) { return mesh.nodes[static_cast<std::size_t>(boundary.nodes[i])].y(); };
-  for (std::size_t i = 1; i < boundary.nodes.size(); ++i) {
-    if (y(i) > y(rearmost)) rearmost = i;
-  }
-  std::vector<std::int32_t> fixed = byDistance(mesh, boundary, rearmost);
-  fixed.resize(static_cast<std::size_t>(kFixedFraction * static_cast<double>(fixed.size())));
-  std::sort(fixed.begin(), fixed.end());
-  const auto isClear = [&](std::int32_t node) {
-    return std::none_of(fixed.begin(), fixed.end(), [&](std::int32_t held) {
-      return (mesh.nodes[static_cast<std::size_t>(node)] - mesh.nodes[static_cast<std::size_t>(held)])
-                 .norm() < kRimWidth;
-    });
-  };
-  std::copy_if(boundary.nodes.begin(), boundary.nodes.end(), std::back_inserter(mesh.groups["accessible"]),
-               isClear);
-  mesh.groups["fixed"] = std::move(fixed);
+std::vector<std::int32_t> bareArea(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary) {
+  std::vector<std::int32_t> fixed;
+  std::copy_if(boundary.nodes.begin(), boundary.nodes.end(), std::back_inserter(fixed),
+               [&](std::int32_t node) {
+                 return (mesh.nodes[static_cast<std::size_t>(node)] - kBareArea).norm() <= kBareRadius;
+               });
+  return fixed;
 }
 
 }  // namespace
 
-mesh::TetMesh makeLiver(double element_size) {
-  if (!(element_size >= 0.003 && element_size <= 0.02)) {
-    throw mesh::MeshError("--element-size must be between 0.003 and 0.02 m, not " +
-                          std::to_string(element_size));
-  }
+Liver makeLiver(const LiverOptions& options) {
+  checkOptions(options);
+  mesh::ElementSizes sizes = options.sizes;
+  if (!sizes.isGraded()) sizes.inner = sizes.surface;
+  const double nodule_size = std::min(0.0039, 0.5 * sizes.surface);
+  Liver liver;
   const mesh::GmshSession session;
-  mesh::TetMesh mesh;
   session.run("the default organ cannot be meshed", [&] {
     gmsh::model::add("liver");
-    buildBody();
-    meshBody(element_size);
-    mesh = session.tetrahedra();
+    const int body = buildBody();
+    liver.nodule = placeNodule(body);
+    const int nodule = partNodule(body, liver.nodule.centre);
+    meshSurfaces(sizes, nodule_size, liver.nodule.centre);
+    meshVolumes(sizes, nodule_size, nodule);
+    liver.mesh = session.tetrahedra();
   });
-  mesh::checkMesh(mesh);
-  addGroups(mesh);
-  return mesh;
+  mesh::checkMesh(liver.mesh);
+  const mesh::BoundarySurface boundary = mesh::boundaryOf(liver.mesh);
+  setClamp(liver.mesh, boundary, bareArea(liver.mesh, boundary));
+  if (options.order == 2) liver.mesh = mesh::quadraticOf(liver.mesh);
+  return liver;
 }
 
 }  // namespace palpate::organ

@@ -1,20 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tools/mesh/element_sizes.h"
 #include "tools/mesh/tet_mesh.h"
 
 namespace palpate::organ {
 
-constexpr double kLiverElementSize = 0.0067;  ///< m; gives about 2,200 surface nodes
+/// How the default organ is meshed.
+struct LiverOptions {
+  mesh::ElementSizes sizes{0.008, 0.020, 0.5};  ///< m; at the surface in [0.003, 0.02]
+  int order{2};                                 ///< of the elements, 1 or 2
+};
 
-/// The default organ: a smooth, closed, liver-like body of about 0.22 x 0.13 x 0.12 m. Two ellipsoids joined,
-/// a third cut away from below, all creases rounded (docs/design.md, Parts). x points to the organ's left, y to the
-/// back, z up.
-///   Groups: `fixed`, the tenth of the surface nodes that lies nearest to the rearmost node along the
-///   surface; `accessible`, the surface nodes at least 15 mm away from those: where a tool presses on the rim
-///   of the clamp the series reaches less than half as far (docs/decisions/three_parts.md).
-/// @param element_size  edge length of the tetrahedra, m, in [0.003, 0.02]
-/// @throw MeshError when the size is out of range or Gmsh fails
-[[nodiscard]] mesh::TetMesh makeLiver(double element_size = kLiverElementSize);
+/// Where the default organ's nodule lies.
+struct Nodule {
+  Eigen::Vector3d centre;
+  Eigen::Vector3d above;  ///< the surface point nearest to it
+  static constexpr double kRadius = 0.012,
+                          kDepth = 0.014;  ///< m, of the sphere; of its centre under the surface
+};
+
+/// The default organ and what is in it.
+struct Liver {
+  mesh::TetMesh mesh;
+  Nodule nodule;
+};
+
+/// The default organ: a liver of about 0.22 x 0.12 x 0.125 m (liverSections()) with a nodule under the front of its right
+/// lobe. x points to the organ's left, y to the back, z up.
+///   Groups: `fixed`, the bare area at the back, what of the surface lies within 45 mm of a point of the right lobe;
+///   `accessible` (setClamp()). Regions: `nodule`, with elements of at most 5 mm, and `liver`, all others; their common
+///   face is one of elements.
+/// @throw MeshError when a size or the order is out of range or Gmsh fails
+/// Cost seconds. Threads: one at a time (Gmsh is global state).
+[[nodiscard]] Liver makeLiver(const LiverOptions& options = {});
 
 }  // namespace palpate::organ

@@ -6,8 +6,11 @@
 
 #include "tools/make/organ/import_organ.h"
 #include "tools/make/organ/liver.h"
+#include "tools/make/organ/liver_case.h"
+#include "tools/make/organ/paper_liver.h"
 #include "tools/make/organ/report.h"
 #include "tools/mesh/box_mesh.h"
+#include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
 #include "tools/mesh/write_msh.h"
 #include "tools/program/command_line.h"
@@ -18,45 +21,84 @@ namespace {
 
 struct Arguments {
   std::string output, input;
-  std::optional<std::string> fixed;
-  std::optional<double> element_size;
+  std::optional<std::string> fixed, case_file;
+  std::optional<double> element_size, inner_size, growth;
+  std::optional<int> element_order;
   double scale{1};
   bool json{false};
 };
 
-void addOutput(program::Options& command, Arguments& arguments) {
+// The kinds of organ. Each option stands where it means something.
+struct Commands {
+  program::Options liver, paper_liver, beam, import;
+};
+
+program::Options addCommand(program::Options line, const char* name, const char* help, Arguments& arguments) {
+  program::Options command = line.subcommand(name, help);
   command.add("-o,--output", &arguments.output, "The .msh file to write (Gmsh 4.1)").required();
   command.flag("--json", &arguments.json, "Print one JSON object on standard output");
-}
-
-program::Options addLiver(program::Options line, Arguments& arguments) {
-  program::Options command =
-      line.subcommand("liver", "Make the default organ, a liver-like body of about 0.22 x 0.13 x 0.12 m");
-  addOutput(command, arguments);
-  command.add("--element-size", &arguments.element_size, "Edge length of the tetrahedra, m [0.0067]");
   return command;
 }
 
-program::Options addBeam(program::Options line, Arguments& arguments) {
-  program::Options command = line.subcommand("beam", "Make the beam of 400 x 40 x 40 mm, clamped at x = 0");
-  addOutput(command, arguments);
-  return command;
+void addSizes(program::Options& command, Arguments& arguments, const std::string& element_size,
+              const std::string& inner_size) {
+  command.add("--element-size", &arguments.element_size,
+              "Edge length at the surface, m [" + element_size + "]");
+  command.add("--inner-size", &arguments.inner_size, "Largest edge length inside, m [" + inner_size + "]");
+  command.add("--growth", &arguments.growth, "Edge length per distance to the surface [0.5]");
 }
 
-void addImport(program::Options line, Arguments& arguments) {
-  program::Options command = line.subcommand(
-      "import",
-      "Import a mesh (.msh 1, 2, 4; .vtk; .mesh) or fill a closed surface (.stl, .obj). Nodes are numbered "
-      "from 1 in the file's order.");
-  command.add("file", &arguments.input, "The mesh to import").required();
-  addOutput(command, arguments);
-  command.add("--scale", &arguments.scale, "Metres per unit of the file");
-  command.add(
+void addOrder(program::Options& command, Arguments& arguments, const std::string& order) {
+  command
+      .add("--element-order", &arguments.element_order,
+           "Order of the elements: 1, four nodes; 2, ten nodes [" + order + "]")
+      .range(1, 2);
+}
+
+Commands addCommands(program::Options line, Arguments& arguments) {
+  Commands commands{
+      addCommand(line, "liver", "Make the default organ, a liver of 0.22 m with a nodule in it", arguments),
+      addCommand(line, "paper-liver",
+                 "Make the liver-like body of about 0.22 x 0.13 x 0.12 m of the comparisons with the paper",
+                 arguments),
+      addCommand(line, "beam", "Make the beam of 400 x 40 x 40 mm, clamped at x = 0", arguments),
+      addCommand(line, "import",
+                 "Import a mesh (.msh 1, 2, 4; .vtk; .mesh) or fill a closed surface (.stl, .obj). Nodes are "
+                 "numbered from 1 in the file's order.",
+                 arguments)};
+  addSizes(commands.liver, arguments, "0.008", "0.02");
+  addOrder(commands.liver, arguments, "2");
+  commands.liver.add("--case", &arguments.case_file,
+                     "Also write a case file for palpate-solve: soft liver, a stiff nodule");
+  commands.paper_liver.add("--element-size", &arguments.element_size,
+                           "Edge length of the tetrahedra, m [0.0067]");
+  addOrder(commands.paper_liver, arguments, "1");
+  commands.import.add("file", &arguments.input, "The mesh to import").required();
+  commands.import.add("--scale", &arguments.scale, "Metres per unit of the file");
+  commands.import.add(
       "--fixed", &arguments.fixed,
       "What is held: group:NAME, lowest-z:FRACTION of the surface nodes, or box:x0,y0,z0,x1,y1,z1 in m "
       "after scaling [the file's group 'fixed']");
-  command.add("--element-size", &arguments.element_size,
-              "Remesh a surface at this edge length, m [keep its triangles]");
+  addSizes(commands.import, arguments, "a surface keeps its triangles", "as at the surface");
+  addOrder(commands.import, arguments, "that of the file");
+  return commands;
+}
+
+mesh::ElementSizes sizesOf(const Arguments& arguments, const mesh::ElementSizes& defaults) {
+  return {arguments.element_size.value_or(defaults.surface), arguments.inner_size.value_or(defaults.inner),
+          arguments.growth.value_or(defaults.growth)};
+}
+
+mesh::TetMesh liver(const Arguments& arguments) {
+  LiverOptions options;
+  options.sizes = sizesOf(arguments, options.sizes);
+  options.order = arguments.element_order.value_or(options.order);
+  return makeLiver(options).mesh;
+}
+
+mesh::TetMesh paperLiver(const Arguments& arguments) {
+  const mesh::TetMesh mesh = makePaperLiver(arguments.element_size.value_or(kPaperLiverElementSize));
+  return arguments.element_order == 2 ? mesh::quadraticOf(mesh) : mesh;
 }
 
 ImportedOrgan withBoundary(mesh::TetMesh tets) {
@@ -68,7 +110,8 @@ ImportedOrgan withBoundary(mesh::TetMesh tets) {
 ImportedOrgan importFile(const Arguments& arguments) {
   ImportOptions options;
   options.scale = arguments.scale;
-  options.element_size = arguments.element_size.value_or(options.element_size);
+  options.sizes = sizesOf(arguments, options.sizes);
+  options.order = arguments.element_order;
   if (arguments.fixed) options.fixed = parseFixedRule(*arguments.fixed);
   ImportedOrgan organ = importOrgan(arguments.input, options);
   renumber(organ.mesh);
@@ -79,19 +122,18 @@ int body(int argc, char** argv) {
   // 1. What to make.
   program::CommandLine line(
       "palpate-organ",
-      "Makes and imports organ meshes: metres, linear tetrahedra, groups `fixed` and `accessible`.");
+      "Makes and imports organ meshes: metres, tetrahedra, groups `fixed` and `accessible`.");
   Arguments arguments;
-  const program::Options liver = addLiver(line.options(), arguments);
-  const program::Options beam = addBeam(line.options(), arguments);
-  addImport(line.options(), arguments);
+  const Commands commands = addCommands(line.options(), arguments);
   if (!line.read(argc, argv)) return 0;
   // 2. The organ.
-  const ImportedOrgan organ =
-      liver.chosen()  ? withBoundary(makeLiver(arguments.element_size.value_or(kLiverElementSize)))
-      : beam.chosen() ? withBoundary(mesh::makeBeam())
-                      : importFile(arguments);
+  const ImportedOrgan organ = commands.liver.chosen()         ? withBoundary(liver(arguments))
+                              : commands.paper_liver.chosen() ? withBoundary(paperLiver(arguments))
+                              : commands.beam.chosen()        ? withBoundary(mesh::makeBeam())
+                                                              : importFile(arguments);
   // 3. Its file, and what is in it.
   mesh::writeMsh(arguments.output, organ.mesh, organ.boundary);
+  if (arguments.case_file) writeLiverCase(*arguments.case_file, arguments.output);
   const Report report = makeReport(arguments.output, organ.mesh, organ.boundary, organ.notes);
   if (arguments.json) program::printJson(toJson(report));
   print(arguments.json ? std::cerr : std::cout, report);

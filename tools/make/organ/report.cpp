@@ -22,8 +22,14 @@ std::string inWords(const Eigen::Vector3d& x) {
 
 Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary,
                   std::vector<std::string> notes) {
-  Report report{file, mesh::statisticsOf(mesh, boundary), groupSize(mesh, "fixed"),
-                groupSize(mesh, "accessible"), std::move(notes)};
+  Report report{file,
+                mesh::statisticsOf(mesh, boundary),
+                mesh.isQuadratic() ? 2 : 1,
+                groupSize(mesh, "fixed"),
+                groupSize(mesh, "accessible"),
+                {},
+                std::move(notes)};
+  for (const auto& [name, tetrahedra] : mesh.regions) report.regions[name] = tetrahedra.size();
   const double largest = (report.statistics.box_max - report.statistics.box_min).maxCoeff();
   if (largest < 0.01 || largest > 1) {
     char text[120];
@@ -36,15 +42,21 @@ Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh
 
 program::Json toJson(const Report& report) {
   const auto& s = report.statistics;
+  program::Json regions = program::Json::object();
+  for (const auto& [name, tetrahedra] : report.regions) regions[name] = tetrahedra;
   return {{"file", report.file},
+          {"element_order", report.element_order},
           {"nodes", s.nodes},
+          {"corners", s.corners},
           {"tetrahedra", s.tetrahedra},
           {"surface_nodes", s.surface_nodes},
+          {"surface_corners", s.surface_corners},
           {"surface_triangles", s.surface_triangles},
           {"fixed_nodes", report.fixed_nodes},
           {"accessible_nodes", report.accessible_nodes},
           {"bounding_box", {{"min", s.box_min}, {"max", s.box_max}}},
           {"volume", s.volume},
+          {"regions", regions},
           {"worst_quality", s.worst_quality},
           {"worst_tetrahedron", s.worst_tetrahedron},
           {"mean_edge", s.mean_edge},
@@ -59,7 +71,12 @@ void print(std::ostream& out, const Report& report) {
   out << "nodes            " << s.nodes << ", " << s.surface_nodes
       << " on the surface: " << report.fixed_nodes << " fixed, " << report.accessible_nodes
       << " accessible\n";
-  out << "tetrahedra       " << s.tetrahedra << ", " << s.surface_triangles << " boundary triangles\n";
+  if (report.element_order == 2)
+    out << "corners          " << s.corners << ", " << s.surface_corners << " on the surface\n";
+  out << "tetrahedra       " << s.tetrahedra << (report.element_order == 2 ? " of ten nodes, " : ", ")
+      << s.surface_triangles << " boundary triangles\n";
+  for (const auto& [name, tetrahedra] : report.regions)
+    out << "region           " << name << ": " << tetrahedra << " tetrahedra\n";
   out << "bounding box     " << inWords(s.box_min) << " to " << inWords(s.box_max) << " m, size "
       << inWords(s.box_max - s.box_min) << " m\n";
   std::snprintf(line, sizeof line, "volume           %.6g m^3\n", s.volume);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -15,8 +16,10 @@ namespace palpate::organ {
 struct Report {
   std::string file;
   mesh::MeshStatistics statistics;
+  int element_order{1};
   std::size_t fixed_nodes{0};
   std::size_t accessible_nodes{0};
+  std::map<std::string, std::size_t> regions;  ///< name -> tetrahedra
   std::vector<std::string> notes;
 };
 

@@ -3,7 +3,7 @@
 
 #include "helpers.h"
 #include "samples.h"
-#include "tools/make/organ/liver.h"
+#include "tools/make/organ/paper_liver.h"
 #include "tools/mesh/box_mesh.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
@@ -45,7 +45,7 @@ TEST(ImportOrgan, NamesTheGroupsThatAreNotKept) {
 
 TEST(ImportOrgan, LiverComesBackWithItsGroups) {
   const TemporaryFolder folder;
-  const mesh::TetMesh liver = makeLiver();
+  const mesh::TetMesh liver = makePaperLiver();
   const auto boundary = mesh::boundaryOf(liver);
   mesh::writeMsh(folder / "liver.msh", liver, boundary);
   const ImportedOrgan back = importOrgan(folder / "liver.msh", {});
@@ -98,8 +98,7 @@ TEST(ImportOrgan, RefusesOneInvertedTetrahedronByFileAndNumber) {
   EXPECT_REFUSED(importOrgan(folder.write("a.msh", text), {}), "a.msh: tetrahedron 8 is inverted");
 }
 
-TEST(ImportOrgan, FillsASurface) {
-  const TemporaryFolder folder;
+std::string cubeAsObj() {
   std::string text;
   const mesh::TriangleSurface cube = mesh::test::cube();
   for (const auto& x : cube.vertices) {
@@ -110,14 +109,55 @@ TEST(ImportOrgan, FillsASurface) {
     text += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' +
             std::to_string(t[2] + 1) + '\n';
   }
+  return text;
+}
+
+TEST(ImportOrgan, FillsASurface) {
+  const TemporaryFolder folder;
   ImportOptions options;
   options.scale = 0.1;
-  options.element_size = 0.03;
+  options.sizes.surface = 0.03;
   options.fixed = parseFixedRule("box:-1,-1,-1,1,1,1e-9");
-  const ImportedOrgan organ = importOrgan(folder.write("a.obj", text), options);
+  const ImportedOrgan organ = importOrgan(folder.write("a.obj", cubeAsObj()), options);
   EXPECT_GT(organ.mesh.groups.at("fixed").size(), 16U);
   EXPECT_TRUE(organ.notes.empty());
   for (const auto& x : organ.mesh.nodes) EXPECT_LE(x.maxCoeff(), 0.1 + 1e-12);
+}
+
+TEST(ImportOrgan, FillsASurfaceWithFewerElementsInside) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.scale = 0.1;
+  options.sizes.surface = 0.007;
+  options.fixed = parseFixedRule("box:-1,-1,-1,1,1,1e-9");
+  const auto file = folder.write("a.obj", cubeAsObj());
+  const ImportedOrgan even = importOrgan(file, options);
+  options.sizes.inner = 0.04;
+  options.order = 2;
+  const ImportedOrgan graded = importOrgan(file, options);
+  EXPECT_TRUE(graded.mesh.isQuadratic());
+  EXPECT_GT(graded.boundary.faces.size(), even.boundary.faces.size() * 8 / 10);
+  EXPECT_LT(graded.mesh.tetrahedra.size(), even.mesh.tetrahedra.size() * 3 / 4);
+}
+
+TEST(ImportOrgan, RaisesALinearMeshAndItsGroups) {
+  const TemporaryFolder folder;
+  mesh::TetMesh box = mesh::makeBox({0.1, 0.1, 0.1}, {3, 3, 3});
+  const auto file = folder / "a.msh";
+  mesh::writeMsh(file, box, mesh::boundaryOf(box));
+  ImportOptions options;
+  options.fixed = parseFixedRule("box:0,0,0,0.1,0.1,0");
+  options.order = 2;
+  const ImportedOrgan organ = importOrgan(file, options);
+  EXPECT_EQ(organ.mesh.nodes.size(), 125U);
+  EXPECT_EQ(organ.mesh.groups.at("fixed").size(), 25U);
+  EXPECT_EQ(organ.boundary.nodes.size(), 98U);
+  EXPECT_EQ(organ.mesh.groups.at("accessible").size(), 98U - 25U - 16U);  // edges with one end held
+  mesh::writeMsh(file, organ.mesh, organ.boundary);
+  options.fixed = {};
+  EXPECT_EQ(importOrgan(file, options).mesh.midsides, organ.mesh.midsides);  // as it is
+  options.order = 1;
+  EXPECT_REFUSED(importOrgan(file, options), "--element-order 1: the elements of the file are quadratic");
 }
 
 TEST(ImportOrgan, RefusesOptionsOutOfRange) {
@@ -129,10 +169,15 @@ TEST(ImportOrgan, RefusesOptionsOutOfRange) {
     EXPECT_REFUSED(importOrgan(file, options), "--scale");
   }
   ImportOptions options;
-  options.element_size = 0.01;
-  EXPECT_REFUSED(importOrgan(file, options), "--element-size is for surfaces");
-  options.element_size = -1;
+  options.sizes.surface = 0.01;
+  EXPECT_REFUSED(importOrgan(file, options), "--element-size and --inner-size are for surfaces");
+  options.sizes.surface = -1;
   EXPECT_REFUSED(importOrgan(file, options), "--element-size must be");
+  options.sizes = {0.01, 0.02, 0};
+  EXPECT_REFUSED(importOrgan(file, options), "--growth must be above 0");
+  options.sizes = {};
+  options.order = 3;
+  EXPECT_REFUSED(importOrgan(file, options), "--element-order must be 1 or 2, not 3");
 }
 
 }  // namespace

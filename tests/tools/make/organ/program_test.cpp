@@ -27,6 +27,9 @@ TEST(Program, WritesTheBeamAndTellsInJson) {
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json.at("nodes"), 1701);
   EXPECT_EQ(json.at("tetrahedra"), 7680);
+  EXPECT_EQ(json.at("element_order"), 1);
+  EXPECT_EQ(json.at("corners"), 1701);
+  EXPECT_TRUE(json.at("regions").empty());
   EXPECT_EQ(json.at("fixed_nodes"), 81);
   EXPECT_EQ(json.at("accessible_nodes"), 689);
   EXPECT_NEAR(json.at("volume"), 0.00064, 1e-15);
@@ -47,11 +50,43 @@ TEST(Program, JsonIsUtf8WhateverTheNamesAre) {
 TEST(Program, WritesALiverWithoutNoise) {
   const TemporaryFolder folder;
   const ProgramResult result =
-      run({"liver", "--element-size", "0.015", "-o", (folder / "liver.msh").string()});
+      run({"paper-liver", "--element-size", "0.015", "-o", (folder / "liver.msh").string()});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_TRUE(result.err.empty()) << result.err;
   EXPECT_EQ(result.out.find("Info"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("worst quality"), std::string::npos) << result.out;
+}
+
+TEST(Program, WritesTheDefaultOrganWithItsCase) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "cases");
+  const auto file = folder / "coarse.msh";
+  const auto case_file = folder / "cases/soft.toml";
+  const ProgramResult result = run({"liver", "--element-size", "0.02", "--inner-size", "0.03", "--json",
+                                    "--case", case_file.string(), "-o", file.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("element_order"), 2);
+  EXPECT_LT(4 * json.at("corners").get<int>(), json.at("nodes").get<int>());
+  EXPECT_LT(3 * json.at("surface_corners").get<int>(), json.at("surface_nodes").get<int>());
+  const mesh::TetMesh mesh = mesh::readMesh(file);
+  EXPECT_TRUE(mesh.isQuadratic());
+  for (const char* region : {"liver", "nodule"})
+    EXPECT_EQ(json.at("regions").at(region).get<std::size_t>(), mesh.regions.at(region).size());
+  const std::string text = mesh::test::contentOf(case_file);
+  EXPECT_TRUE(text.starts_with("mesh = '../coarse.msh'\n")) << text;
+  EXPECT_NE(text.find("group = \"nodule\""), std::string::npos);
+  expectOneLineError(run({"liver", "-o", file.string(), "--case", (folder / "none/a.toml").string()}),
+                     "cannot write");
+}
+
+TEST(Program, PaperLiverCanBeRaised) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run(
+      {"paper-liver", "--element-size", "0.02", "--element-order", "2", "-o", (folder / "a.msh").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("of ten nodes"), std::string::npos) << result.out;
+  EXPECT_TRUE(mesh::readMesh(folder / "a.msh").isQuadratic());
 }
 
 TEST(Program, WarnsOfAnImplausibleSize) {
@@ -89,6 +124,8 @@ TEST(Program, RefusesUnknownArgumentsInOneLineWithItsName) {
                                                     {"beam"},
                                                     {"spleen", "-o", "a.msh"},
                                                     {"beam", "-o", "a.msh", "--size", "3"},
+                                                    {"beam", "-o", "a.msh", "--element-order", "2"},
+                                                    {"paper-liver", "-o", "a.msh", "--element-order", "3"},
                                                     {"liver", "-o", "a.msh", "--element-size", "small"},
                                                     {"import", "-o", "a.msh"}};
   for (const auto& arguments : wrong) {

@@ -40,7 +40,7 @@ class CoarseLiver : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_.emplace();
     const auto made = runProgram(
-        "palpate-organ", {"liver", "--element-size", "0.017", "-o", (*folder_ / "liver.msh").string()});
+        "palpate-organ", {"paper-liver", "--element-size", "0.017", "-o", (*folder_ / "liver.msh").string()});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const auto solved = runProgram("palpate-solve", {(*folder_ / "liver.msh").string(), "--element-order",
                                                      "1", "-o", (*folder_ / "liver.h5").string(), "-q"});
