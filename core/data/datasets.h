@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace palpate {
 
 /// UTF-8, zeros behind it.
 using RegionName = std::array<char, 64>;
+[[nodiscard]] inline std::string textOf(const RegionName& name) {
+  return {name.begin(), std::find(name.begin(), name.end(), '\0')};
+}
+/// Cut where it is longer than a RegionName.
+[[nodiscard]] inline RegionName regionName(std::string_view text) {
+  RegionName name{};
+  text.copy(name.data(), name.size());
+  return name;
+}
 
 /// One dataset of a model file (docs/model_file.md). T is the type of its numbers.
 /// Shape: a length is a number, a symbol that the first dataset with it defines, or one that reader and writer compute
@@ -27,7 +38,7 @@ struct Dataset {
 /// All datasets: the only place that spells their paths, types, shapes and units. Ns surface nodes, T triangles, M contact
 /// positions, C coefficients of the fields, Cm of those that modes and near fields have (of a "displacement" model without the
 /// first degree, which nodal Green's functions give), Cf of the contact's force, G nodes that carry load, P places of the
-/// patch's stiffness, n modes, K near nodes of a position, N volume nodes, V tetrahedra, F fixed nodes, R regions.
+/// patch's stiffness, n modes, K near nodes of a position, N volume nodes, V tetrahedra, F fixed nodes, R regions, S springs.
 namespace dataset {
 inline constexpr Dataset<double> kSurfacePositions{"surface/positions", {"Ns", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kSurfaceTriangles{"surface/triangles", {"T", "3"}, ""};
@@ -78,11 +89,16 @@ inline constexpr Dataset<std::int64_t> kMeshTetrahedronTag{"mesh/tetrahedron_tag
 inline constexpr Dataset<std::int32_t> kMeshFixed{"mesh/fixed", {"F"}, ""};
 inline constexpr Dataset<std::int32_t> kMeshSurfaceNode{"mesh/surface_node", {"Ns"}, ""};
 
-// Regions of another material than the attributes': all four, or none.
+// Regions of another material than the attributes': all five, or none.
 inline constexpr Dataset<std::int32_t> kElementRegion{"mesh/element_region", {"V"}, ""};
 inline constexpr Dataset<RegionName> kRegionName{"regions/name", {"R"}, ""};
 inline constexpr Dataset<double> kRegionE{"regions/E", {"R"}, "Pa"};
 inline constexpr Dataset<double> kRegionNu{"regions/nu", {"R"}, ""};
+inline constexpr Dataset<RegionName> kRegionLaw{"regions/law", {"R"}, ""};
+
+// Springs between nodes and their rest positions: both, or none.
+inline constexpr Dataset<std::int32_t> kSpringNode{"springs/node", {"S"}, ""};
+inline constexpr Dataset<double> kSpringStiffness{"springs/stiffness", {"S"}, "N/m"};
 }  // namespace dataset
 
 }  // namespace palpate

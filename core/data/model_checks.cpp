@@ -183,6 +183,12 @@ void checkPositionsAreCorners(const ModelView& v, const Checker& check) {
                    "a node of " + dataset::kContactTriangles.name());
 }
 
+std::string knownLaws() {
+  std::string list;
+  for (const std::string_view law : kLaws) list += (list.empty() ? "\"" : " or \"") + std::string(law) + '"';
+  return list;
+}
+
 void checkRegions(const ModelView& v, const Checker& check) {
   if (v.region_name.empty()) return;
   check.indices(dataset::kElementRegion.name(), v.mesh_element_region, v.region_name.size());
@@ -193,7 +199,18 @@ void checkRegions(const ModelView& v, const Checker& check) {
     if (!(v.region_nu[r] > -1.0 && v.region_nu[r] < 0.5))
       check.failAt(dataset::kRegionNu.name(), r, "is " + digitsOf(v.region_nu[r]),
                    "more than -1 and less than 0.5");
+    const std::string law = textOf(v.region_law[r]);
+    if (std::find(kLaws.begin(), kLaws.end(), law) == kLaws.end())
+      check.failAt(dataset::kRegionLaw.name(), r, "is \"" + law + "\"", knownLaws());
   }
+}
+
+void checkSprings(const ModelView& v, const Checker& check) {
+  check.indices(dataset::kSpringNode.name(), v.spring_node, v.mesh_node_tag.size());
+  for (std::size_t s = 0; s < v.spring_stiffness.size(); ++s)
+    if (!(std::isfinite(v.spring_stiffness[s]) && v.spring_stiffness[s] > 0.0))
+      check.failAt(dataset::kSpringStiffness.name(), s, "is " + digitsOf(v.spring_stiffness[s]),
+                   "more than 0 N/m");
 }
 
 void checkFinite(const ModelView& v, const Checker& check) {
@@ -204,12 +221,6 @@ void checkFinite(const ModelView& v, const Checker& check) {
   check.finite(dataset::kContactDomainRadius.name(), v.contact_domain_radius);
   check.finite(dataset::kContactSeriesRadius.name(), v.contact_series_radius);
   check.finite(dataset::kMeshNodes.name(), v.mesh_nodes);
-}
-
-std::string knownLaws() {
-  std::string list;
-  for (const std::string_view law : kLaws) list += (list.empty() ? "\"" : " or \"") + std::string(law) + '"';
-  return list;
 }
 
 }  // namespace
@@ -269,6 +280,7 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   check.indices(dataset::kMeshFixed.name(), v.mesh_fixed, N);
   check.indices(dataset::kMeshSurfaceNode.name(), v.mesh_surface_node, N);
   checkRegions(v, check);
+  checkSprings(v, check);
 }
 
 }  // namespace palpate

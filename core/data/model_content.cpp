@@ -81,6 +81,7 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
                    {"T", v.triangles()},
                    {"Tc", v.contact_triangles.size() / 3},
                    {"R", v.region_name.size()},
+                   {"S", v.spring_node.size()},
                    {"M", M},
                    {"M + 1", M + 1},
                    {"C", C},

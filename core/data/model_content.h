@@ -82,11 +82,16 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
   visit(dataset::kMeshTetrahedronTag, v.mesh_tetrahedron_tag);
   visit(dataset::kMeshFixed, v.mesh_fixed);
   visit(dataset::kMeshSurfaceNode, v.mesh_surface_node);
-  if (v.region_name.empty()) return;
-  visit(dataset::kElementRegion, v.mesh_element_region);
-  visit(dataset::kRegionName, v.region_name);
-  visit(dataset::kRegionE, v.region_E);
-  visit(dataset::kRegionNu, v.region_nu);
+  if (!v.region_name.empty()) {
+    visit(dataset::kElementRegion, v.mesh_element_region);
+    visit(dataset::kRegionName, v.region_name);
+    visit(dataset::kRegionE, v.region_E);
+    visit(dataset::kRegionNu, v.region_nu);
+    visit(dataset::kRegionLaw, v.region_law);
+  }
+  if (v.spring_node.empty()) return;
+  visit(dataset::kSpringNode, v.spring_node);
+  visit(dataset::kSpringStiffness, v.spring_stiffness);
 }
 
 /// Lengths by the symbols of datasets.h.

@@ -141,7 +141,15 @@ void readRegions(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.region_name = file.dataset(dataset::kRegionName, size);
   v.region_E = file.dataset(dataset::kRegionE, size);
   v.region_nu = file.dataset(dataset::kRegionNu, size);
+  v.region_law = file.dataset(dataset::kRegionLaw, size);
   if (v.region_name.empty()) file.fail(dataset::kRegionName.name() + " is empty, expected regions");
+}
+
+void readSprings(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  if (!file.hasDataset(dataset::kSpringNode.path) && !file.hasDataset(dataset::kSpringStiffness.path)) return;
+  v.spring_node = file.dataset(dataset::kSpringNode, size);
+  v.spring_stiffness = file.dataset(dataset::kSpringStiffness, size);
+  if (v.spring_node.empty()) file.fail(dataset::kSpringNode.name() + " is empty, expected springs");
 }
 
 }  // namespace
@@ -165,6 +173,7 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
   if (a.parameters == Parameters::kDisplacement) readGreens(file, size, contents.view);
   readMesh(file, size, contents.view);
   readRegions(file, size, contents.view);
+  readSprings(file, size, contents.view);
   return contents;
 }
 

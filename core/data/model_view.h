@@ -111,9 +111,12 @@ struct ModelView {
   std::span<const std::int32_t> mesh_fixed;            ///< volume nodes
   std::span<const std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
   std::span<const std::int32_t> mesh_element_region;   ///< [V] or empty: one material, that of the attributes
-  std::span<const RegionName> region_name;             ///< [R] or empty, as the next two
+  std::span<const RegionName> region_name;             ///< [R] or empty, as the next three
   std::span<const double> region_E;                    ///< [R] Pa
   std::span<const double> region_nu;                   ///< [R]
+  std::span<const RegionName> region_law;              ///< [R] of kLaws
+  std::span<const std::int32_t> spring_node;           ///< [S] volume nodes, or empty
+  std::span<const double> spring_stiffness;  ///< [S] N/m, alike in every direction; stress-free at rest
 
   [[nodiscard]] std::size_t surfaceNodes() const noexcept { return surface_mesh_tag.size(); }
   [[nodiscard]] std::size_t triangles() const noexcept { return surface_triangles.size() / 3; }

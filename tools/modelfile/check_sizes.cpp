@@ -87,6 +87,8 @@ void checkMesh(const ModelData& d) {
              R == 0 ? 0 : d.mesh_tetrahedron_tag.size());
   expectSize(dataset::kRegionE.name(), d.region_E.size(), R);
   expectSize(dataset::kRegionNu.name(), d.region_nu.size(), R);
+  expectSize(dataset::kRegionLaw.name(), d.region_law.size(), R);
+  expectSize(dataset::kSpringStiffness.name(), d.spring_stiffness.size(), d.spring_node.size());
 }
 
 }  // namespace

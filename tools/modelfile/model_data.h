@@ -63,9 +63,12 @@ struct ModelData {
   std::vector<std::int32_t> mesh_fixed;            ///< volume nodes
   std::vector<std::int32_t> mesh_surface_node;     ///< [Ns] volume node of a surface node
   std::vector<std::int32_t> mesh_element_region;   ///< [V] or empty: one material, that of the attributes
-  std::vector<RegionName> region_name;             ///< [R] or empty, as the next two
+  std::vector<RegionName> region_name;             ///< [R] or empty, as the next three
   std::vector<double> region_E;                    ///< [R] Pa
   std::vector<double> region_nu;                   ///< [R]
+  std::vector<RegionName> region_law;              ///< [R] of kLaws
+  std::vector<std::int32_t> spring_node;           ///< [S] volume nodes, or empty
+  std::vector<double> spring_stiffness;            ///< [S] N/m
 };
 
 /// n, the number of modes; 0 without a surface.

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/data/datasets.h"
+
 namespace palpate::modelfile {
 
-/// The volume mesh that a model was computed on.
+/// The volume mesh that a model was computed on, and what it is made of beside the attributes.
 struct VolumeMesh {
   std::vector<double> nodes;                  ///< [N][3] m
   std::vector<std::int32_t> tetrahedra;       ///< [V][4] 0-based
@@ -16,6 +18,14 @@ struct VolumeMesh {
   std::vector<std::int64_t> tetrahedron_tag;  ///< [V]
   std::vector<std::int32_t> fixed;            ///< volume nodes
   std::vector<std::int32_t> surface_node;     ///< [Ns] volume node of a surface node
+  // Regions and springs, as in the file; empty where it has none.
+  std::vector<std::int32_t> element_region;  ///< [V]
+  std::vector<RegionName> region_name;       ///< [R]
+  std::vector<double> region_E;              ///< [R] Pa
+  std::vector<double> region_nu;             ///< [R]
+  std::vector<RegionName> region_law;        ///< [R]
+  std::vector<std::int32_t> spring_node;     ///< [S]
+  std::vector<double> spring_stiffness;      ///< [S] N/m
 };
 
 /// @throw LoadError as MetaModel::load, which checks the file

@@ -77,13 +77,15 @@ void makeGroup(const Hdf5Handle& file, const std::string& name) {
   require(group.valid(), name);
 }
 
-void makeGroups(const Hdf5Handle& file, const ModelAttributes& attributes, bool regions) {
+void makeGroups(const Hdf5Handle& file, const ModelData& data) {
   for (const char* path : {dataset::kSurfacePositions.path, dataset::kContactNode.path, dataset::kModesX.path,
                            dataset::kNearNode.path, dataset::kMeshNodes.path})
     makeGroup(file, groupOf(path));
+  const ModelAttributes& attributes = data.attributes;
   if (attributes.parameters == Parameters::kLevel) makeGroup(file, groupOf(dataset::kLevelsZ.path));
   if (attributes.parameters == Parameters::kDisplacement) makeGroup(file, groupOf(dataset::kGreenNode.path));
-  if (regions) makeGroup(file, groupOf(dataset::kRegionName.path));
+  if (!data.region_name.empty()) makeGroup(file, groupOf(dataset::kRegionName.path));
+  if (!data.spring_node.empty()) makeGroup(file, groupOf(dataset::kSpringNode.path));
 }
 
 template <typename T>
@@ -211,6 +213,9 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.region_name = d.region_name;
   v.region_E = d.region_E;
   v.region_nu = d.region_nu;
+  v.region_law = d.region_law;
+  v.spring_node = d.spring_node;
+  v.spring_stiffness = d.spring_stiffness;
   return v;
 }
 
@@ -228,7 +233,7 @@ void writeAll(const std::string& path, const ModelData& data) {
   Hdf5Handle file = createFile(path);
   ModelAttributes attributes = data.attributes;
   attributes.force_order = forceOrder(attributes);
-  makeGroups(file, attributes, !data.region_name.empty());
+  makeGroups(file, data);
   const PackedFields fields = packFields(data);
   writeContent(file, attributes, viewOf(data, fields));
   require(file.closeNow(), path);

@@ -12,19 +12,16 @@ namespace {
 
 using modelfile::ModelData;
 
-RegionName named(std::string_view name) {
-  RegionName text{};
-  name.copy(text.data(), text.size());
-  return text;
-}
-
 ModelData twoRegions() {
   ModelData data = goodData();
   data.mesh_element_region.assign(data.mesh_tetrahedron_tag.size(), 0);
   data.mesh_element_region.back() = 1;
-  data.region_name = {named("parenchyma"), named("vessel")};
+  data.region_name = {regionName("parenchyma"), regionName("vessel")};
   data.region_E = {160e3, 500e3};
   data.region_nu = {0.48, 0.3};
+  data.region_law = {regionName("stvk"), regionName("stable-neo-hookean")};
+  data.spring_node = {2, 0};
+  data.spring_stiffness = {120.0, 0.5};
   return data;
 }
 
@@ -60,9 +57,15 @@ TEST(LoadRegions, ComeBackAndAreInTheDigest) {
   EXPECT_TRUE(sameBits(data.region_name, model.view().region_name));
   EXPECT_TRUE(sameBits(data.region_E, model.view().region_E));
   EXPECT_TRUE(sameBits(data.region_nu, model.view().region_nu));
+  EXPECT_TRUE(sameBits(data.region_law, model.view().region_law));
+  EXPECT_TRUE(sameBits(data.spring_node, model.view().spring_node));
+  EXPECT_TRUE(sameBits(data.spring_stiffness, model.view().spring_stiffness));
   for (const std::function<void()>& change :
        {std::function<void()>([&] { data.region_E[1] = 501e3; }),
         std::function<void()>([&] { data.region_name[0][3] = 'E'; }),
+        std::function<void()>([&] { data.region_law[1] = data.region_law[0]; }),
+        std::function<void()>([&] { data.spring_node[0] = 3; }),
+        std::function<void()>([&] { data.spring_stiffness[0] = 121.0; }),
         std::function<void()>([&] { data.mesh_element_region[0] = 1; })}) {
     const std::string before = MetaModel::load(file.path()).id();
     change();
@@ -77,6 +80,7 @@ TEST(LoadRegions, NeedNotBeThere) {
   const MetaModel model = MetaModel::load(file.path());
   EXPECT_TRUE(model.view().mesh_element_region.empty());
   EXPECT_TRUE(model.view().region_name.empty());
+  EXPECT_TRUE(model.view().spring_node.empty());
   EXPECT_TRUE(model.attributes().certificate.empty());
 }
 
@@ -88,6 +92,11 @@ TEST(LoadRegions, AreRefusedWhereTheyMakeNoSense) {
       {"/regions/E number 0 is 0, expected more than 0 Pa", [](ModelData& d) { d.region_E[0] = 0.0; }},
       {"/regions/nu number 1 is 0.5, expected more than -1 and less than 0.5",
        [](ModelData& d) { d.region_nu[1] = 0.5; }},
+      {"/regions/law number 1 is \"hooke\", expected \"stvk\" or \"stable-neo-hookean\"",
+       [](ModelData& d) { d.region_law[1] = regionName("hooke"); }},
+      {"/springs/node number 1 is -1, expected 0 to ", [](ModelData& d) { d.spring_node[1] = -1; }},
+      {"/springs/stiffness number 0 is 0, expected more than 0 N/m",
+       [](ModelData& d) { d.spring_stiffness[0] = 0.0; }},
       {"/contact/triangles has 79 triangles, expected 80, as /surface/triangles, or a quarter of that",
        [](ModelData& d) {
          d.contact_triangles = d.surface_triangles;
@@ -109,8 +118,9 @@ TEST(LoadRegions, AreRefusedWhereTheyMakeNoSense) {
   }
 }
 
-TEST(LoadRegions, ComeAllFourOrNot) {
-  for (const char* one : {"mesh/element_region", "regions/name", "regions/E", "regions/nu"}) {
+TEST(LoadRegions, ComeWholeOrNot) {
+  for (const char* one : {"mesh/element_region", "regions/name", "regions/E", "regions/nu", "regions/law",
+                          "springs/node", "springs/stiffness"}) {
     const TemporaryFile file("some-regions.h5");
     modelfile::writeModel(file.path(), twoRegions());
     deleteThing(file.path(), nullptr, one);

@@ -31,7 +31,7 @@ struct QuadraticBox {
   const std::vector<Vec3>& nodes{model.nodes()};
   const std::vector<IntegrationPoint<10>>& points{std::get<1>(model.points())};
 
-  explicit QuadraticBox(const Box& box) : model(quadraticModel(box, uneven(box))) {}
+  explicit QuadraticBox(const Box& box, const Law& law = {}) : model(quadraticModel(box, uneven(box, law))) {}
   QuadraticBox(const QuadraticBox&) = delete;
   QuadraticBox& operator=(const QuadraticBox&) = delete;
   ~QuadraticBox() = default;
@@ -39,10 +39,11 @@ struct QuadraticBox {
   [[nodiscard]] Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(nodes.size()); }
 
  private:
-  static Material uneven(const Box& box) {
+  static Material uneven(const Box& box, const Law& law) {
     Material material{{160e3, 0.45}};
+    material.regions = {{"even", {160e3, 0.45}, law}, {"odd", {480e3, 0.3}, law}};
     for (std::size_t e = 0; e < box.tetrahedra().size(); ++e)
-      material.by_element.push_back(e % 2 == 0 ? Elasticity{160e3, 0.45} : Elasticity{480e3, 0.3});
+      material.region_of_element.push_back(static_cast<std::int32_t>(e % 2));
     return material;
   }
 };

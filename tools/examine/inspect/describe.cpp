@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <numeric>
 #include <sstream>
 #include <vector>
 
@@ -32,7 +33,8 @@ Json bytesOfParts(const ModelView& v) {
   bytes["greens_functions"] = bytesOf(v.green_node, v.green_Y, v.green_Y_scale, v.green_offset,
                                       v.green_near_node, v.green_near, v.green_near_scale);
   bytes["mesh"] = bytesOf(v.mesh_nodes, v.mesh_tetrahedra, v.mesh_node_tag, v.mesh_tetrahedron_tag,
-                          v.mesh_fixed, v.mesh_surface_node);
+                          v.mesh_fixed, v.mesh_surface_node, v.mesh_element_region, v.region_name, v.region_E,
+                          v.region_nu, v.region_law, v.spring_node, v.spring_stiffness);
   return bytes;
 }
 
@@ -66,6 +68,24 @@ void describeDomain(const MetaModel& model, Json& out) {
                  {"direction", a.load_direction},
                  {"level_functions", v.level_functions},
                  {"level_steps", model.functions().levelSteps()}};
+}
+
+/// Regions and springs, where there are any.
+void describeMaterial(const ModelView& v, Json& out) {
+  if (!v.region_name.empty()) {
+    Json regions = Json::object();
+    for (std::size_t r = 0; r < v.region_name.size(); ++r)
+      regions[textOf(v.region_name[r])] = {
+          {"law", textOf(v.region_law[r])},
+          {"E", v.region_E[r]},
+          {"nu", v.region_nu[r]},
+          {"tetrahedra", std::count(v.mesh_element_region.begin(), v.mesh_element_region.end(), r)}};
+    out["regions"] = regions;
+  }
+  if (v.spring_node.empty()) return;
+  out["springs"] = {
+      {"nodes", v.spring_node.size()},
+      {"stiffness", std::accumulate(v.spring_stiffness.begin(), v.spring_stiffness.end(), 0.0)}};
 }
 
 Json provenanceOf(const std::string& text) {
@@ -104,6 +124,7 @@ Json describe(const MetaModel& model) {
   out["reference_displacement"] = a.reference_displacement;
   describeDomain(model, out);
   out["material"] = {{"law", a.law}, {"E", a.E}, {"nu", a.nu}};
+  describeMaterial(v, out);
   out["file_bytes"] = model.bytes();
   out["bytes"] = bytesOfParts(v);
   out["provenance"] = provenanceOf(a.provenance);

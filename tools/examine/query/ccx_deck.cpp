@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/examine/query/ccx_deck.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <sstream>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "tools/examine/query/query_error.h"
 
@@ -46,24 +49,47 @@ class Deck {
       out_ << '\n';
     }
   }
-  void material() {
+  /// One section for each region.
+  void materials() {
     const solver::Material& material = organ_.body.material();
-    if (!material.by_element.empty())
-      throw QueryError("a CalculiX deck has one stiffness, but the organ has one in each of its " +
-                       std::to_string(material.by_element.size()) + " elements");
-    const solver::CcxMaterial of_deck =
-        std::visit([&](auto law) { return law.ccx(material.elasticity); }, material.law);
-    out_ << "*MATERIAL,NAME=ORGAN\n" << of_deck.keyword << '\n';
-    for (std::size_t i = 0; i < of_deck.constants.size(); ++i)
-      out_ << (i == 0 ? "" : ",") << ccxNumber(of_deck.constants[i]);
-    out_ << "\n*SOLID SECTION,ELSET=BODY,MATERIAL=ORGAN\n";
+    if (material.regions.empty()) return section("BODY", {"", material.elasticity, material.law});
+    for (std::size_t r = 0; r < material.regions.size(); ++r) {
+      const std::string set = "REGION" + std::to_string(r + 1);
+      std::vector<std::int64_t> elements;
+      for (std::size_t e = 0; e < material.region_of_element.size(); ++e)
+        if (material.region_of_element[e] == static_cast<std::int32_t>(r))
+          elements.push_back(organ_.mesh.tetrahedron_tag[e]);
+      if (elements.empty()) continue;
+      out_ << "*ELSET,ELSET=" << set;
+      list(elements);
+      section(set, material.regions[r]);
+    }
+  }
+  /// To ground, an element for each direction. Their numbers follow those of the tetrahedra.
+  void springs() {
+    std::int64_t next = 0;
+    for (const std::int64_t tag : organ_.mesh.tetrahedron_tag) next = std::max(next, tag);
+    for (std::size_t s = 0; s < organ_.mesh.spring_node.size(); ++s) {
+      std::string stiffness = ccxNumber(organ_.mesh.spring_stiffness[s]);
+      // CalculiX takes a whole number here for another degree of freedom.
+      if (stiffness.find_first_of(".e") == std::string::npos) stiffness += '.';
+      for (int axis = 1; axis <= 3; ++axis) {
+        const std::string set = "SPRING" + std::to_string(s + 1) + "_" + std::to_string(axis);
+        out_ << "*ELEMENT,TYPE=SPRING1,ELSET=" << set << '\n'
+             << checked("spring", ++next) << ',' << number(organ_.mesh.spring_node[s])
+             << "\n*SPRING,ELSET=" << set << '\n'
+             << axis << '\n'
+             << stiffness << '\n';
+      }
+    }
   }
   void supports() {
     if (organ_.mesh.fixed.empty()) return;
+    std::vector<std::int64_t> nodes;
+    for (const std::int32_t node : organ_.mesh.fixed) nodes.push_back(number(node));
     out_ << "*NSET,NSET=HELD";
-    for (std::size_t i = 0; i < organ_.mesh.fixed.size(); ++i)
-      out_ << (i % kEntriesPerLine == 0 ? '\n' : ',') << number(organ_.mesh.fixed[i]);
-    out_ << "\n*BOUNDARY\nHELD,1,3\n";
+    list(nodes);
+    out_ << "*BOUNDARY\nHELD,1,3\n";
   }
   /// Residual and correction down to 1e-9 of the average force and of the largest displacement increment,
   /// also after many iterations, where CalculiX by default lets go.
@@ -76,6 +102,19 @@ class Deck {
   [[nodiscard]] std::string text() const { return out_.str(); }
 
  private:
+  void section(const std::string& elements, const solver::Region& region) {
+    const solver::CcxMaterial of_deck =
+        std::visit([&](auto law) { return law.ccx(region.elasticity); }, region.law);
+    out_ << "*MATERIAL,NAME=" << elements << '\n' << of_deck.keyword << '\n';
+    for (std::size_t i = 0; i < of_deck.constants.size(); ++i)
+      out_ << (i == 0 ? "" : ",") << ccxNumber(of_deck.constants[i]);
+    out_ << "\n*SOLID SECTION,ELSET=" << elements << ",MATERIAL=" << elements << '\n';
+  }
+  void list(const std::vector<std::int64_t>& numbers) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      out_ << (i % kEntriesPerLine == 0 ? '\n' : ',') << numbers[i];
+    out_ << '\n';
+  }
   void loads() {
     out_ << "*CLOAD\n";
     for (std::size_t i = 0; i < solution_.patch.nodes.size(); ++i)
@@ -115,7 +154,8 @@ std::string ccxDeck(const Organ& organ, const FullSolution& solution, const std:
   deck.heading(about);
   deck.nodes();
   deck.elements();
-  deck.material();
+  deck.materials();
+  deck.springs();
   deck.supports();
   deck.step(steps);
   return deck.text();

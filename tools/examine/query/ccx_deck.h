@@ -14,7 +14,7 @@ namespace palpate::query {
 /// MaterialLaw::ccx says it, the mesh's own node and element numbers, Newton's force spread over the
 /// patch as nodal loads w_i f, U of all nodes in the .dat. SI units.
 /// @param about  one line for the head of the deck  @param steps  load steps to begin with, >= 1
-/// @throw QueryError naming a node or element whose number CalculiX cannot take, or for stiffness by element
+/// @throw QueryError naming a node or element whose number CalculiX cannot take
 [[nodiscard]] std::string ccxDeck(const Organ& organ, const FullSolution& solution, const std::string& about,
                                   int steps);
 

@@ -28,10 +28,26 @@ std::vector<Vec3> points(std::span<const double> flat) {
   return list;
 }
 
+solver::Material materialOf(const ModelAttributes& a, const modelfile::VolumeMesh& mesh) {
+  solver::Material material{{a.E, a.nu}, solver::lawOf(a.law), {}, mesh.element_region};
+  for (std::size_t r = 0; r < mesh.region_name.size(); ++r)
+    material.regions.push_back({textOf(mesh.region_name[r]),
+                                {mesh.region_E[r], mesh.region_nu[r]},
+                                solver::lawOf(textOf(mesh.region_law[r]))});
+  return material;
+}
+
+std::vector<solver::Spring> springsOf(const modelfile::VolumeMesh& mesh) {
+  std::vector<solver::Spring> springs;
+  for (std::size_t s = 0; s < mesh.spring_node.size(); ++s)
+    springs.push_back({mesh.spring_node[s], mesh.spring_stiffness[s]});
+  return springs;
+}
+
 solver::FeModel bodyOf(const ModelAttributes& a, const modelfile::VolumeMesh& mesh) {
   try {
     return solver::FeModel(points(mesh.nodes), {tuples<4>(mesh.tetrahedra), tuples<6>(mesh.midsides)},
-                           mesh.fixed, {{a.E, a.nu}, solver::lawOf(a.law), {}});
+                           mesh.fixed, materialOf(a, mesh), springsOf(mesh));
   } catch (const std::invalid_argument& error) {
     throw QueryError(std::string("the mesh in the model file: ") + error.what());
   }

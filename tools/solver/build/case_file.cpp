@@ -77,9 +77,34 @@ class Section {
     }
   }
 
+  /// Calls body with each table of [[key]].
+  template <typename Body>
+  void tables(const std::string& key, const Body& body) {
+    known_.insert(key);
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return;
+    if (!node->is_array_of_tables()) refuse(*node, key, "is not an array of tables, [[" + key + "]]");
+    for (const toml::node& entry : *node->as_array()) {
+      Section section(file_, key, *entry.as_table());
+      body(section);
+      section.refuseTheRest();
+    }
+  }
+
+  /// What has to be there. @param value  as taken
+  template <typename T>
+  T required(const std::string& key, const std::optional<T>& value) const {
+    if (!value) refuse(table_, key, "is missing");
+    return *value;
+  }
+
+  /// File, line and key.
+  [[nodiscard]] std::string placeOf(const toml::node& node, const std::string& key) const {
+    return file_ + ":" + std::to_string(node.source().begin.line) + ": " +
+           (name_.empty() ? key : name_ + "." + key);
+  }
   [[noreturn]] void refuse(const toml::node& node, const std::string& key, const std::string& why) const {
-    throw CaseError(file_ + ":" + std::to_string(node.source().begin.line) + ": " +
-                    (name_.empty() ? key : name_ + "." + key) + " " + why);
+    throw CaseError(placeOf(node, key) + " " + why);
   }
   [[nodiscard]] const toml::node& node(const std::string& key) const { return *table_.get(key); }
 
@@ -102,17 +127,50 @@ void readBoundary(const std::string& file, const toml::table& table, Case& c) {
   section.refuseTheRest();
 }
 
-void readMaterial(const std::string& file, const toml::table& table, Case& c) {
-  Section section(file, "material", table);
-  assign(c.law, section.take<std::string>("law", "a string"));
+std::optional<std::string> readLaw(Section& section) {
+  std::optional<std::string> law = section.take<std::string>("law", "a string");
   try {
-    (void)lawOf(c.law);
+    if (law) (void)lawOf(*law);
   } catch (const std::invalid_argument& error) {
     section.refuse(section.node("law"), "law", error.what());
   }
-  assign(c.E, section.number("E", 0.0, false, 1e12));
-  assign(c.nu, section.number("nu", -0.99, true, 0.4999));
+  return law;
+}
+std::optional<double> readE(Section& section) {
+  return section.number("E", 0.0, false, 1e12);
+}
+std::optional<double> readNu(Section& section) {
+  return section.number("nu", -0.99, true, 0.4999);
+}
+
+void readMaterial(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "material", table);
+  assign(c.law, readLaw(section));
+  assign(c.E, readE(section));
+  assign(c.nu, readNu(section));
   section.refuseTheRest();
+}
+
+std::string readGroup(Section& section) {
+  return section.required("group", section.take<std::string>("group", "a string"));
+}
+
+RegionCase readRegion(Section& section) {
+  RegionCase region;
+  region.group = readGroup(section);
+  region.place = section.placeOf(section.node("group"), "group");
+  region.E = section.required("E", readE(section));
+  region.nu = readNu(section);
+  region.law = readLaw(section);
+  return region;
+}
+
+SpringCase readSpring(Section& section) {
+  SpringCase spring;
+  spring.group = readGroup(section);
+  spring.place = section.placeOf(section.node("group"), "group");
+  spring.stiffness = section.required("stiffness", section.number("stiffness", 0.0, false, 1e15));
+  return spring;
 }
 
 void readModel(const std::string& file, const toml::table& table, Case& c) {
@@ -218,6 +276,8 @@ Case readCase(const std::filesystem::path& path) {
   }
   if (const toml::table* t = section.table("boundary")) readBoundary(file, *t, c);
   if (const toml::table* t = section.table("material")) readMaterial(file, *t, c);
+  section.tables("region", [&](Section& of) { c.regions.push_back(readRegion(of)); });
+  section.tables("spring", [&](Section& of) { c.springs.push_back(readSpring(of)); });
   if (const toml::table* t = section.table("model")) readModel(file, *t, c);
   if (const toml::table* t = section.table("load")) readLoad(file, *t, c);
   if (const toml::table* t = section.table("pgd")) readPgd(file, *t, c);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tools/mesh/tet_mesh.h"
 #include "tools/solver/fem/fe_model.h"
@@ -55,6 +56,22 @@ struct PgdCase {
   std::optional<int> block;         ///< pairs iterated at once, 1 to 1000
 };
 
+/// A volume group of the mesh with its own material.
+struct RegionCase {
+  std::string group;
+  double E{0.0};                   ///< Pa, (0, 1e12]
+  std::optional<double> nu;        ///< [-0.99, 0.4999]; absent: as elsewhere
+  std::optional<std::string> law;  ///< absent: as elsewhere
+  std::string place;               ///< file, line and key of the group, for messages
+};
+
+/// Springs under the faces of a group of nodes, stress-free at rest.
+struct SpringCase {
+  std::string group;
+  double stiffness{0.0};  ///< N/m^3, (0, 1e15]
+  std::string place;      ///< file, line and key of the group, for messages
+};
+
 /// What to solve: the contents of a case file, or the defaults for a bare mesh. SI units. Absent keys have
 /// defaults that depend on the method.
 struct Case {
@@ -65,6 +82,8 @@ struct Case {
   std::string law{"stvk"};                ///< lawOf() knows it
   double E{160e3};                        ///< Pa, (0, 1e12]
   double nu{0.48};                        ///< [-0.99, 0.4999]
+  std::vector<RegionCase> regions;        ///< where the material differs
+  std::vector<SpringCase> springs;
   Method method{Method::kSeriesDisplacement};
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges
   std::optional<int> order;            ///< p, 1 to 7; absent: 3

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tools/mesh/topology.h"
+#include "tools/solver/build/case_material.h"
 
 namespace palpate::solver {
 
@@ -167,8 +168,8 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
 }
 
 SolverSetup::SolverSetup(const Case& c, const mesh::TetMesh& mesh)
-    : model(mesh.nodes, {mesh.tetrahedra, mesh.midsides}, groupOf(c, mesh, c.fixed),
-            {{c.E, c.nu}, lawOf(c.law), {}}),
+    : model(mesh.nodes, {mesh.tetrahedra, mesh.midsides}, groupOf(c, mesh, c.fixed), materialOf(c, mesh),
+            springsOf(c, mesh)),
       surface(surfaceOf(model, mesh)),
       patch_radius(patchRadius(c, surface)),
       positions(
@@ -183,6 +184,7 @@ std::vector<double> SolverSetup::positionAreas() const {
 void storeOrgan(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::ModelData& data) {
   storeSurface(setup, mesh, data);
   storeMesh(setup, mesh, data);
+  storeMaterial(setup.model, data);
 }
 
 }  // namespace palpate::solver

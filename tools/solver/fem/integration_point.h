@@ -10,7 +10,7 @@
 #include <limits>
 #include <span>
 
-#include "tools/solver/fem/elasticity.h"
+#include "tools/solver/fem/material.h"
 
 namespace palpate::solver {
 
@@ -18,14 +18,35 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
 /// One integration point of an element of N nodes: all that the kernels know of the mesh. A kind of element is a
-/// function that makes these. Sums below run over points, element by element; u, f: 3 a node, of all nodes.
+/// function that makes these. Sums below run over points, element by element, of one law L; u, f: 3 a node, of all nodes.
 template <int N>
 struct IntegrationPoint {
   std::array<std::int32_t, N> nodes;
   Eigen::Matrix<double, N, 3> gradients;  ///< row a: dN_a/dX, 1/m
   double weight;                          ///< of the integral, m^3
   Lame lame;
+  Law law{};
 };
+
+/// The end of the points after `first` that have its law.
+template <int N>
+[[gnu::always_inline]] inline const IntegrationPoint<N>* endOfRun(const IntegrationPoint<N>* first,
+                                                                  const IntegrationPoint<N>* end) noexcept {
+  const auto law = first->law.index();
+  while (first != end && first->law.index() == law) ++first;
+  return first;
+}
+
+/// Calls body(law, points) for each run of points with one law.
+template <int N, typename Body>
+void forEachRun(std::span<const IntegrationPoint<N>> points, const Body& body) {
+  while (!points.empty()) {
+    const auto count =
+        static_cast<std::size_t>(endOfRun(points.data(), points.data() + points.size()) - points.data());
+    std::visit([&](auto law) { body(law, points.first(count)); }, points.front().law);
+    points = points.subspan(count);
+  }
+}
 
 /// H = du/dX, 3 x 3.
 template <int N>

@@ -31,6 +31,7 @@ std::vector<IntegrationPoint<4>> linearTetrahedra(std::span<const Vec3> nodes,
     point.gradients.row(0) = -inverse.colwise().sum();
     point.weight = volume;
     point.lame = material.of(e).lame();
+    point.law = material.lawIn(e);
   }
   return points;
 }

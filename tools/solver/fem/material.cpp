@@ -47,15 +47,18 @@ Law lawOf(std::string_view name) {
 }
 
 void Material::check(std::size_t elements) const {
-  if (!by_element.empty() && by_element.size() != elements)
-    throw std::invalid_argument("material: " + std::to_string(by_element.size()) + " stiffnesses for " +
-                                std::to_string(elements) + " elements");
-  std::visit(
-      [&](auto this_law) {
-        this_law.check(elasticity);
-        for (const Elasticity& e : by_element) this_law.check(e);
-      },
-      law);
+  const auto check = [](const Law& of, const Elasticity& e) {
+    std::visit([&](auto this_law) { this_law.check(e); }, of);
+  };
+  check(law, elasticity);
+  for (const Region& region : regions) check(region.law, region.elasticity);
+  if (region_of_element.size() != (regions.empty() ? 0 : elements))
+    throw std::invalid_argument("material: regions of " + std::to_string(region_of_element.size()) +
+                                " elements for " + std::to_string(elements));
+  for (const std::int32_t region : region_of_element)
+    if (region < 0 || region >= static_cast<std::int32_t>(regions.size()))
+      throw std::invalid_argument("material: region " + std::to_string(region) + " of " +
+                                  std::to_string(regions.size()));
 }
 
 }  // namespace palpate::solver

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -62,17 +64,33 @@ using Law = LawList<StVenantKirchhoff, StableNeoHookean>;
 /// The law of a name. @throw std::invalid_argument that lists the names
 [[nodiscard]] Law lawOf(std::string_view name);
 
-/// What a body is made of: one law, and its numbers in each element.
+/// A part of the body with its own material.
+struct Region {
+  std::string name;
+  Elasticity elasticity;
+  Law law{};
+};
+
+/// What a body is made of: one law with one pair of numbers, or those of the region that an element belongs to.
 struct Material {
   Elasticity elasticity;  ///< of all elements, or for reports where they differ
   Law law{};
-  std::vector<Elasticity> by_element{};  ///< where stiffness differs by region, one per element; else empty
+  std::vector<Region> regions{};                  ///< empty: all elements are alike
+  std::vector<std::int32_t> region_of_element{};  ///< into regions; empty as they are
 
   [[nodiscard]] const Elasticity& of(std::size_t element) const noexcept {
-    return by_element.empty() ? elasticity : by_element[element];
+    return regions.empty() ? elasticity : regionOf(element).elasticity;
   }
-  /// @throw std::invalid_argument for numbers that the law cannot take, or another number of elements
+  [[nodiscard]] Law lawIn(std::size_t element) const noexcept {
+    return regions.empty() ? law : regionOf(element).law;
+  }
+  /// @throw std::invalid_argument for numbers that a law cannot take, or elements without a region
   void check(std::size_t elements) const;
+
+ private:
+  [[nodiscard]] const Region& regionOf(std::size_t element) const noexcept {
+    return regions[static_cast<std::size_t>(region_of_element[element])];
+  }
 };
 
 }  // namespace palpate::solver

@@ -97,7 +97,7 @@ QuadraticTetrahedra::QuadraticTetrahedra(std::span<const Vec3> nodes,
   for (std::size_t e = 0; e < linear.size(); ++e) {
     const IntegrationPoint<4>& whole = linear[e];
     IntegrationPoint<10> point{
-        nodesOf(nodes, whole.nodes, midsides[e], e), {}, 0.25 * whole.weight, whole.lame};
+        nodesOf(nodes, whole.nodes, midsides[e], e), {}, 0.25 * whole.weight, whole.lame, whole.law};
     for (const Barycentric& L : gauss) {
       point.gradients = gradients(L, whole.gradients);
       points.push_back(point);

@@ -175,7 +175,7 @@ Suspects::Suspects(const MonomialBasis& basis, const KernelInput& input, double 
       },
       *input.points);
   summed_.resize(U_.size() / static_cast<std::size_t>(input.coefficients));
-  fields_ = {&points_, input.coefficients, U_.data(), input.law, {}, {}};
+  fields_ = {&points_, input.coefficients, U_.data(), {}, {}};
 }
 
 /// Takes over the fields of a node when it is met first.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palpate::solver {
 
@@ -31,10 +32,11 @@ FeModel::Points NodeOrder::sorted(const FeModel::Points& of_the_mesh) const {
       [this](auto& all) {
         for (auto& point : all)
           for (std::int32_t& node : point.nodes) node = place[static_cast<std::size_t>(node)];
-        std::stable_sort(all.begin(), all.end(), [](const auto& l, const auto& r) {
-          return *std::min_element(l.nodes.begin(), l.nodes.end()) <
-                 *std::min_element(r.nodes.begin(), r.nodes.end());
-        });
+        const auto key = [](const auto& point) {
+          return std::pair(point.law.index(), *std::min_element(point.nodes.begin(), point.nodes.end()));
+        };
+        std::stable_sort(all.begin(), all.end(),
+                         [&](const auto& l, const auto& r) { return key(l) < key(r); });
       },
       points);
   return points;

@@ -21,7 +21,7 @@ struct NodeRow {
 /// neighbours in memory are neighbours in the mesh.
 struct NodeOrder {
   NodeOrder(const FeModel& model, const Cholesky& factor);
-  /// The points with places instead of nodes, sorted by them: each field is read once, not once per element.
+  /// The points with places instead of nodes, sorted by law and by them: each field is read once for each law, not once per element.
   [[nodiscard]] FeModel::Points sorted(const FeModel::Points& of_the_mesh) const;
   [[nodiscard]] std::size_t placeOf(int node) const {
     return static_cast<std::size_t>(place[static_cast<std::size_t>(node)]);

@@ -20,9 +20,8 @@ template <int N>
 struct PointInput {
   const IntegrationPoint<N>* points;
   int point_count;
-  int coefficients;  ///< stride of U and V
-  const Lanes* U;    ///< U_alpha
-  Law law;
+  int coefficients;     ///< stride of U and V
+  const Lanes* U;       ///< U_alpha
   const FloatLanes* V;  ///< U_alpha length^|alpha|, for energies and bounds
   double length;        ///< of the order of an element, m: numbers near 1 for float32
 };
@@ -181,13 +180,27 @@ PALPATE_INLINE void withLaw(const Law& law, const Body& body) {
   }
 }
 
+/// Calls body(law, first, end) for each run of points with one law. @param body  inlined as well
+template <int N, typename Body>
+PALPATE_INLINE void forRuns(const PointInput<N>& input, const Body& body) {
+  const IntegrationPoint<N>* const end = input.points + input.point_count;
+  for (const IntegrationPoint<N>* first = input.points; first != end;) {
+    const IntegrationPoint<N>* const last = endOfRun(first, end);
+    withLaw(
+        first->law, [&](auto law) __attribute__((always_inline)) {
+          body(law, static_cast<int>(first - input.points), static_cast<int>(last - input.points));
+        });
+    first = last;
+  }
+}
+
 /// assembleDegree of series_kernel.h.
 template <int N>
 PALPATE_INLINE void assembleAll(const PointInput<N>& input, const CauchyProduct& product, int first, int last,
                                 Lanes* r) {
-  withLaw(
-      input.law, [&](auto law) __attribute__((always_inline)) {
-        for (int n = 0; n < input.point_count; ++n)
+  forRuns(
+      input, [&](auto law, int from, int to) __attribute__((always_inline)) {
+        for (int n = from; n < to; ++n)
           for (int part = 0; part < kParts; ++part)
             assemblePart<decltype(law)>(input, product, n, part, first, last, r);
       });
@@ -198,12 +211,12 @@ template <int N>
 PALPATE_INLINE void energyAll(const PointInput<N>& input, const CauchyProduct& factors,
                               const CauchyRows& rows, int count, Lanes* W) {
   constexpr int kBlock = 16;  // points summed in float32
-  withLaw(
-      input.law, [&](auto law) __attribute__((always_inline)) {
-        for (int begin = 0; begin < input.point_count; begin += kBlock) {
+  forRuns(
+      input, [&](auto law, int from, int to) __attribute__((always_inline)) {
+        for (int begin = from; begin < to; begin += kBlock) {
           std::array<FloatLanes, kMost> sums;
           for (int k = 0; k < count; ++k) sums[static_cast<std::size_t>(k)] = FloatLanes{};
-          for (int n = begin; n < begin + kBlock && n < input.point_count; ++n)
+          for (int n = begin; n < begin + kBlock && n < to; ++n)
             energyPoint<decltype(law)>(input, factors, rows, n, sums.data());
           for (int k = 0; k < count; ++k)
             for (int lane = 0; lane < kLanes; ++lane)

@@ -15,6 +15,7 @@
 #include "tools/solver/series/domain.h"
 #include "tools/solver/series/node_order.h"
 #include "tools/solver/series/series_kernel.h"
+#include "tools/solver/series/spring_energy.h"
 
 namespace palpate::solver {
 
@@ -44,7 +45,7 @@ struct SeriesSolver::State {
     return energy_basis.begin(std::min(basis.order() + 2, energy_basis.order() + 1));
   }
   [[nodiscard]] KernelInput input(const FeModel::Points& of) const {
-    return {&of, basis.size(), U.data(), model.material().law, V.data(), length};
+    return {&of, basis.size(), U.data(), V.data(), length};
   }
   /// Of a coefficient in U and V.
   [[nodiscard]] std::size_t at(std::size_t place, int k) const {
@@ -192,6 +193,7 @@ void SeriesSolver::State::answerFromEnergy() {
   LaneVector W(static_cast<std::size_t>(energy_basis.size() - first), Lanes{});
   const double sign = kind == SeriesKind::kDisplacement ? 1.0 : -1.0;
   energyCoefficients(input(points), factor_product, energy_rows, static_cast<int>(W.size()), W.data());
+  addSpringEnergies(model, order_of_nodes, basis, input(points), energy_rows, W.data());
   for (int k = basis.size(); k < answer_basis.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
       MultiIndex gamma = answer_basis[k];

@@ -8,8 +8,7 @@ namespace {
 template <int N>
 PALPATE_INLINE PointInput<N> inputOf(const KernelInput& input,
                                      const std::vector<IntegrationPoint<N>>& points) {
-  return {points.data(), static_cast<int>(points.size()), input.coefficients, input.U, input.law, input.V,
-          input.length};
+  return {points.data(), static_cast<int>(points.size()), input.coefficients, input.U, input.V, input.length};
 }
 
 /// Calls body with the input for the nodes that elements have; std::visit would not be inlined. @param body  inlined as well

@@ -14,9 +14,8 @@ namespace palpate::solver {
 /// What the kernels read: the points of elements of four or of ten nodes, and fields as in PointInput.
 struct KernelInput {
   const FeModel::Points* points;
-  int coefficients;  ///< stride of U and V
-  const Lanes* U;    ///< U_alpha
-  Law law;
+  int coefficients;     ///< stride of U and V
+  const Lanes* U;       ///< U_alpha
   const FloatLanes* V;  ///< U_alpha length^|alpha|, for energies and bounds
   double length;        ///< of the order of an element, m
 };

@@ -52,6 +52,27 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   EXPECT_GT(json["bytes"]["greens_functions"], 2U * 3U * 4U * json["contact_positions"].get<unsigned>());
 }
 
+TEST(Inspect, SaysWhichRegionsAndSpringsThereAre) {
+  const TemporaryFile file("inspect-regions.h5");
+  modelfile::ModelData data = syntheticModel({.subdivisions = 1});
+  data.mesh_element_region.assign(data.mesh_tetrahedron_tag.size(), 0);
+  data.mesh_element_region.front() = 1;
+  data.region_name = {regionName("elsewhere"), regionName("nodule")};
+  data.region_E = {5e3, 70e3};
+  data.region_nu = {0.48, 0.3};
+  data.region_law = {regionName("stable-neo-hookean"), regionName("stvk")};
+  data.spring_node = {1, 3};
+  data.spring_stiffness = {2.0, 3.0};
+  modelfile::writeModel(file.path(), data);
+  const auto json = nlohmann::json::parse(inspect({"--json", file.path().string()}).out);
+  EXPECT_EQ(json["regions"]["nodule"],
+            (nlohmann::json{{"law", "stvk"}, {"E", 70e3}, {"nu", 0.3}, {"tetrahedra", 1}}));
+  EXPECT_EQ(json["regions"]["elsewhere"]["tetrahedra"], data.mesh_tetrahedron_tag.size() - 1);
+  EXPECT_EQ(json["springs"], (nlohmann::json{{"nodes", 2}, {"stiffness", 5.0}}));
+  const ProgramResult run = inspect({file.path().string()});
+  EXPECT_THAT(run.out, HasSubstr("regions.nodule            {\"law\":\"stvk\",\"E\":70000"));
+}
+
 TEST(Inspect, DoesNotDescribeAModelThatWasChanged) {
   const TemporaryFile file("inspect-changed.h5");
   modelfile::ModelData data = syntheticModel({.subdivisions = 1});

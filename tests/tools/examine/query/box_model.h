@@ -34,16 +34,30 @@ struct BoxMesh {
       box.node_tags[static_cast<std::size_t>(i)] = 1000 - 7 * i;
       if (i % kNx == 0) box.groups["fixed"].push_back(i);
       if (i % kNx >= 2) box.groups["accessible"].push_back(i);
+      if (i < kNx * kNy) box.groups["bed"].push_back(i);
     }
     for (std::size_t t = 0; t < box.tetrahedra.size(); ++t)
       box.tetrahedron_tags[t] = 5000 - 2 * static_cast<std::int64_t>(t);
+    for (std::size_t t = 0; t < box.tetrahedra.size(); ++t) {
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      for (const std::int32_t node : box.tetrahedra[t])
+        middle += 0.25 * box.nodes[static_cast<std::size_t>(node)];
+      if (middle.x() > 0.04 && middle.x() < 0.08)
+        box.regions["nodule"].push_back(static_cast<std::int32_t>(t));
+    }
     return box;
   }
 };
 
+/// What the box is made of.
+struct BoxCase {
+  enum Kind { kPlain, kRegionAndSprings };
+  static constexpr double kBed = 2e5;  ///< N/m^3
+};
+
 /// Writes the model of the box. Its near field covers the box whole: what the modes miss is all in there.
 inline void writeBoxModel(const std::filesystem::path& path, const std::string& law = "stvk",
-                          int element_order = 1) {
+                          int element_order = 1, BoxCase::Kind kind = BoxCase::kPlain) {
   solver::Case c;
   c.mesh = "box";
   c.accessible = "accessible";
@@ -51,6 +65,10 @@ inline void writeBoxModel(const std::filesystem::path& path, const std::string& 
   c.element_order = element_order;
   c.E = 1e5;
   c.nu = 0.4;
+  if (kind == BoxCase::kRegionAndSprings) {
+    c.regions.push_back({"nodule", 5e5, 0.3, "stable-neo-hookean", "case"});
+    c.springs.push_back({"bed", BoxCase::kBed, "case"});
+  }
   c.patch_radius = 0.012;
   c.modes = 10;
   c.near_radius = 1.0;
@@ -64,13 +82,14 @@ inline void writeBoxModel(const std::filesystem::path& path, const std::string& 
 
 /// The model of the box, loaded, and its full problem.
 struct BoxModel {
-  explicit BoxModel(std::string of_law = "stvk", int order = 1)
-      : law(std::move(of_law)), element_order(order) {}
+  explicit BoxModel(std::string of_law = "stvk", int order = 1, BoxCase::Kind of_kind = BoxCase::kPlain)
+      : law(std::move(of_law)), element_order(order), kind(of_kind) {}
 
   std::string law;
   int element_order;
+  BoxCase::Kind kind;
   TemporaryFolder folder;
-  std::filesystem::path path{(writeBoxModel(folder / "box.h5", law, element_order), folder / "box.h5")};
+  std::filesystem::path path{(writeBoxModel(folder / "box.h5", law, element_order, kind), folder / "box.h5")};
   MetaModel model{MetaModel::load(path)};
   Organ organ{organOf(model, modelfile::readVolumeMesh(path))};
 

@@ -86,8 +86,8 @@ TEST(CcxDeck, IsOneNonlinearStepThatPrintsAllNodesOnce) {
   const Written w;
   EXPECT_EQ(w.deck.keywords,
             (std::vector<std::string>{
-                "*HEADING", "*NODE,NSET=ALL", "*ELEMENT,TYPE=C3D4,ELSET=BODY", "*MATERIAL,NAME=ORGAN",
-                "*ELASTIC", "*SOLID SECTION,ELSET=BODY,MATERIAL=ORGAN", "*NSET,NSET=HELD", "*BOUNDARY",
+                "*HEADING", "*NODE,NSET=ALL", "*ELEMENT,TYPE=C3D4,ELSET=BODY", "*MATERIAL,NAME=BODY",
+                "*ELASTIC", "*SOLID SECTION,ELSET=BODY,MATERIAL=BODY", "*NSET,NSET=HELD", "*BOUNDARY",
                 "*STEP,NLGEOM,INC=1000", "*STATIC", "*CONTROLS,PARAMETERS=FIELD", "*CLOAD",
                 "*NODE PRINT,NSET=ALL,FREQUENCY=1000", "*END STEP"}));
   EXPECT_EQ(std::stod(w.deck.under.at("*STATIC").at(0).at(0)), 0.25);
@@ -109,15 +109,32 @@ TEST(CcxDeck, RefusesNumbersThatCalculixCannotTake) {
             "CalculiX takes the numbers 1 to 999999999, but the mesh has a node 1000000000");
 }
 
-TEST(CcxDeck, RefusesStiffnessByElement) {
-  Written w;
-  const solver::FeModel& body = w.box.organ.body;
-  solver::Material material = body.material();
-  material.by_element.assign(body.tetrahedra().corners.size(), {3e5, 0.4});
-  w.box.organ.body = solver::FeModel(body.nodes(), body.tetrahedra(), body.fixedNodes(), material);
-  EXPECT_EQ(errorOf([&] { (void)ccxDeck(w.box.organ, w.truth, "", 1); }),
-            "a CalculiX deck has one stiffness, but the organ has one in each of its " +
-                std::to_string(material.by_element.size()) + " elements");
+TEST(CcxDeck, HasASectionForEachRegionAndAnElementForEachSpring) {
+  const BoxModel box{"stvk", 1, BoxCase::kRegionAndSprings};
+  const FullSolution truth = box.solve(anchorNear(box.model, {0.083, 0.031, 0.06}), {0.001, -0.002, -0.004});
+  const std::string text = ccxDeck(box.organ, truth, "", 1);
+  const ParsedDeck deck(text);
+  std::set<std::int64_t> stiff, expected;
+  for (const auto& line : deck.under.at("*ELSET,ELSET=REGION2"))
+    for (const auto& field : line) stiff.insert(std::stoll(field));
+  const mesh::TetMesh mesh = BoxMesh::make();
+  for (const std::int32_t e : mesh.regions.at("nodule"))
+    expected.insert(mesh.tetrahedron_tags[static_cast<std::size_t>(e)]);
+  EXPECT_EQ(stiff, expected);
+  EXPECT_EQ(std::stod(deck.under.at("*ELASTIC").at(0).at(0)), 1e5);
+  EXPECT_EQ(std::stod(deck.under.at("*ELASTIC").at(0).at(1)), 0.4);
+  EXPECT_NE(text.find("*MATERIAL,NAME=REGION2\n*HYPERFOAM,N=2\n"), std::string::npos);
+  EXPECT_NE(text.find("*SOLID SECTION,ELSET=REGION2,MATERIAL=REGION2\n"), std::string::npos);
+  double total = 0.0;
+  for (std::size_t s = 0; s < box.organ.mesh.spring_node.size(); ++s) {
+    const std::string set = "SPRING" + std::to_string(s + 1) + "_3";
+    EXPECT_EQ(std::stoll(deck.under.at("*ELEMENT,TYPE=SPRING1,ELSET=" + set).at(0).at(1)),
+              box.organ.mesh.node_tag[static_cast<std::size_t>(box.organ.mesh.spring_node[s])]);
+    EXPECT_EQ(deck.under.at("*SPRING,ELSET=" + set).at(0).at(0), "3");
+    total += std::stod(deck.under.at("*SPRING,ELSET=" + set).at(1).at(0));
+  }
+  EXPECT_NEAR(total, BoxCase::kBed * 0.1 * 0.06, 0.21 * total);  // but for the clamped edge
+  EXPECT_GT(total, 0.0);
 }
 
 }  // namespace

@@ -29,20 +29,7 @@ std::map<std::int64_t, Vec3> printedBy(const std::filesystem::path& dat) {
   return u;
 }
 
-/// A law, and elements of four nodes (C3D4) or of ten (C3D10).
-class CalculixValidation : public ::testing::TestWithParam<std::tuple<std::string_view, int>> {};
-INSTANTIATE_TEST_SUITE_P(Body, CalculixValidation,
-                         ::testing::Combine(::testing::ValuesIn(kLaws), ::testing::Values(1, 2)),
-                         [](const auto& test) {
-                           std::string name(std::get<0>(test.param));
-                           std::erase(name, '-');
-                           return name + (std::get<1>(test.param) == 1 ? "Linear" : "Quadratic");
-                         });
-
-TEST_P(CalculixValidation, EveryNodeMovesAsInNewton) {
-  if (!palpate::testing::isInstalled("ccx")) GTEST_SKIP() << "ccx (package calculix-ccx) is missing";
-  const auto& [law, element_order] = GetParam();
-  const BoxModel box{std::string(law), element_order};
+void expectTheSameOfCalculix(const BoxModel& box) {
   const Vec3 d(0.003, -0.004, -0.012);
   const FullSolution truth = box.solve(anchorNear(box.model, {0.083, 0.031, 0.06}), d);
   program::writeFile(box.folder / "deck.inp", ccxDeck(box.organ, truth, "validation", 1));
@@ -59,6 +46,32 @@ TEST_P(CalculixValidation, EveryNodeMovesAsInNewton) {
   // The case is a nonlinear one, or the comparison would show little.
   const FullSolution small = box.solve(anchorNear(box.model, {0.083, 0.031, 0.06}), 1e-3 * d);
   EXPECT_GT((truth.state.u - 1e3 * small.state.u).cwiseAbs().maxCoeff(), 0.01 * d.norm());
+}
+
+/// A law, and elements of four nodes (C3D4) or of ten (C3D10).
+class CalculixValidation : public ::testing::TestWithParam<std::tuple<std::string_view, int>> {
+ protected:
+  static BoxModel box(BoxCase::Kind kind) {
+    const auto& [law, element_order] = GetParam();
+    return BoxModel{std::string(law), element_order, kind};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Body, CalculixValidation,
+                         ::testing::Combine(::testing::ValuesIn(kLaws), ::testing::Values(1, 2)),
+                         [](const auto& test) {
+                           std::string name(std::get<0>(test.param));
+                           std::erase(name, '-');
+                           return name + (std::get<1>(test.param) == 1 ? "Linear" : "Quadratic");
+                         });
+
+TEST_P(CalculixValidation, EveryNodeMovesAsInNewton) {
+  if (!palpate::testing::isInstalled("ccx")) GTEST_SKIP() << "ccx (package calculix-ccx) is missing";
+  expectTheSameOfCalculix(box(BoxCase::kPlain));
+}
+
+TEST_P(CalculixValidation, EveryNodeOfABodyWithAStiffRegionOnSpringsMovesAsInNewton) {
+  if (!palpate::testing::isInstalled("ccx")) GTEST_SKIP() << "ccx (package calculix-ccx) is missing";
+  expectTheSameOfCalculix(box(BoxCase::kRegionAndSprings));
 }
 
 }  // namespace

@@ -89,5 +89,18 @@ TEST(FullSolution, RefusesAPatchThatIsAllClamped) {
             std::string::npos);
 }
 
+TEST(FullSolution, OfAModelWithAStiffRegionOnSpringsIsThatOfTheModel) {
+  const BoxModel box{"stvk", 1, BoxCase::kRegionAndSprings}, plain;
+  for (const std::int64_t node : {BoxMesh::number(3, 1, 2), BoxMesh::number(5, 2, 2)}) {
+    const Anchor anchor = anchorAtNode(box.model, node);
+    const Vec3 tiny(2e-6, -3e-6, -6e-6), far(2e-4, -3e-4, -6e-4);
+    EXPECT_LT(errorsOf(ask(box.model, anchor, tiny), box.solve(anchor, tiny), box.organ).force, 1e-7);
+    const FullSolution truth = box.solve(anchor, far);
+    EXPECT_LT(errorsOf(ask(box.model, anchor, far), truth, box.organ).force, 1e-5);
+    // The region, whose modulus is five times the other's, and the bed are felt.
+    EXPECT_GT(truth.state.force.norm(), 1.1 * plain.solve(anchor, far).state.force.norm());
+  }
+}
+
 }  // namespace
 }  // namespace palpate::query::test

@@ -61,6 +61,48 @@ sweeps = 3
   EXPECT_EQ(c.sweeps, 3);
 }
 
+TEST_F(CaseFile, ReadsRegionsAndSprings) {
+  const Case c = readCase(write(R"(mesh = "organ.msh"
+[[region]]
+group = "nodule"
+E = 70e3
+[[region]]
+group = "vessel"
+E = 5e5
+nu = 0.3
+law = "stvk"
+[[spring]]
+group = "bed"
+stiffness = 1e6
+)"));
+  ASSERT_EQ(c.regions.size(), 2U);
+  EXPECT_EQ(c.regions[0].group, "nodule");
+  EXPECT_EQ(c.regions[0].E, 70e3);
+  EXPECT_FALSE(c.regions[0].nu.has_value());
+  EXPECT_FALSE(c.regions[0].law.has_value());
+  EXPECT_EQ(c.regions[0].place, (folder_ / "case.toml").string() + ":3: region.group");
+  EXPECT_EQ(c.regions[1].nu.value(), 0.3);
+  EXPECT_EQ(c.regions[1].law.value(), "stvk");
+  ASSERT_EQ(c.springs.size(), 1U);
+  EXPECT_EQ(c.springs[0].group, "bed");
+  EXPECT_EQ(c.springs[0].stiffness, 1e6);
+}
+TEST_F(CaseFile, RefusesARegionThatIsNotWhole) {
+  expectRefusal("mesh = \"a\"\n[[region]]\nE = 1.0\n", ".toml:2: region.group", "is missing");
+  expectRefusal("mesh = \"a\"\n[[region]]\ngroup = \"b\"\n", ".toml:2: region.E", "is missing");
+  expectRefusal("mesh = \"a\"\n[[spring]]\ngroup = \"b\"\n", ".toml:2: spring.stiffness", "is missing");
+}
+TEST_F(CaseFile, RefusesKeysOfARegionByNameAndLine) {
+  const std::string region = "mesh = \"a\"\n[[region]]\ngroup = \"b\"\nE = 1.0\n";
+  expectRefusal(region + "young = 2\n", ".toml:5: region.young", "not known");
+  expectRefusal(region + "nu = 0.5\n", ".toml:5: region.nu", "0.5 is out of range");
+  expectRefusal(region + "law = \"jelly\"\n", ".toml:5: region.law", "jelly");
+  expectRefusal("mesh = \"a\"\n[[region]]\ngroup = 3\n", ".toml:3: region.group", "not a string");
+  expectRefusal("mesh = \"a\"\n[region]\n", ".toml:2: region", "is not an array of tables, [[region]]");
+  expectRefusal("mesh = \"a\"\n[[spring]]\ngroup = \"b\"\nstiffness = 0\n", ".toml:4: spring.stiffness",
+                "0 is out of range");
+}
+
 TEST_F(CaseFile, LeavesDefaultsWhereAKeyIsAbsent) {
   const Case c = readCase(write("mesh = \"organ.msh\"\n"));
   EXPECT_EQ(c.E, 160e3);

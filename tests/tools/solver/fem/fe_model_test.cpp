@@ -110,8 +110,9 @@ TEST(FeModel, RefusesAFlatTetrahedron) {
 TEST(FeModel, ForceIsThatOfEachElementsOwnStiffness) {
   const Box box{4, 1, 1, Vec3(0.04, 0.01, 0.01)};
   Material material = kLiver;
+  material.regions = {{"soft", {160e3, 0.48}}, {"stiff", {480e3, 0.48}}};
   for (std::size_t e = 0; e < box.tetrahedra().size(); ++e)
-    material.by_element.push_back({e < box.tetrahedra().size() / 2 ? 160e3 : 480e3, 0.48});
+    material.region_of_element.push_back(e < box.tetrahedra().size() / 2 ? 0 : 1);
   const FeModel even = box.clamped(kLiver), uneven = box.clamped(material);
   const Eigen::VectorXd u = randomField(even, 5e-4, 5);
   const Eigen::VectorXd f = even.internalForce(u), g = uneven.internalForce(u);
@@ -123,10 +124,64 @@ TEST(FeModel, ForceIsThatOfEachElementsOwnStiffness) {
       }
 }
 
-TEST(FeModel, RefusesAnotherNumberOfStiffnessesThanElements) {
+TEST(FeModel, RefusesElementsWithoutARegionAndRegionsThatThereAreNot) {
+  const Box box{1, 1, 1, Vec3(1, 1, 1)};
   Material material = kLiver;
-  material.by_element.resize(5);
-  EXPECT_THROW((void)(Box{1, 1, 1, Vec3(1, 1, 1)}.clamped(material)), std::invalid_argument);
+  material.regions.resize(2);
+  material.region_of_element.assign(5, 0);
+  EXPECT_THROW((void)box.clamped(material), std::invalid_argument);
+  material.region_of_element.assign(6, 1);
+  EXPECT_NO_THROW((void)box.clamped(material));
+  material.region_of_element[3] = 2;
+  EXPECT_THROW((void)box.clamped(material), std::invalid_argument);
+  material.region_of_element.assign(6, 1);
+  material.regions[1].elasticity.nu = 0.5;
+  EXPECT_THROW((void)box.clamped(material), std::invalid_argument);
+}
+
+/// Two laws, one for each half, and springs under one face, one of them at a node that has two.
+FeModel mixedBody() {
+  const Box box{3, 2, 2, Vec3(0.03, 0.02, 0.02)};
+  Material material = kLiver;
+  material.regions = {{"a", {160e3, 0.48}, StVenantKirchhoff{}}, {"b", {480e3, 0.3}, StableNeoHookean{}}};
+  for (std::size_t e = 0; e < box.tetrahedra().size(); ++e)
+    material.region_of_element.push_back(e % 5 < 2 ? 0 : 1);
+  std::vector<Spring> springs;
+  for (const std::int32_t node : box.face(2, false)) springs.push_back({node, 100.0 + node});
+  springs.push_back(springs.back());
+  return FeModel(box.nodes(), box.tetrahedra(), box.face(0, false), material, springs);
+}
+
+TEST(FeModel, OfTwoLawsOnSpringsHasItsForceFromItsEnergyAndItsTangentFromItsForce) {
+  const FeModel model = mixedBody();
+  const Eigen::VectorXd u = randomField(model, 5e-4, 7), v = randomField(model, 1.0, 8);
+  const double h = 1e-7;
+  const Eigen::VectorXd f = model.internalForce(u);
+  const double slope = (model.energy(u + h * v) - model.energy(u - h * v)) / (2.0 * h);
+  EXPECT_NEAR(f.dot(v), slope, 1e-6 * std::abs(slope));
+  const Eigen::VectorXd wanted =
+      (model.internalForce(u + h * v) - model.internalForce(u - h * v)) / (2.0 * h);
+  Eigen::VectorXd found = Eigen::VectorXd::Zero(v.size());
+  for (int e = 0; e < model.elementCount(); ++e) {
+    const FeModel::ElementMatrix K = model.elementTangent(e, u);
+    const auto nodes = model.elementNodes(e);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        found.segment<3>(3 * nodes[a]) +=
+            K.block<3, 3>(static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b)) *
+            v.segment<3>(3 * nodes[b]);
+  }
+  EXPECT_LT((found - wanted).norm(), 1e-6 * wanted.norm());
+}
+
+TEST(FeModel, RefusesASpringThatPushesOrHasNoNode) {
+  const Box box{1, 1, 1, Vec3(1, 1, 1)};
+  const auto with = [&](const Spring& spring) {
+    return FeModel(box.nodes(), box.tetrahedra(), {}, kLiver, {spring});
+  };
+  EXPECT_NO_THROW((void)with({7, 1.0}));
+  EXPECT_THROW((void)with({8, 1.0}), std::invalid_argument);
+  EXPECT_THROW((void)with({7, -1.0}), std::invalid_argument);
 }
 
 TEST(FeModel, RefusesAnIncompressibleMaterial) {

@@ -23,13 +23,16 @@ Vec3 sum(const MonomialBasis& basis, const Vec3& x, Coefficient c) {
 }
 
 class BlockSeries : public ::testing::Test {
- protected:
+ public:
   static constexpr int kOrder = 4;
   const Box box_{6, 5, 4, Vec3(0.06, 0.05, 0.04)};
 
   struct Case {
-    explicit Case(const Box& box, double E, Law law = {})
-        : model(box.clamped({{E, 0.45}, law})), surface(box.surface(model)), factor(model) {
+    Case(const Box& box, double E, Law law = {}) : Case(box, Material{{E, 0.45}, law}) {}
+    Case(const Box& box, const Material& material, const std::vector<Spring>& springs = {})
+        : model(box.nodes(), box.tetrahedra(), box.face(0, false), material, springs),
+          surface(box.surface(model)),
+          factor(model) {
       factor.factorize(Eigen::VectorXd::Zero(3 * model.nodeCount()));
       for (const int node : {box.node(4, 2, 4), box.node(6, 3, 2), box.node(3, 5, 2)}) {
         const auto at = std::find(surface.nodes.begin(), surface.nodes.end(), node) - surface.nodes.begin();

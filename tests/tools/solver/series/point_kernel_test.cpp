@@ -19,12 +19,12 @@ namespace {
 class QuadraticKernels : public ::testing::TestWithParam<std::string_view> {
  protected:
   static constexpr int kOrder = 2;  // of the fields
-  const QuadraticBox body_{Box{2, 1, 1, Vec3(0.02, 0.01, 0.01)}};
+  const Law law_ = lawOf(GetParam());
+  const QuadraticBox body_{Box{2, 1, 1, Vec3(0.02, 0.01, 0.01)}, law_};
   const std::span<const IntegrationPoint<10>> points_{body_.points};
   const MonomialBasis basis_{3};
   const Vec3 direction_ = Vec3(0.3, -0.5, 0.8).normalized();
   static constexpr double kLength = 0.25;  // m, a power of two as in SeriesSolver: no rounding by it
-  const Law law_ = lawOf(GetParam());
   LaneVector U_;
   FloatLaneVector V_;
 
@@ -42,13 +42,9 @@ class QuadraticKernels : public ::testing::TestWithParam<std::string_view> {
       const MultiIndex& alpha = basis_[static_cast<int>(i / 3) % basis_.size()];
       V_[i] = __builtin_convertvector(U_[i] * std::pow(kLength, alpha[0] + alpha[1] + alpha[2]), FloatLanes);
     }
-    return {body_.points.data(),
-            static_cast<int>(body_.points.size()),
-            basis_.size(),
-            U_.data(),
-            law_,
-            V_.data(),
-            kLength};
+    return {body_.points.data(), static_cast<int>(body_.points.size()),
+            basis_.size(),       U_.data(),
+            V_.data(),           kLength};
   }
   Lanes& at(std::size_t node, int k, int c) {
     return U_[(node * static_cast<std::size_t>(basis_.size()) + static_cast<std::size_t>(k)) * 3 +
