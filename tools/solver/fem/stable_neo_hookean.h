@@ -100,29 +100,49 @@ PALPATE_INLINE void addLinearCofactor(const Tensor<Scalar>& H, Scalar scale, Ten
   }
 }
 
-/// T = cof H of coefficient k: the part of it that is bilinear in A and B is A x B + B x A, row by row.
+/// T += cof A
+template <typename Scalar>
+PALPATE_INLINE void addCofactor(const Tensor<Scalar>& A, Tensor<Scalar>& T) {
+  for (int i = 0; i < 3; ++i) {
+    const auto* a = A.v + 3 * ((i + 1) % 3);
+    const auto* b = A.v + 3 * ((i + 2) % 3);
+    for (int I = 0; I < 3; ++I) {
+      const int J = (I + 1) % 3, L = (I + 2) % 3;
+      T.v[3 * i + I] += a[J] * b[L] - a[L] * b[J];
+    }
+  }
+}
+
+/// T += cof(A + B) - cof A - cof B
+template <typename Scalar>
+PALPATE_INLINE void addMixedCofactor(const Tensor<Scalar>& A, const Tensor<Scalar>& B, Tensor<Scalar>& T) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = 3 * ((i + 1) % 3), l = 3 * ((i + 2) % 3);
+    for (int I = 0; I < 3; ++I) {
+      const int J = (I + 1) % 3, L = (I + 2) % 3;
+      auto& t = T.v[3 * i + I];
+      t += A.v[j + J] * B.v[l + L];
+      t -= A.v[j + L] * B.v[l + J];
+      t += B.v[j + J] * A.v[l + L];
+      t -= B.v[j + L] * A.v[l + J];
+    }
+  }
+}
+
+/// T = cof H of coefficient k.
 template <typename Scalar>
 PALPATE_INLINE void cofactorOf(const CauchyProduct& product, int k, const Tensor<Scalar>* H,
                                Tensor<Scalar>& T) {
-  Tensor<Scalar> mixed{}, squares{};
+  Tensor<Scalar> sum{};
   const int end = product.begin[static_cast<std::size_t>(k) + 1];
   for (int p = product.factors[static_cast<std::size_t>(k)]; p < end; ++p) {
     const auto [b, c] = product.pairs[static_cast<std::size_t>(p)];
-    const auto& A = H[b].v;
-    const auto& B = H[c].v;
-    for (int i = 0; i < 3; ++i) {
-      const int j = 3 * ((i + 1) % 3), l = 3 * ((i + 2) % 3);
-      for (int I = 0; I < 3; ++I) {
-        const int J = (I + 1) % 3, L = (I + 2) % 3;
-        if (b == c)
-          squares.v[3 * i + I] += A[j + J] * A[l + L] - A[j + L] * A[l + J];
-        else
-          mixed.v[3 * i + I] +=
-              A[j + J] * B[l + L] - A[j + L] * B[l + J] + B[j + J] * A[l + L] - B[j + L] * A[l + J];
-      }
-    }
+    if (b == c)
+      addCofactor(H[b], sum);
+    else
+      addMixedCofactor(H[b], H[c], sum);
   }
-  for (int i = 0; i < 9; ++i) T.v[i] = mixed.v[i] + squares.v[i];
+  T = sum;
 }
 
 /// sum += scale A : B
