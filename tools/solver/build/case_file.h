@@ -4,20 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tools/mesh/tet_mesh.h"
+#include "tools/solver/build/case_error.h"
 #include "tools/solver/fem/fe_model.h"
 
 namespace palpate::solver {
-
-/// A case file or an option is invalid. what() names the file, the line and the key.
-class CaseError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// How the model is computed, and which parameters it has beside s.     docs/design.md, Reproduction, Series
 enum class Method : std::uint8_t {
