@@ -72,7 +72,7 @@ struct SeriesSolver::State {
   CauchyRows energy_rows;        // of those, for the energy
   NodeOrder order_of_nodes;
   FeModel::Points points, det_points;
-  double length;  // unit of V, m
+  double length;  // unit of V: m, or N when driven by force
   OrderedSolver solver;
   std::span<const Patch> patches;
   LaneVector U;                                 // [place][k][3]; zero at clamped nodes
@@ -129,10 +129,12 @@ void SeriesSolver::State::firstDegree() {
             patch(lane).weights[i];
   solveSides(3);
   std::array<Lanes, 9> mix{};  // of the columns of W_s, [k][i]
+  double softest = 0.0;
   for (int lane = 0; lane < kLanes; ++lane) {
     Mat3 C;
     for (int k = 0; k < 3; ++k) C.col(k) = average(lane, k);
     C = 0.5 * (C + C.transpose()).eval();
+    softest = std::max(softest, C.norm());
     Mat3 M = Mat3::Identity();
     if (kind == SeriesKind::kDisplacement) C = M = inverseCompliance(lane, C);
     for (int k = 0; k < 3; ++k) {
@@ -140,6 +142,7 @@ void SeriesSolver::State::firstDegree() {
       for (int i = 0; i < 3; ++i) mix[static_cast<std::size_t>(3 * k + i)][lane] = M(i, k);
     }
   }
+  if (kind == SeriesKind::kForce) length = std::exp2(std::round(std::log2(pointLength(points) / softest)));
   takeFields(0, 3, mix.data());
 }
 
