@@ -40,6 +40,7 @@ void override(const Options& options, solver::Case& c) {
     }
     c.law = *options.law;
   }
+  c.mesh_error = c.mesh_error || options.mesh_error;
   if (options.element_order) c.element_order = options.element_order;
   if (options.modes) {
     c.modes = options.modes;
@@ -64,6 +65,8 @@ void describe(program::Options line, Options& options) {
            "raise a linear mesh to quadratic elements (2), or not (1) (default: 2 for series-displacement "
            "and nu > 0.3)")
       .range(1, 2);
+  line.flag("--mesh-error", &options.mesh_error,
+            "say by how much the mesh makes the organ too stiff: 12 places with elements of half the size");
   line.add("--modes", &options.modes,
            "modes of the model (default: 167; series-displacement: as many as its field_error of 1 % wants)")
       .range(1, 2000);

@@ -22,6 +22,7 @@ struct Options {
 
   std::optional<std::string> method, law;
   std::optional<int> element_order;
+  bool mesh_error{false};
   std::optional<int> modes, order, steps;
   std::optional<std::string> direction;  ///< "x,y,z" or "any"
   std::optional<double> load;            ///< N

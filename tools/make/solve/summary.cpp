@@ -93,6 +93,22 @@ int wholeOr0(const Json& object, const char* key) {
   return member == nullptr ? 0 : member->get<int>();
 }
 
+/// What the mesh gets wrong, and where patches are too narrow for it.
+void printMesh(const Json& s) {
+  constexpr double kMuch = 0.05;
+  const Json* const error = s.find("mesh_error");
+  if (error == nullptr) return;
+  const double mean = error->at("mean").get<double>();
+  std::fprintf(stderr,
+               "mesh: too stiff by %.1f %% (mean), %.1f %% (largest), at %d points, against elements of half "
+               "the size\n",
+               100.0 * mean, 100.0 * error->at("max").get<double>(), error->at("points").get<int>());
+  if (mean > kMuch)
+    std::fprintf(stderr,
+                 "warning: the mesh makes the organ too stiff by more than 5 %%: smaller elements%s help\n",
+                 s["element_order"] == 1 ? " or --element-order 2" : "");
+}
+
 void printRadius(const Json& s) {
   const auto line = [](const Json& radius, const char* name, double scale, const char* unit) {
     std::fprintf(stderr, "%s: 5 %% quantile %.4g %s, median %.4g %s; ", name,
@@ -117,6 +133,12 @@ void printRadius(const Json& s) {
 }
 
 }  // namespace
+
+Json meshErrorOf(const solver::BuildReport& report) {
+  return {{"mean", report.mesh_error->mean},
+          {"max", report.mesh_error->largest},
+          {"points", report.mesh_error->points}};
+}
 
 Json stages(Method method, const solver::BuildReport& report) {
   if (isSeries(method))
@@ -152,6 +174,7 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
          {"parameters", std::string(toString(parameters))},
          {"nodes", data.mesh_node_tag.size()},
          {"tetrahedra", data.mesh_tetrahedron_tag.size()},
+         {"element_order", data.mesh_midsides.empty() ? 1 : 2},
          {"surface_nodes", data.surface_mesh_tag.size()},
          {"contact_positions", data.contact_node.size()},
          {"patch_radius", data.attributes.patch_radius},
@@ -166,6 +189,7 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
     s["reference_force"] = data.attributes.reference_force;
     s["weak_positions"] = report.weak_positions;
   }
+  if (report.mesh_error) s["mesh_error"] = meshErrorOf(report);
   if (isSeries(c.method)) {
     s["fit_error"] = report.fit_errors.back();
     if (parameters == Parameters::kDisplacement) {
@@ -192,6 +216,7 @@ void print(const Json& s) {
       s["contact_positions"].get<std::size_t>(), 1e3 * s["patch_radius"].get<double>());
   if (s.contains("order")) std::fprintf(stderr, "order %d, ", s["order"].get<int>());
   std::fprintf(stderr, "%zu modes\n", s["modes"].get<std::size_t>());
+  printMesh(s);
   printTimes(s["seconds"]);
   printFit(s);
   printRadius(s);

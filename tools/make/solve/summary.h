@@ -10,6 +10,9 @@
 
 namespace palpate::solve_program {
 
+/// mean, max, points. @param report  with a mesh error
+[[nodiscard]] program::Json meshErrorOf(const solver::BuildReport& report);
+
 /// Seconds by what was done, in the method's own stages.
 [[nodiscard]] program::Json stages(solver::Method method, const solver::BuildReport& report);
 

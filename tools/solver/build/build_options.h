@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace palpate::solver {
@@ -12,19 +13,27 @@ struct BuildOptions {
   bool quiet{false};
 };
 
+/// By how much the mesh makes the organ too stiff: n . K_s n of linear elasticity over the same of half the edge length, less 1.
+struct MeshError {
+  double mean{0.0};     ///< over the points, of the absolute values
+  double largest{0.0};  ///< absolute value
+  int points{0};        ///< 0: nowhere could it be looked at
+};
+
 /// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
 struct BuildReport {
   double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
   double pgd_seconds{0}, recompression_seconds{0};
-  std::vector<double> fit_errors;  ///< series methods: after each sweep, see FarField::errors
-  double fit_p95{0}, fit_max{0};   ///< series-displacement: FarField::largest over the positions
-  double fit_asked{0};             ///< of fit_p95, where it chose the modes: the case's field_error
-  int greedy_pairs{0};             ///< PGD methods: pairs before recompression
-  double residual{0};              ///< PGD methods: of the last enrichment, dual norm, relative, an estimate
-  double truncation{0};            ///< PGD methods: relative energy norm of what recompression drops
-  double load_truncation{0};       ///< pgd-linear: relative error of m terms, Eq. (2), in nodal forces
-  double load{0};                  ///< PGD methods: N
-  int weak_positions{0};           ///< load-driven: positions where the modes are too few to invert dd/df
+  std::vector<double> fit_errors;         ///< series methods: after each sweep, see FarField::errors
+  double fit_p95{0}, fit_max{0};          ///< series-displacement: FarField::largest over the positions
+  std::optional<MeshError> mesh_error{};  ///< where the case asks for it
+  double fit_asked{0};                    ///< of fit_p95, where it chose the modes: the case's field_error
+  int greedy_pairs{0};                    ///< PGD methods: pairs before recompression
+  double residual{0};         ///< PGD methods: of the last enrichment, dual norm, relative, an estimate
+  double truncation{0};       ///< PGD methods: relative energy norm of what recompression drops
+  double load_truncation{0};  ///< pgd-linear: relative error of m terms, Eq. (2), in nodal forces
+  double load{0};             ///< PGD methods: N
+  int weak_positions{0};      ///< load-driven: positions where the modes are too few to invert dd/df
 };
 
 }  // namespace palpate::solver

@@ -168,6 +168,7 @@ Case readCase(const std::filesystem::path& path) {
     Section part(file, "mesh", *section.table("mesh"));
     mesh = part.take<std::string>("file", "a string");
     c.element_order = part.integer("element_order", 1, 2);
+    assign(c.mesh_error, part.take<bool>("error", "true or false"));
     part.refuseTheRest();
     if (!mesh) throw CaseError(file + ": mesh.file is missing");
   } else {

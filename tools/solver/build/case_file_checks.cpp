@@ -42,6 +42,7 @@ void checkKeys(const Case& c) {
   const bool direction = c.load.direction || c.load.any_direction;
   for (const Rule& rule : std::initializer_list<Rule>{
            {"model.order", c.order.has_value(), kSeries, "it is the degree of a series"},
+           {"mesh.error", c.mesh_error, kDisplacement, "it is of the series in d"},
            {"model.near_radius", c.near_radius.has_value(), kDisplacement, "its model is modes only"},
            {"model.field_error", c.field_error.has_value(), kDisplacement,
             "its modes are as many as model.modes"},

@@ -19,6 +19,7 @@
 #include "tools/solver/build/displacement_fields.h"
 #include "tools/solver/build/domain_rings.h"
 #include "tools/solver/build/linear_answers.h"
+#include "tools/solver/build/mesh_error.h"
 #include "tools/solver/fit/far_field.h"
 #include "tools/solver/series/nodal_greens.h"
 
@@ -195,6 +196,7 @@ modelfile::ModelData Builder::run() {
   Cholesky factor(setup_.model);
   factorizeAtRest(factor, setup_, mesh_, case_);
   report_.factor_seconds = factor_watch.seconds();
+  if (case_.mesh_error) report_.mesh_error = meshError(setup_, mesh_, factor, options_.workers);
 
   const Stopwatch series_watch;
   const std::size_t rows = 3 * setup_.surface.nodes.size();
