@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -22,8 +23,10 @@ struct FieldComplaint {
   [[nodiscard]] std::string sentence() const { return field + " " + text; }
 };
 
-/// @return the first field out of its range, or a damping that is too much for the coupling (kLongestCouplingTime)
-[[nodiscard]] std::optional<FieldComplaint> firstComplaint(const LiveParameters& parameters);
+/// @param rendered_stiffness  StepConfig's. @return the first field out of its range, or a damping that is too much for the
+/// coupling (kLongestCouplingTime)
+[[nodiscard]] std::optional<FieldComplaint> firstComplaint(
+    const LiveParameters& parameters, double rendered_stiffness = std::numeric_limits<double>::infinity());
 
 static_assert(std::is_trivially_copyable_v<LiveParameters>);
 

@@ -13,13 +13,13 @@ namespace palpate {
 struct DevicePreset {
   std::string_view name;
 
-  // What it renders, and the coupling that keeps it stable.                               docs/design.md, Safety
+  // What it renders, and how the default coupling keeps it stable.                        docs/design.md, Safety
   // The damping keeps what one tick answers to a step of the pose, at 1 kHz from rest, within the limit too:
-  //   K_vc (1 + (b / K_vc) / 3 ms) <= stiffness_limit                                    coupling_damper.h
+  //   rendered_stiffness (1 + tau / 3 ms) <= stiffness_limit,   tau = b / rendered_stiffness     coupling_damper.h
   double force_limit;         ///< largest force, N
   double stiffness_limit;     ///< largest stiffness that it renders stably, N/m: no coupling is stiffer
-  double coupling_stiffness;  ///< K_vc, N/m
-  double coupling_damping;    ///< N s/m
+  double rendered_stiffness;  ///< of organ and default coupling in series, N/m: at most 0.75 of the limit
+  double coupling_damping;    ///< b, N s/m
 
   // How it moves, as felt at its tip.                                                    clients/device/README.md
   double mass;             ///< apparent, kg
@@ -29,7 +29,7 @@ struct DevicePreset {
 
 // Limits, mass and friction: the makers' data sheets.
 inline constexpr std::array<DevicePreset, 5> kDevicePresets{{
-    // name       N     N/m     K_vc   N s/m  kg     N s/m  N
+    // name       N     N/m    N/m    N s/m  kg     N s/m  N
     {"touch", 3.3, 400.0, 300.0, 0.3, 0.045, 0.005, 0.26},
     {"omni", 3.3, 700.0, 400.0, 0.9, 0.045, 0.005, 0.26},
     {"desktop", 7.9, 1000.0, 500.0, 1.5, 0.045, 0.005, 0.06},

@@ -8,8 +8,8 @@
 namespace palpate::record {
 
 // A new field changes a size: add it to its list, and raise the version (kVersion).
-static_assert(sizeof(ToolSettings) == 56 && sizeof(StepConfig) == 104 + 4 * 64 && sizeof(ToolInput) == 80 &&
-                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 32 + 4 * 56,
+static_assert(sizeof(ToolSettings) == 64 && sizeof(StepConfig) == 120 + 4 * 72 && sizeof(ToolInput) == 80 &&
+                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 32 + 4 * 64,
               "core has other fields than the recording");
 
 template <class Config, class Visit>
@@ -22,6 +22,8 @@ void forEachConfigField(Config& config, Visit&& visit) {
   visit("quaternion_tolerance", config.quaternion_tolerance);
   visit("friction", config.friction);
   visit("coupling_stiffness", config.coupling_stiffness);
+  visit("rendered_stiffness", config.rendered_stiffness);
+  visit("organ_stiffness", config.organ_stiffness);
   visit("coupling_damping", config.coupling_damping);
   visit("force_rate_limit", config.force_rate_limit);
   visit("speed_limit", config.speed_limit);
@@ -35,6 +37,7 @@ void forEachSetting(Settings& all, Visit&& visit) {
     visit("tip_radius", tool.tip_radius);
     for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
       visit(kLiveParameters[i].name, tool.live.*kLiveFields<LiveParameters>[i]);
+    visit("rendered_stiffness", tool.rendered_stiffness);
   }
 }
 

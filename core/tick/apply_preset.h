@@ -6,10 +6,11 @@
 
 namespace palpate {
 
-/// Force limit and coupling of a device.
+/// Force limit and coupling of a device: one that follows the organ.
 inline void apply(const DevicePreset& preset, StepConfig& config) noexcept {
   config.force_limit = preset.force_limit;
-  config.coupling_stiffness = preset.coupling_stiffness;
+  config.coupling_stiffness = StepConfig{}.coupling_stiffness;
+  config.rendered_stiffness = preset.rendered_stiffness;
   config.coupling_damping = preset.coupling_damping;
 }
 

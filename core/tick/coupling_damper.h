@@ -9,6 +9,8 @@ namespace palpate {
 /// The damper beside the coupling's spring:  f + b de/dt,  e = f / K_vc the spring's stretch.   docs/design.md, Contact
 /// So it is f + (b / K_vc) df/dt, which needs no velocity of the tool; df/dt is smoothed over 2 ms. The force
 /// with the damper never pulls and is at most twice the spring's: the damper starts and ends with the contact, without a step.
+/// Where the coupling follows the organ, b / K_vc is that of a rigid organ (LiveBlend::dampingTime()), so that a soft organ
+/// which needs no spring is damped too.
 /// In its first tick a step of the pose meets the stiffness K (1 + (b / K_vc) / (dt + 2 ms)), K <= K_vc the spring's and
 /// the organ's in series: a device renders that much (device_preset.h).
 /// Differs from a damper inside the balance of forces: the organ does not feel it, and the stiffness that is

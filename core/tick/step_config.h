@@ -18,6 +18,7 @@ inline constexpr double kLongestCouplingTime = 0.005;
 struct ToolSettings {
   double tip_radius{0.005};  ///< R, m
   LiveParameters live{};     ///< youngs_modulus is the organ's: the same for all tools
+  double rendered_stiffness{std::numeric_limits<double>::infinity()};
 
   [[nodiscard]] bool operator==(const ToolSettings&) const = default;
 };
@@ -37,7 +38,13 @@ struct StepConfig {
       0.3};  ///< Coulomb coefficient mu, in [0, 2], or infinity: an anchor that sticks never slides
   /// K_vc of the virtual coupling, N/m, in [1, 1e5], or infinity: the tool holds the patch itself
   double coupling_stiffness{std::numeric_limits<double>::infinity()};
-  /// of the coupling's stretch, N s/m, in [0, 100], at most kLongestCouplingTime K_vc; unused without a coupling
+  /// The coupling is softer than that where it has to be, so that it and the organ in series render at most this, N/m, in
+  /// [1, 1e5] or infinity: it is not (coupling_choice.h)
+  double rendered_stiffness{std::numeric_limits<double>::infinity()};
+  /// K_max of the organ at the model's own E, N/m, above 0 (largestStiffness()); infinity: not known, as of a rigid organ
+  double organ_stiffness{std::numeric_limits<double>::infinity()};
+  /// of the coupling's stretch, N s/m, in [0, 100], at most kLongestCouplingTime of the softest K_vc; unused where neither
+  /// coupling_stiffness nor rendered_stiffness bounds it
   double coupling_damping{0.0};
   double force_rate_limit{std::numeric_limits<double>::infinity()};  ///< N/s, in [10, 1e6] or infinity
   double speed_limit{2.0};  ///< of a tool; faster is a jump, m/s, in [0.01, 100] or infinity

@@ -40,8 +40,7 @@ void Stepper::changeLive() noexcept PALPATE_NONBLOCKING {
     LiveBlend& live = work_.live_[i];
     const bool changes = input_.has_settings != 0;
     if (changes) work_.tip_radius_[i] = input_.settings[i].tip_radius;
-    live.advance(changes ? input_.settings[i].live : live.target(), time_.ramp,
-                 memory.rendering.rendered.norm());
+    live.advance(changes ? input_.settings[i] : live.target(), time_.ramp, memory.rendering.rendered.norm());
     if (!memory.contact.isFree()) {
       if (live.jumped()) memory.continuity.disturb(kParameterSwitched);
     } else if (work_.solver_[i].tipRadius() != work_.tip_radius_[i]) {
@@ -91,8 +90,8 @@ void Stepper::render(ToolMemory& memory, bool held, bool jumped,
   if (held)
     memory.damper.wait(time_.since_last);
   else
-    in.force = -memory.damper.force(memory.contact, live.coupling_damping / live.coupling_stiffness,
-                                    time_.since_last);
+    in.force =
+        -memory.damper.force(memory.contact, work_.live_[numberOf(memory)].dampingTime(), time_.since_last);
   in.stiffness = -memory.contact.stiffness;
   in.force_limit = live.force_limit;
   in.force_rate_limit = live.force_rate_limit;

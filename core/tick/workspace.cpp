@@ -22,8 +22,10 @@ auto ofEach(const StepConfig& config, Make make) {
 
 Workspace::Workspace(const MetaModel& model, const StepConfig& config)
     : config_(checked(config)),
-      live_(
-          ofEach(config, [&](const ToolSettings& own) { return LiveBlend(own.live, model.attributes().E); })),
+      live_(ofEach(config,
+                   [&](const ToolSettings& own) {
+                     return LiveBlend(own, {model.attributes().E, config.organ_stiffness});
+                   })),
       solver_(ofEach(config, [](const ToolSettings& own) { return ContactSolver(own.tip_radius); })),
       tip_radius_(ofEach(config, [](const ToolSettings& own) { return own.tip_radius; })),
       limiter_(config),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -77,9 +78,11 @@ StepConfig withDevice(StepConfig step, const std::string& device, const LiveOver
   step.force_limit = own.force_limit;
   step.coupling_stiffness = own.coupling_stiffness;
   step.coupling_damping = own.coupling_damping;
+  step.rendered_stiffness = own.rendered_stiffness;
   if (const auto preset = findDevicePreset(device)) apply(*preset, step);
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     if (const auto& value = said.*kLiveFields<LiveOverrides>[i]) step.*kLiveFields<StepConfig>[i] = *value;
+  if (said.coupling_stiffness) step.rendered_stiffness = own.rendered_stiffness;  // it holds as it was named
   if (!said.coupling_damping)
     step.coupling_damping = std::min(step.coupling_damping, kLongestCouplingTime * step.coupling_stiffness);
   return step;
@@ -98,8 +101,13 @@ void settleTools(ServerConfig& config) {
     for (const auto field : kLiveFields<LiveOverrides>)
       if (own.said.*field) said.*field = own.said.*field;
     const StepConfig alone = withDevice(config.step, deviceOf(config, tool), said);
-    config.step.own[tool] = {own.tip_radius.value_or(config.step.tip_radius), liveParameters(alone)};
+    config.step.own[tool] = {own.tip_radius.value_or(config.step.tip_radius), liveParameters(alone),
+                             alone.rendered_stiffness};
   }
+}
+
+bool followsOrgan(const ToolSettings& settings) {
+  return std::isfinite(settings.rendered_stiffness);
 }
 
 double stiffnessLimit(const std::string& device) {
@@ -114,10 +122,11 @@ void checkDevice(const std::string& word) {
 
 std::optional<Complaint> deviceComplaint(const ServerConfig& config) {
   for (std::size_t tool = 0; tool < config.own.size(); ++tool) {
-    const double stiffness = toolSettings(config.step)[tool].live.coupling_stiffness;
+    const ToolSettings settings = toolSettings(config.step)[tool];
+    const double stiffness = settings.live.coupling_stiffness;
     const std::string& device = deviceOf(config, tool);
     const double limit = stiffnessLimit(device);
-    if (!(stiffness > limit)) continue;
+    if (!(stiffness > limit) || followsOrgan(settings)) continue;
     const OwnOptions& own = config.own[tool];
     const bool alone = own.device || own.said.coupling_stiffness;
     std::ostringstream text;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/model/meta_model.h"
+#include "core/response/largest_stiffness.h"
 #include "palpate/server/config.h"
 
 namespace palpate::server {
@@ -39,7 +40,8 @@ Facts factsOf(const MetaModel& model, const ServerConfig& config) {
   facts.rate_hz = config.rate;
   for (std::size_t tool = 0; tool < facts.device.size(); ++tool) facts.device[tool] = deviceOf(config, tool);
   facts.step = config.step;
-  facts.youngs_modulus = model.attributes().E;
+  facts.organ = {model.attributes().E, largestStiffness(model)};
+  facts.step.organ_stiffness = facts.organ.largest;
   facts.parameters = config.parameters;
   facts.limits = config.limits;
   facts.tip_limits = config.tip_limits;

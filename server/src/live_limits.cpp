@@ -15,10 +15,12 @@ std::string describe(const Bounds& bounds, const char* unit) {
   return text.str();
 }
 
-// The largest range that may be named. A coupling is never stiffer than the device renders stably.
-Bounds widest(const LiveParameterInfo& info, const std::string& device) {
+// The largest range that may be named. A coupling that does not follow the organ is never stiffer than the device renders
+// stably.
+Bounds widest(const LiveParameterInfo& info, const std::string& device, const ToolSettings& start) {
   Bounds all{info.low, info.may_be_infinite ? std::numeric_limits<double>::infinity() : info.high};
-  if (info.bit == dds::parameter::kCouplingStiffness) all.high = std::min(all.high, stiffnessLimit(device));
+  if (info.bit == dds::parameter::kCouplingStiffness && !followsOrgan(start))
+    all.high = std::min(all.high, stiffnessLimit(device));
   return all;
 }
 
@@ -28,6 +30,15 @@ bool isBeyond(const Bounds& named, const LiveParameterInfo& info, const Bounds& 
 }
 
 }  // namespace
+
+LiveParameters asFelt(const ToolSettings& settings, const OrganStiffness& organ) noexcept {
+  LiveParameters live = settings.live;
+  if (live.youngs_modulus == 0.0) live.youngs_modulus = organ.youngs_modulus;
+  live.coupling_stiffness =
+      1.0 / couplingCompliance(1.0 / live.coupling_stiffness, 1.0 / settings.rendered_stiffness, organ,
+                               live.youngs_modulus);
+  return live;
+}
 
 LiveLimits liveLimits(const LiveParameters& start, const LiveBounds& named) {
   LiveLimits limits;
@@ -73,10 +84,11 @@ std::optional<Complaint> limitsComplaint(const ServerConfig& config) {
     if (!named) continue;
     const std::string key = std::string("limits.") + info.name, found = "is " + describe(*named, info.unit);
     for (std::size_t tool = 0; tool < config.own.size(); ++tool) {
-      const Bounds all = widest(info, deviceOf(config, tool));
+      const ToolSettings settings = toolSettings(config.step)[tool];
+      const Bounds all = widest(info, deviceOf(config, tool), settings);
       if (isBeyond(*named, info, all))
         return Complaint{key, found + ", expected a range within " + describe(all, info.unit)};
-      const double start = toolSettings(config.step)[tool].live.*kLiveFields<LiveParameters>[i];
+      const double start = settings.live.*kLiveFields<LiveParameters>[i];
       const bool models = info.zero_is_models && start == 0.0;
       if (models || (named->low <= start && start <= named->high)) continue;
       std::ostringstream text;

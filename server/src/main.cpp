@@ -48,7 +48,8 @@ void logModel(const MetaModel& model, const ServerConfig& config) {
 }
 
 void logContact(const Facts& facts) {
-  spdlog::info("{}; {} tools", ParameterBook(facts).describe(), facts.step.tools);
+  spdlog::info("{}; {} tools; the organ has up to {:.0f} N/m at {:g} Pa", ParameterBook(facts).describe(),
+               facts.step.tools, facts.organ.largest, facts.organ.youngs_modulus);
 }
 
 int serve(int argc, char** argv) {

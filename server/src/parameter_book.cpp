@@ -34,17 +34,18 @@ AllToolSettings overlaid(AllToolSettings settings, const dds::ParameterRequest& 
 }
 
 // What a device renders, where it is less.
-void cutTo(const DevicePreset& device, LiveParameters& live) {
+void cutTo(const DevicePreset& device, ToolSettings& settings) {
+  LiveParameters& live = settings.live;
+  settings.rendered_stiffness = std::min(settings.rendered_stiffness, device.rendered_stiffness);
   live.force_limit = std::min(live.force_limit, device.force_limit);
-  live.coupling_stiffness = std::min(live.coupling_stiffness, device.coupling_stiffness);
-  live.coupling_damping = std::min(
-      {live.coupling_damping, device.coupling_damping, kLongestCouplingTime * live.coupling_stiffness});
+  live.coupling_damping =
+      std::min({live.coupling_damping, device.coupling_damping,
+                kLongestCouplingTime * std::min(live.coupling_stiffness, settings.rendered_stiffness)});
 }
 
 // A request does not go beyond the device either. A device that renders less than the operator's lowest still holds.
 void lower(LiveLimits& limits, const LiveParameters& device) {
-  for (const auto field : {&LiveParameters::force_limit, &LiveParameters::coupling_stiffness,
-                           &LiveParameters::coupling_damping}) {
+  for (const auto field : {&LiveParameters::force_limit, &LiveParameters::coupling_damping}) {
     limits.highest.*field = std::min(limits.highest.*field, device.*field);
     limits.lowest.*field = std::min(limits.lowest.*field, device.*field);
   }
@@ -85,12 +86,12 @@ dds::LiveValues toWire(const LiveParameters& live) {
 ParameterBook::ParameterBook(const Facts& facts)
     : server_id_(facts.server_id),
       open_(facts.parameters),
-      model_youngs_modulus_(facts.youngs_modulus),
+      organ_(facts.organ),
       device_(facts.device),
       settings_(toolSettings(facts.step)),
       tip_limits_(facts.tip_limits) {
   for (std::size_t tool = 0; tool < settings_.size(); ++tool) {
-    const LiveParameters start = named(settings_[tool].live, model_youngs_modulus_);
+    const LiveParameters start = named(settings_[tool].live, organ_.youngs_modulus);
     limits_[tool] = liveLimits(start, facts.limits);
     const std::string complaint = beyond(start, limits_[tool]);
     if (!complaint.empty()) throw std::invalid_argument("limits: at the start " + complaint);
@@ -111,7 +112,7 @@ std::string ParameterBook::complaintAbout(const dds::ParameterRequest& request,
   for (std::size_t tool = 0; tool < wanted.size(); ++tool) {
     const auto found = firstComplaint(wanted[tool]);
     const std::string text =
-        found ? found->sentence() : beyond(named(wanted[tool].live, model_youngs_modulus_), limits_[tool]);
+        found ? found->sentence() : beyond(named(wanted[tool].live, organ_.youngs_modulus), limits_[tool]);
     if (!text.empty()) return (tool == 0 ? "" : "tool " + std::to_string(tool) + ": ") + text;
   }
   return {};
@@ -148,7 +149,7 @@ std::string ParameterBook::adopt(std::size_t tool, const dds::ToolAnnouncement& 
   if (!name.empty() && name != kCustomDevice && !preset)
     return "device \"" + dds::printable(name.c_str()) + "\" is not known";
   if (!(said.device_force_limit >= 0.0)) return "device_force_limit is not a number of N";
-  if (preset) cutTo(*preset, wanted.live);
+  if (preset) cutTo(*preset, wanted);
   if (said.device_force_limit > 0.0)
     wanted.live.force_limit = std::min(wanted.live.force_limit, said.device_force_limit);
   LiveLimits limits = book.start_limits;
@@ -156,7 +157,7 @@ std::string ParameterBook::adopt(std::size_t tool, const dds::ToolAnnouncement& 
   const std::string bad = open_ ? overlay(said, book, wanted) : "";
   if (!bad.empty()) return bad;
   if (const auto found = firstComplaint(wanted)) return found->sentence();
-  const std::string complaint = beyond(named(wanted.live, model_youngs_modulus_), limits);
+  const std::string complaint = beyond(named(wanted.live, organ_.youngs_modulus), limits);
   if (!complaint.empty()) return complaint;
   if (!name.empty()) device_[tool] = name;
   settings_[tool] = wanted;
@@ -198,31 +199,36 @@ dds::ServerParameters ParameterBook::answer() const {
   result.server_id = server_id_;
   result.accepted = true;
   result.revision = revision_;
-  result.model_youngs_modulus = model_youngs_modulus_;
+  result.model_youngs_modulus = organ_.youngs_modulus;
   result.open = open_;
+  result.model_stiffness = organ_.largest;
   for (std::size_t tool = 0; tool < settings_.size(); ++tool) {
     dds::ToolParameters& out = result.tools[tool];
     dds::assignText(out.device, device_[tool]);
     out.tip_radius = settings_[tool].tip_radius;
-    out.now = toWire(named(settings_[tool].live, model_youngs_modulus_));
+    out.now = toWire(asFelt(settings_[tool], organ_));
     out.lowest = toWire(limits_[tool].lowest);
     out.highest = toWire(limits_[tool].highest);
     out.announced = tools_[tool].by.has_value();
     dds::assignText(out.refusal, tools_[tool].refusal);
+    out.rendered_stiffness = settings_[tool].rendered_stiffness;
   }
   return result;
 }
 
 std::string ParameterBook::describe(std::size_t tool) const {
   std::ostringstream text;
-  text << "device " << device_[tool] << ", tip_radius " << settings_[tool].tip_radius << " m";
+  const ToolSettings& settings = settings_[tool];
+  const LiveParameters live = asFelt(settings, organ_);
+  text << "device " << device_[tool] << ", tip_radius " << settings.tip_radius << " m";
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
-    const double value = settings_[tool].live.*kLiveFields<LiveParameters>[i];
-    const bool models = info.zero_is_models && value == 0.0;
-    text << ", " << info.name << " " << (models ? model_youngs_modulus_ : value);
+    const auto field = kLiveFields<LiveParameters>[i];
+    text << ", " << info.name << " " << live.*field;
     if (*info.unit != '\0') text << " " << info.unit;
-    if (models) text << " (the model's)";
+    if (info.zero_is_models && settings.live.*field == 0.0) text << " (the model's)";
+    if (info.bit == dds::parameter::kCouplingStiffness && followsOrgan(settings))
+      text << " (with the organ at most " << settings.rendered_stiffness << " N/m)";
   }
   return text.str();
 }

@@ -67,7 +67,7 @@ std::string describeRealtime(rt::RealtimePolicy policy, bool realtime) {
 
 Server::Server(const MetaModel& model, const ServerConfig& config)
     : facts_(factsOf(model, config)),
-      work_(model, config.step),
+      work_(model, facts_.step),
       participant_(static_cast<std::uint32_t>(config.domain)),
       status_out_(participant_, facts_),
       rivals_(participant_, facts_, status_out_, config.listen_first),

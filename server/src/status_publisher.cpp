@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "palpate/server/live_limits.h"
+
 namespace palpate::server {
 namespace {
 
@@ -18,7 +20,7 @@ dds::Percentiles percentiles(const rt::CycleStats& stats) {
 }
 
 void sayParameters(const Facts& facts, const Health& health, dds::ServerStatus& status) {
-  const LiveParameters& live = health.settings[0].live;
+  const LiveParameters live = asFelt(health.settings[0], facts.organ);
   dds::assignText(status.device, facts.device[0]);
   status.speed_limit = facts.step.speed_limit;
   status.tools = static_cast<std::uint32_t>(facts.step.tools);
@@ -29,7 +31,6 @@ void sayParameters(const Facts& facts, const Health& health, dds::ServerStatus& 
     if (tool < status.tools)
       status.force_limit = std::max(status.force_limit, health.settings[tool].live.force_limit);
   }
-  if (live.youngs_modulus == 0.0) status.youngs_modulus = facts.youngs_modulus;
   status.parameters_revision = health.parameters_revision;
   status.surplus_requests = health.surplus_requests;
 }

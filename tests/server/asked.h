@@ -16,7 +16,8 @@ inline Facts factsOf(const std::string& device) {
   facts.server_id = 6;
   facts.device.fill(device);
   facts.step = withDevice({}, device, {});
-  facts.youngs_modulus = 160e3;
+  facts.organ = {160e3, 4200.0};
+  facts.step.organ_stiffness = facts.organ.largest;
   return facts;
 }
 

@@ -97,7 +97,7 @@ TEST_F(ServerRefuses, WhatOneToolCannotHaveByName) {
 }
 
 TEST_F(ServerRefuses, LimitsThatCannotBeByName) {
-  EXPECT_EQ(refusal({"--model", "m.h5", "--limit", "coupling=1:500"}),
+  EXPECT_EQ(refusal({"--model", "m.h5", "--coupling", "300", "--limit", "coupling=1:500"}),
             "--limit coupling is 1 to 500 N/m, expected a range within 1 to 400 N/m");
   EXPECT_EQ(refusal({"--model", "m.h5", "--limit", "friction=0:0.1"}),
             "--limit friction is 0 to 0.1, which leaves out the start's 0.3");

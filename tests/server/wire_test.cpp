@@ -98,7 +98,7 @@ TEST(StatusOnTheWire, PhasesAreThoseOfTheLock) {
 TEST(StatusOnTheWire, SaysWhatTheHandFeels) {
   Facts facts;
   facts.device[0] = "omni";
-  facts.youngs_modulus = 160e3;
+  facts.organ = {160e3, 4200.0};
   facts.step.force_limit = 2.0;
   facts.step.friction = 0.25;
   facts.step.coupling_stiffness = 350.0;

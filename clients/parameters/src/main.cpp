@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-parameters: changes what the hand feels while the server runs, or says what is in force.
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
@@ -57,6 +58,7 @@ void addTool(const dds::ToolParameters& tool, program::Json& json) {
   json["tip_radius_m"] = tool.tip_radius;
   json["announced"] = tool.announced;
   json["refusal"] = tool.refusal;
+  json["rendered_stiffness_N_per_m"] = tool.rendered_stiffness;
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const auto field = kLiveFields<dds::LiveValues>[i];
     const char* const key = kLiveParameters[i].json;
@@ -72,6 +74,7 @@ program::Json jsonOf(const dds::ServerParameters& answer, std::size_t tool) {
                      {"revision", answer.revision},
                      {"server_id", answer.server_id},
                      {"model_youngs_modulus_Pa", answer.model_youngs_modulus},
+                     {"model_stiffness_N_per_m", answer.model_stiffness},
                      {"open", answer.open}};
   addTool(answer.tools[tool], json);
   for (const dds::ToolParameters& each : answer.tools) {
@@ -93,7 +96,10 @@ void print(const dds::ServerParameters& answer, std::size_t shown) {
     if (*info.unit != '\0') std::cout << " " << info.unit;
     if (answer.open) std::cout << ", may be " << tool.lowest.*field << " to " << tool.highest.*field;
     if (info.zero_is_models)
-      std::cout << " (model: " << answer.model_youngs_modulus << " " << info.unit << ")";
+      std::cout << " (model: " << answer.model_youngs_modulus << " " << info.unit << ", there up to "
+                << answer.model_stiffness << " N/m)";
+    if (info.bit == dds::parameter::kCouplingStiffness && std::isfinite(tool.rendered_stiffness))
+      std::cout << " (with the organ at most " << tool.rendered_stiffness << " N/m)";
     std::cout << "\n";
   }
   if (!answer.open) std::cout << "the server takes no changes from clients\n";

@@ -188,7 +188,7 @@ TEST_F(Recording, RefusesWhatItIsNot) {
   write(someTicks(3));
   std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out).seekp(8).put(9);
   EXPECT_NE(
-      refusal().find("version 9 of the recording; this program reads version 5: record the session again"),
+      refusal().find("version 9 of the recording; this program reads version 6: record the session again"),
       std::string::npos)
       << refusal();
   write(someTicks(3));

@@ -141,11 +141,11 @@ TEST(LiveBlend, TheDampingFitsTheCouplingOnTheWayToo) {
   LiveParameters live = liveParameters(StepConfig{});
   live.coupling_stiffness = 300.0;
   live.coupling_damping = 1.5;
-  LiveBlend blend(live, 1e5);
+  LiveBlend blend({0.0, live}, {1e5, kInfinity});
   live.coupling_stiffness = 10.0;
   live.coupling_damping = 0.05;
   for (int ms = 0; ms < 110; ++ms) {
-    blend.advance(live, 1e-3, 0.0);
+    blend.advance({0.0, live}, 1e-3, 0.0);
     ASSERT_FALSE(firstComplaint(blend.now())) << ms << " ms";
   }
   EXPECT_EQ(blend.now().coupling_damping, 0.05);

@@ -22,18 +22,22 @@ device::Mechanics mechanicsOf(const StabilityCase& which) {
   return mechanics;
 }
 
-StepConfig configOf(const StabilityCase& which, double coupling_stiffness) {
+StepConfig configOf(const StabilityCase& which, std::optional<double> coupling_stiffness) {
   StepConfig config;
   apply(which.preset, config);
-  config.coupling_damping *= coupling_stiffness / config.coupling_stiffness;
-  config.coupling_stiffness = coupling_stiffness;
+  config.organ_stiffness = which.organ_stiffness;
   config.youngs_modulus = which.youngs_modulus;
+  if (!coupling_stiffness) return config;
+  config.coupling_damping *= *coupling_stiffness / config.rendered_stiffness;
+  config.coupling_stiffness = *coupling_stiffness;
+  config.rendered_stiffness = StepConfig{}.rendered_stiffness;
   return config;
 }
 
 }  // namespace
 
-device::Verdict press(const MetaModel& model, const StabilityCase& which, double coupling_stiffness) {
+device::Verdict press(const MetaModel& model, const StabilityCase& which,
+                      std::optional<double> coupling_stiffness) {
   const device::Mechanics mechanics = mechanicsOf(which);
   const StepConfig config = configOf(which, coupling_stiffness);
   device::MotionOptions options;
@@ -50,12 +54,16 @@ device::Verdict press(const MetaModel& model, const StabilityCase& which, double
   return device::judge(with, device::withoutOrgan(other, motion), motion);
 }
 
+double defaultCoupling(const MetaModel& model, const StabilityCase& which) {
+  return Workspace(model, configOf(which, std::nullopt)).live().coupling_stiffness;
+}
+
 StabilityResult stability(const MetaModel& model, const StabilityCase& which) {
   constexpr int kBisections = 5;  // of a factor of two: 3 %
   StabilityResult result;
-  double low = 0.0, high = which.preset.coupling_stiffness;
-  result.at_default = press(model, which, high);
-  for (bool stable = result.at_default.stable; stable; stable = press(model, which, high).stable) {
+  double low = 0.0, high = which.preset.rendered_stiffness;
+  result.at_default = press(model, which, std::nullopt);
+  for (bool stable = press(model, which, high).stable; stable; stable = press(model, which, high).stable) {
     result.largest_stable = low = high;
     if (high == kStiffestCoupling) return result;
     high = std::min(2.0 * high, kStiffestCoupling);

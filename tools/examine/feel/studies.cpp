@@ -9,6 +9,7 @@
 
 #include "core/base/contact_point.h"
 #include "core/devices/device_preset.h"
+#include "core/response/largest_stiffness.h"
 #include "tools/examine/feel/loops.h"
 #include "tools/examine/feel/slides.h"
 #include "tools/examine/feel/stability.h"
@@ -133,15 +134,19 @@ int runCoupling(const Study& study) {
                               device::Hand{0.2, 5.0, 500.0}};
   const MetaModel model = MetaModel::load(study.model);
   const ContactPoint s = ordinaryPlace(model, study.seed);
+  const double organ_stiffness = largestStiffness(model);
   Json rows = Json::array();
   for (const DevicePreset& preset : devicePresets())
     for (const double E : kModuli)
       for (const device::Hand& hand : kHands) {
-        const StabilityResult result = stability(model, {preset, E, hand, s, !study.frictionless});
+        const StabilityCase which{preset, E, hand, s, organ_stiffness, !study.frictionless};
+        const StabilityResult result = stability(model, which);
+        const double coupling = defaultCoupling(model, which);
         rows.push_back({{"preset", preset.name},
                         {"E_Pa", E},
                         {"hand_N_per_m", hand.stiffness},
-                        {"default_N_per_m", preset.coupling_stiffness},
+                        {"organ_N_per_m", organ_stiffness * E / model.attributes().E},
+                        {"default_N_per_m", std::isinf(coupling) ? Json(nullptr) : Json(coupling)},
                         {"largest_stable_N_per_m", result.largest_stable},
                         {"stable", result.at_default.stable},
                         {"oscillation_pp_m", result.at_default.oscillation_pp},

@@ -41,8 +41,8 @@ struct Bounds {
 using LiveBounds = LiveFields<std::optional<Bounds>>;
 
 /// `step` with the force limit and the coupling of a device, and what was named over both.
-/// "custom" (or an unknown device) leaves StepConfig's own defaults under what was named. A device's damping is cut to
-/// what a softer coupling that was named allows (kLongestCouplingTime).
+/// "custom" (or an unknown device) leaves StepConfig's own defaults under what was named. A coupling that was named does not
+/// follow the organ. A device's damping is cut to what a softer one allows (kLongestCouplingTime).
 [[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const LiveOverrides& said);
 
 /// A surface rate: with each tick.
@@ -103,7 +103,10 @@ struct Complaint {
 /// @throw ConfigError naming the devices that are known
 void checkDevice(const std::string& word);
 
-/// @return the coupling's stiffness when it is above what the device renders stably
+/// Whether organ and device choose the coupling, within what was asked for: no stiffness was named.
+[[nodiscard]] bool followsOrgan(const ToolSettings& settings);
+
+/// @return the coupling's stiffness when one was named above what the device renders stably
 [[nodiscard]] std::optional<Complaint> deviceComplaint(const ServerConfig& config);
 
 /// The largest coupling stiffness that a device allows, N/m; infinity for "custom".

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/tick/coupling_choice.h"
 #include "palpate/server/config.h"
 
 namespace palpate {
@@ -25,8 +26,8 @@ struct Facts {
   std::uint32_t organ_id{0};
   double rate_hz{0.0};
   std::array<std::string, kMaxTools> device;  ///< by tool: preset or custom
-  StepConfig step;                            ///< as started
-  double youngs_modulus{0.0};                 ///< the model's own, Pa
+  StepConfig step;                            ///< as started, with the organ's stiffness
+  OrganStiffness organ{};                     ///< the model's own
   bool parameters{true};                      ///< requests may change live parameters
   LiveBounds limits;                          ///< within these
   std::optional<Bounds> tip_limits;           ///< ServerConfig::tip_limits
@@ -35,7 +36,8 @@ struct Facts {
   std::string realtime_detail;  ///< what was obtained, or how to get it
 };
 
-/// What is known before the start: a new session, this process, the model, the configuration. Real-time: no.
+/// What is known before the start: a new session, this process, the model, the configuration. Cost that of
+/// largestStiffness(). Real-time: no.
 [[nodiscard]] Facts factsOf(const MetaModel& model, const ServerConfig& config);
 
 }  // namespace palpate::server

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/tick/coupling_choice.h"
 #include "palpate/server/config.h"
 
 namespace palpate::server {
@@ -12,6 +13,9 @@ struct LiveLimits {
   LiveParameters lowest;
   LiveParameters highest;
 };
+
+/// The values that a hand feels, once a change of them is over: E by its number, the coupling as it follows the organ.
+[[nodiscard]] LiveParameters asFelt(const ToolSettings& settings, const OrganStiffness& organ) noexcept;
 
 /// The bounds that were named. Otherwise a parameter may be lowered within its range and raised back to the start's value,
 /// which the operator chose for the device: less E, friction, coupling, damping or force is never less safe.

@@ -70,7 +70,7 @@ class ParameterBook {
 
   std::uint32_t server_id_;
   bool open_;
-  double model_youngs_modulus_;  // Pa
+  OrganStiffness organ_;
   std::array<std::string, kMaxTools> device_;
   AllToolSettings settings_;
   std::array<LiveLimits, kMaxTools> limits_;
