@@ -101,6 +101,27 @@ TEST(Tool, PressFeelsTheSpring) {
   EXPECT_EQ(xmlFault(contentOf(svg.path())), "");
 }
 
+TEST(Tool, PressesBesideAndComparesBoth) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .tip_radius = 0.004});
+  const TemporaryFile svg("both.svg");
+  const std::string apex = "0.05,0.05,0.05";
+  const auto result =
+      runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "1", "--depth", "0.002", "--at",
+                                           apex, "--beside", apex, "--json", "--plot", svg.path()}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  for (const json& place : {report, report["beside"]})
+    EXPECT_NEAR(place["summary"]["peak_force_N"].get<double>(), 1.0, 1e-6);
+  EXPECT_NE(result.err.find("N beside: +0.0 %"), std::string::npos) << result.err;
+  const std::string plot = contentOf(svg.path());
+  EXPECT_EQ(xmlFault(plot), "");
+  EXPECT_NE(plot.find("here, node"), std::string::npos);
+  EXPECT_NE(plot.find("beside, node"), std::string::npos);
+  const auto wrong = runProgram("palpate-tool", {"--beside", "1,2"});
+  EXPECT_NE(wrong.exit_code, 0);
+  EXPECT_NE(wrong.err.find("--beside"), std::string::npos) << wrong.err;
+}
+
 TEST(Tool, ForcesOfAnotherServerAreLeftOutAndToldByName) {
   const FakeServer server(exclusiveDomain(), {.stiffness = 500.0});
   const FakeServer rival(exclusiveDomain(),

@@ -20,7 +20,7 @@ struct Options {
   client::ScriptOptions path;
   std::optional<double> seconds;     ///< of the whole script, in (0, 3600]
   std::optional<double> tip_radius;  ///< m; absent: the server's
-  std::string at;
+  std::string at, beside;
   std::uint32_t tool_id{0};
   std::uint32_t domain{0};
   std::uint32_t server_id{dds::kServerAny};
@@ -38,6 +38,8 @@ void addOptions(program::Options line, Options& options) {
   line.add("--pokes", &options.path.pokes, "number of times that poke goes in");
   line.add("--clearance", &options.path.clearance, "distance at the start and the end, m");
   line.add("--at", &options.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
+  line.add("--beside", &options.beside,
+           "then play the same at x,y,z (m); both are told, the plot shows both forces over depth");
   line.add("--tip-radius", &options.tip_radius, "radius of the tip, m; default: the server's");
   line.add("--tool", &options.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
@@ -47,14 +49,15 @@ void addOptions(program::Options line, Options& options) {
   line.add("--plot", &options.plot, "write the force over time to this SVG file");
 }
 
-Played prepare(const Options& options, const client::ServerInfo& server) {
+/// @param place  x,y,z, or empty
+Played prepare(const Options& options, const std::string& place, const client::ServerInfo& server) {
   client::ScriptOptions path_options = options.path;
   path_options.tip_radius = options.tip_radius.value_or(server.status.tip_radius[options.tool_id]);
   if (path_options.tip_radius != server.status.tip_radius[options.tool_id])
     std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
               << server.status.tip_radius[options.tool_id] << " m\n";
   std::optional<device::Point> at;
-  if (!options.at.empty()) at = device::Point{program::parseVector("--at", options.at)};
+  if (!place.empty()) at = device::Point{program::parseVector("a place", place)};
   const client::Spot spot = client::chooseSpot(server.surface, at);
   device::Path path = client::scriptedPath(options.script, spot, path_options);
   if (options.seconds) path = path.stretchedTo(*options.seconds);
@@ -71,20 +74,35 @@ int body(int argc, char** argv) {
   if (!line.read(argc, argv)) return 0;
   client::check(options.path);
   if (!options.at.empty()) (void)program::parseVector("--at", options.at);
+  if (!options.beside.empty()) (void)program::parseVector("--beside", options.beside);
   client::catchStopSignals();
 
   // 2. Find the server and its organ.
   const dds::Participant participant(options.domain);
   const client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
 
-  // 3. Play the path.
-  const Played played = prepare(options, server);
+  // 3. Play the path, and tell.
+  std::ostream& out = options.json ? std::cerr : std::cout;
+  const Played played = prepare(options, options.at, server);
   const Recording recording = play(participant, options.tool_id, played.path, runOf(server));
+  out << tableOf(played, recording) << std::flush;
+  if (options.beside.empty()) {
+    if (options.json) program::printJson(jsonOf(played, recording));
+    if (!options.plot.empty()) program::writeFile(options.plot, plotOf(played, recording));
+    return 0;
+  }
 
-  // 4. Tell.
-  (options.json ? std::cerr : std::cout) << tableOf(played, recording) << std::flush;
-  if (options.json) program::printJson(jsonOf(played, recording));
-  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(played, recording));
+  // 4. The same beside it.
+  const Played other = prepare(options, options.beside, server);
+  const Recording other_recording = play(participant, options.tool_id, other.path, runOf(server));
+  out << '\n' << tableOf(other, other_recording) << comparisonOf(recording, other_recording) << std::flush;
+  if (options.json) {
+    program::Json both = jsonOf(played, recording);
+    both["beside"] = jsonOf(other, other_recording);
+    program::printJson(both);
+  }
+  if (!options.plot.empty())
+    program::writeFile(options.plot, plotOfBoth(played, recording, other, other_recording));
   return 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "palpate/report/program.h"
 #include "palpate/report/svg_plot.h"
@@ -157,6 +158,31 @@ std::string plotOf(const Played& played, const Recording& recording) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       plot.series[i].x.push_back(sample.t_s);
       plot.series[i].y.push_back(values[i]);
+    }
+  }
+  return plot.render();
+}
+
+std::string comparisonOf(const Recording& recording, const Recording& beside) {
+  const double here = length(forceOf(peakOf(recording))), there = length(forceOf(peakOf(beside)));
+  return printed("peak force %.4f N here, %.4f N beside: ", here, there) +
+         (there > 0.0 ? printed("%+.1f %%\n", 100.0 * (here / there - 1.0)) : "no force beside\n");
+}
+
+std::string plotOfBoth(const Played& played, const Recording& recording, const Played& other,
+                       const Recording& beside) {
+  report::SvgPlot plot;
+  plot.title = "palpate-tool --script " + played.script + ": size of the force on the tool";
+  plot.x_label = "depth / mm";
+  plot.y_label = "force / N";
+  for (const auto& [name, path, answers] :
+       {std::tuple("here", &played, &recording), std::tuple("beside", &other, &beside)}) {
+    report::Series& curve = plot.series.emplace_back();
+    curve.name = printed("%s, node %lld", name, static_cast<long long>(path->spot.mesh_tag));
+    for (const Sample& sample : answers->samples) {
+      if (depthOf(*path, sample) < 0.0) continue;
+      curve.x.push_back(depthOf(*path, sample) * 1e3);
+      curve.y.push_back(length(forceOf(sample)));
     }
   }
   return plot.render();

@@ -29,4 +29,11 @@ struct Played {
 /// The force's size and components over time, as SVG.
 [[nodiscard]] std::string plotOf(const Played& played, const Recording& recording);
 
+/// One line: both peak forces, and by how much the first is larger.
+[[nodiscard]] std::string comparisonOf(const Recording& recording, const Recording& beside);
+
+/// The force's size over depth at both places, as SVG.
+[[nodiscard]] std::string plotOfBoth(const Played& played, const Recording& recording, const Played& other,
+                                     const Recording& beside);
+
 }  // namespace palpate::tool

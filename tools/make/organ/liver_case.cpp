@@ -41,7 +41,8 @@ std::string quoted(const std::string& text) {
 void writeLiverCase(const std::filesystem::path& path, const std::filesystem::path& mesh) {
   const auto folder = std::filesystem::absolute(path).parent_path();
   const auto relative = std::filesystem::absolute(mesh).lexically_proximate(folder);
-  program::writeFile(path, "mesh = " + quoted(relative.string()) + '\n' + kTissue);
+  program::writeFile(path, "[mesh]\nfile = " + quoted(relative.string()) +
+                               "\nerror = true                  # say how stiff the mesh is\n" + kTissue);
 }
 
 }  // namespace palpate::organ

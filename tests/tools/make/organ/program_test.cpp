@@ -74,7 +74,7 @@ TEST(Program, WritesTheDefaultOrganWithItsCase) {
   for (const char* region : {"liver", "nodule"})
     EXPECT_EQ(json.at("regions").at(region).get<std::size_t>(), mesh.regions.at(region).size());
   const std::string text = mesh::test::contentOf(case_file);
-  EXPECT_TRUE(text.starts_with("mesh = '../coarse.msh'\n")) << text;
+  EXPECT_TRUE(text.starts_with("[mesh]\nfile = '../coarse.msh'\n")) << text;
   EXPECT_NE(text.find("group = \"nodule\""), std::string::npos);
   expectOneLineError(run({"liver", "-o", file.string(), "--case", (folder / "none/a.toml").string()}),
                      "cannot write");
