@@ -12,6 +12,7 @@
 #include "core/base/types.h"
 #include "core/data/checker.h"
 #include "core/data/datasets.h"
+#include "core/data/face_checks.h"
 #include "core/data/load_driven_checks.h"
 
 namespace palpate {
@@ -134,55 +135,6 @@ void checkScale(const std::string& name, std::span<const float> scale, const Che
                    "more than 0, at most " + digitsOf(double(kLargest)));
 }
 
-/// Whether a node is in the middle of two others, but for what rounding of a mesh file may do.
-bool isMiddle(const ModelView& v, std::int32_t node, std::int32_t a, std::int32_t b) {
-  constexpr double kOff = 1e-6;  // of the edge
-  const auto at = [&](std::int32_t i) {
-    return Vec3(Eigen::Map<const Vec3>(v.surface_positions.data() + 3 * static_cast<std::size_t>(i)));
-  };
-  return (at(node) - 0.5 * (at(a) + at(b))).norm() <= kOff * (at(b) - at(a)).norm();
-}
-
-/// The triangles between contact positions are those of the surface, or faces of quadratic elements: four of these each.
-void checkContactTriangles(const ModelView& v, const Checker& check) {
-  const std::string name = dataset::kContactTriangles.name(), drawn = dataset::kSurfaceTriangles.name();
-  check.indices(name, v.contact_triangles, v.surfaceNodes());
-  const bool whole = v.contact_triangles.size() == v.surface_triangles.size();
-  check.require(whole || 4 * v.contact_triangles.size() == v.surface_triangles.size(),
-                name + " has " + std::to_string(v.contactTriangles()) + " triangles",
-                std::to_string(v.triangles()) + ", as " + drawn + ", or a quarter of that");
-  const auto expect = [&](std::size_t i, std::int32_t found, std::int32_t expected) {
-    if (found != expected)
-      check.failAt(whole ? name : drawn, i, "is " + std::to_string(found),
-                   std::to_string(expected) + ", as " + (whole ? drawn : name) + " has it");
-  };
-  for (std::size_t i = 0; whole && i < v.contact_triangles.size(); ++i)
-    expect(i, v.contact_triangles[i], v.surface_triangles[i]);
-  for (std::size_t t = 0; !whole && t < v.contactTriangles(); ++t) {
-    const auto corner = v.contact_triangles.subspan(3 * t, 3), part = v.surface_triangles.subspan(12 * t, 12);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
-      expect(12 * t + 4 * k, part[4 * k], corner[k]);  // in its own triangle; the next ones are middles
-      expect(12 * t + 3 * k + next, part[3 * k + next], part[9 + last]);
-      expect(12 * t + 3 * k + last, part[3 * k + last], part[9 + next]);
-      if (!isMiddle(v, part[9 + k], corner[next], corner[last]))
-        check.failAt(drawn, 12 * t + 9 + k, "is " + std::to_string(part[9 + k]),
-                     "the node in the middle of " + std::to_string(corner[next]) + " and " +
-                         std::to_string(corner[last]));
-    }
-  }
-}
-
-/// Contact positions are corners of the triangles between them.
-void checkPositionsAreCorners(const ModelView& v, const Checker& check) {
-  std::vector<bool> corner(v.surfaceNodes(), false);
-  for (const std::int32_t node : v.contact_triangles) corner[static_cast<std::size_t>(node)] = true;
-  for (std::size_t m = 0; m < v.positions(); ++m)
-    if (!corner[static_cast<std::size_t>(v.contact_node[m])])
-      check.failAt(dataset::kContactNode.name(), m, "is " + std::to_string(v.contact_node[m]),
-                   "a node of " + dataset::kContactTriangles.name());
-}
-
 std::string knownLaws() {
   std::string list;
   for (const std::string_view law : kLaws) list += (list.empty() ? "\"" : " or \"") + std::string(law) + '"';
@@ -254,14 +206,13 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   checkFinite(v, check);
   check.indices(dataset::kSurfaceTriangles.name(), v.surface_triangles, v.surfaceNodes());
   checkTrianglesAtNodes(v, check);
-  checkContactTriangles(v, check);
   checkScale(dataset::kModesXScale.name(), v.modes_X_scale, check);
   checkScale(dataset::kModesYScale.name(), v.modes_Y_scale, check);
   checkScale(dataset::kNearScale.name(), v.near_scale, check);
   checkScale(dataset::kGreenYScale.name(), v.green_Y_scale, check);
   checkScale(dataset::kGreenNearScale.name(), v.green_near_scale, check);
   checkPositions(v, check);
-  checkPositionsAreCorners(v, check);
+  checkFaces(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
   checkSeries(v.contact_series_radius, v.contact_domain_radius, check);
   checkNear({dataset::kNearOffset.name(), dataset::kNearNode.name(), v.near_offset, v.near_node},
@@ -272,11 +223,6 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   check.require(N > 0, dataset::kMeshNodes.name() + " is empty", "the volume mesh");
   check.indices(dataset::kMeshTetrahedra.name(), v.mesh_tetrahedra, N);
   check.indices(dataset::kMeshMidsides.name(), v.mesh_midsides, N);
-  check.require(
-      v.mesh_midsides.empty() == (v.triangles() == v.contactTriangles()),
-      dataset::kContactTriangles.name() + " has " + std::to_string(v.contactTriangles()) + " triangles, " +
-          dataset::kMeshMidsides.name() + " is " + (v.mesh_midsides.empty() ? "missing" : "there"),
-      "a quarter of " + dataset::kSurfaceTriangles.name() + " with quadratic elements, else all of it");
   check.indices(dataset::kMeshFixed.name(), v.mesh_fixed, N);
   check.indices(dataset::kMeshSurfaceNode.name(), v.mesh_surface_node, N);
   checkRegions(v, check);

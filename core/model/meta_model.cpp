@@ -143,6 +143,20 @@ void MetaModel::expect(const ContactPoint& s, const ContactPoint& fine) const no
   dimple_.expect(places_.of(s.triangle));
 }
 
+std::vector<std::uint8_t> MetaModel::accessibleNodes() const {
+  std::vector<std::uint8_t> accessible(view_.surfaceNodes(), 0);
+  for (std::size_t m = 0; m < view_.positions(); ++m)
+    accessible[index(view_.contact_node[m])] = view_.contact_accessible[m];
+  for (std::size_t t = 0; view_.contactTriangles() < view_.triangles() && t < view_.contactTriangles(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto corner = [&](std::size_t turn) {
+        return accessible[index(view_.contact_triangles[3 * t + (k + turn) % 3])];
+      };
+      if (corner(1) != 0 && corner(2) != 0) accessible[index(view_.surface_triangles[12 * t + 9 + k])] = 1;
+    }
+  return accessible;
+}
+
 MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view,
                      const Digest& digest)
     : image_(std::move(image)),

@@ -58,6 +58,8 @@ class MetaModel {
   /// Degree 1 of a "displacement" model's field.
   [[nodiscard]] const LinearField& linearField() const noexcept { return linear_field_; }
   /// The field at a tool's own anchor, of a "displacement" model.
+  /// [Ns] 1: a tool may touch the surface there. Contact positions say it of corners; a node between two such is one too.
+  [[nodiscard]] std::vector<std::uint8_t> accessibleNodes() const;
   [[nodiscard]] const ContactDimple& dimple() const noexcept { return dimple_; }
   /// The nodes that a tool holds, wherever it is.
   [[nodiscard]] const ContactPatches& patches() const noexcept { return patches_; }

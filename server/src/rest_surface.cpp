@@ -13,15 +13,6 @@ namespace {
 constexpr std::int64_t kShortestPause = 1'000'000'000;  // ns
 constexpr int kRepeats = 2;                             // a best-effort reader may lose one
 
-std::vector<std::uint8_t> accessibleNodes(const ModelView& view) {
-  std::vector<std::uint8_t> accessible(view.surfaceNodes(), 0);
-  for (std::size_t node = 0; node < accessible.size(); ++node) {
-    const std::int32_t position = view.position_of_node[node];
-    if (position >= 0) accessible[node] = view.contact_accessible[static_cast<std::size_t>(position)];
-  }
-  return accessible;
-}
-
 bool isVolatile(dds_entity_t writer, dds_instance_handle_t reader) noexcept {
   dds_builtintopic_endpoint_t* found = dds_get_matched_subscription_data(writer, reader);
   if (found == nullptr) return false;
@@ -37,7 +28,7 @@ RestSurface::RestSurface(const dds::Participant& participant, const Facts& facts
     : facts_(facts),
       view_(model.view()),
       triangles_(view_.surface_triangles.begin(), view_.surface_triangles.end()),
-      accessible_(accessibleNodes(view_)),
+      accessible_(model.accessibleNodes()),
       writer_(participant) {
   if (!write()) throw dds::DdsError("cannot publish the rest surface");
   sent_ns_ = rt::monotonicNow();

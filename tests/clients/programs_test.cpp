@@ -104,15 +104,17 @@ TEST(Tool, PressFeelsTheSpring) {
 TEST(Tool, PressesBesideAndComparesBoth) {
   const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .tip_radius = 0.004});
   const TemporaryFile svg("both.svg");
-  const std::string apex = "0.05,0.05,0.05";
-  const auto result =
-      runProgram("palpate-tool", onDomain({"--script", "press", "--seconds", "1", "--depth", "0.002", "--at",
-                                           apex, "--beside", apex, "--json", "--plot", svg.path()}));
+  const auto result = runProgram(
+      "palpate-tool", onDomain({"--script", "press", "--seconds", "1", "--depth", "0.002", "--at",
+                                "0.05,0.05,0.05", "--beside", "0.1,0.1,0", "--json", "--plot", svg.path()}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out);
-  for (const json& place : {report, report["beside"]})
-    EXPECT_NEAR(place["summary"]["peak_force_N"].get<double>(), 1.0, 1e-6);
-  EXPECT_NE(result.err.find("N beside: +0.0 %"), std::string::npos) << result.err;
+  EXPECT_EQ(report["node"], 15);
+  EXPECT_EQ(report["beside"]["node"], 13);
+  EXPECT_NEAR(report["summary"]["peak_force_N"].get<double>(), 1.0, 1e-6);
+  EXPECT_GT(report["beside"]["summary"]["peak_force_N"].get<double>(), 5.0);  // the wall is at the apex
+  EXPECT_NE(result.err.find("peak force 1.0000 N here, 2"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("N beside: -9"), std::string::npos) << result.err;
   const std::string plot = contentOf(svg.path());
   EXPECT_EQ(xmlFault(plot), "");
   EXPECT_NE(plot.find("here, node"), std::string::npos);

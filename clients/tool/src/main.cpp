@@ -57,7 +57,7 @@ Played prepare(const Options& options, const std::string& place, const client::S
     std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
               << server.status.tip_radius[options.tool_id] << " m\n";
   std::optional<device::Point> at;
-  if (!place.empty()) at = device::Point{program::parseVector("a place", place)};
+  if (!place.empty()) at = device::Point{program::parseVector("--at", place)};
   const client::Spot spot = client::chooseSpot(server.surface, at);
   device::Path path = client::scriptedPath(options.script, spot, path_options);
   if (options.seconds) path = path.stretchedTo(*options.seconds);
@@ -86,7 +86,7 @@ int body(int argc, char** argv) {
   const Played played = prepare(options, options.at, server);
   const Recording recording = play(participant, options.tool_id, played.path, runOf(server));
   out << tableOf(played, recording) << std::flush;
-  if (options.beside.empty()) {
+  if (options.beside.empty() || client::stopRequested() || recording.server_left) {
     if (options.json) program::printJson(jsonOf(played, recording));
     if (!options.plot.empty()) program::writeFile(options.plot, plotOf(played, recording));
     return 0;

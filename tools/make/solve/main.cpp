@@ -14,6 +14,7 @@
 #include "tools/make/solve/summary.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
+#include "tools/mesh/midsides.h"
 #include "tools/mesh/read_mesh.h"
 #include "tools/modelfile/write_model.h"
 #include "tools/modelfile/write_xdmf.h"
@@ -50,6 +51,7 @@ mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fi
   mesh::TetMesh organ = mesh::readMesh(path);
   try {
     mesh::checkMesh(organ);
+    (void)mesh::straighten(organ);  // what rounding of the file has moved
     if (organ.groups.count(fixed) != 0) mesh::checkHeld(organ, fixed);
   } catch (const mesh::MeshError& error) {
     throw mesh::MeshError(path.string() + ": " + error.what());

@@ -66,7 +66,7 @@ void describe(program::Options line, Options& options) {
            "and nu > 0.3)")
       .range(1, 2);
   line.flag("--mesh-error", &options.mesh_error,
-            "say by how much the mesh makes the organ too stiff: 12 places with elements of half the size");
+            "say by how much the mesh makes the organ too stiff: 12 places with better elements");
   line.add("--modes", &options.modes,
            "modes of the model (default: 167; series-displacement: as many as its field_error of 1 % wants)")
       .range(1, 2000);

@@ -93,20 +93,34 @@ int wholeOr0(const Json& object, const char* key) {
   return member == nullptr ? 0 : member->get<int>();
 }
 
-/// What the mesh gets wrong, and where patches are too narrow for it.
+/// What the mesh gets wrong, and whether patches are too narrow for it.
 void printMesh(const Json& s) {
   constexpr double kMuch = 0.05;
+  const bool quadratic = s["element_order"] == 2;
+  const Json* const edge = s.find("median_surface_edge");
+  const double edges = edge == nullptr ? 0.0 : s["patch_radius"].get<double>() / edge->get<double>();
+  const double enough = quadratic ? 0.8 : 1.3;
+  constexpr double kRounding = 1e-6;  // a default patch is just wide enough
+  if (edge != nullptr && edges < enough - kRounding)
+    std::fprintf(
+        stderr,
+        "warning: a patch is %.2f median surface edges wide, less than %.1f: the force follows the mesh\n",
+        edges, enough);
   const Json* const error = s.find("mesh_error");
   if (error == nullptr) return;
+  if (error->at("points") == 0) {
+    std::fprintf(stderr, "mesh: its error could not be looked at anywhere\n");
+    return;
+  }
   const double mean = error->at("mean").get<double>();
-  std::fprintf(stderr,
-               "mesh: too stiff by %.1f %% (mean), %.1f %% (largest), at %d points, against elements of half "
-               "the size\n",
-               100.0 * mean, 100.0 * error->at("max").get<double>(), error->at("points").get<int>());
+  const bool raised = error->at("against") == "quadratic elements";
+  std::fprintf(stderr, "mesh: too stiff by %s%.1f %% (mean), %.1f %% (largest), at %d points, against %s\n",
+               quadratic || raised ? "" : "at least ", 100.0 * mean, 100.0 * error->at("max").get<double>(),
+               error->at("points").get<int>(), error->at("against").get<std::string>().c_str());
   if (mean > kMuch)
     std::fprintf(stderr,
                  "warning: the mesh makes the organ too stiff by more than 5 %%: smaller elements%s help\n",
-                 s["element_order"] == 1 ? " or --element-order 2" : "");
+                 quadratic ? "" : " or --element-order 2");
 }
 
 void printRadius(const Json& s) {
@@ -135,9 +149,12 @@ void printRadius(const Json& s) {
 }  // namespace
 
 Json meshErrorOf(const solver::BuildReport& report) {
-  return {{"mean", report.mesh_error->mean},
-          {"max", report.mesh_error->largest},
-          {"points", report.mesh_error->points}};
+  const solver::MeshError& e = *report.mesh_error;
+  Json error{{"points", e.points},
+             {"against", e.raised ? "quadratic elements" : "elements of half the size"}};
+  error["mean"] = e.points > 0 ? Json(e.mean) : Json();
+  error["max"] = e.points > 0 ? Json(e.largest) : Json();
+  return error;
 }
 
 Json stages(Method method, const solver::BuildReport& report) {
@@ -189,6 +206,7 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
     s["reference_force"] = data.attributes.reference_force;
     s["weak_positions"] = report.weak_positions;
   }
+  if (report.median_edge > 0.0) s["median_surface_edge"] = report.median_edge;
   if (report.mesh_error) s["mesh_error"] = meshErrorOf(report);
   if (isSeries(c.method)) {
     s["fit_error"] = report.fit_errors.back();

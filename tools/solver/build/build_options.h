@@ -13,11 +13,12 @@ struct BuildOptions {
   bool quiet{false};
 };
 
-/// By how much the mesh makes the organ too stiff: n . K_s n of linear elasticity over the same of half the edge length, less 1.
+/// By how much the mesh makes the organ too stiff: n . K_s n of linear elasticity over the same of better elements, less 1.
 struct MeshError {
   double mean{0.0};     ///< over the points, of the absolute values
   double largest{0.0};  ///< absolute value
-  int points{0};        ///< 0: nowhere could it be looked at
+  int points{0};        ///< 0: nowhere could it be looked at, and mean and largest mean nothing
+  bool raised{false};   ///< better: quadratic elements; else those near the tool at half the edge length
 };
 
 /// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
@@ -26,6 +27,7 @@ struct BuildReport {
   double pgd_seconds{0}, recompression_seconds{0};
   std::vector<double> fit_errors;         ///< series methods: after each sweep, see FarField::errors
   double fit_p95{0}, fit_max{0};          ///< series-displacement: FarField::largest over the positions
+  double median_edge{0};                  ///< of the surface, corner to corner, m
   std::optional<MeshError> mesh_error{};  ///< where the case asks for it
   double fit_asked{0};                    ///< of fit_p95, where it chose the modes: the case's field_error
   int greedy_pairs{0};                    ///< PGD methods: pairs before recompression

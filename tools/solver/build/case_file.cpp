@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/solver/build/case_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -189,7 +190,9 @@ Case readCase(const std::filesystem::path& path) {
 
 mesh::TetMesh raised(const Case& c, mesh::TetMesh mesh) {
   constexpr double kLocks = 0.3;  // nu above which linear elements are much too stiff
-  const int suits = c.method == Method::kSeriesDisplacement && c.nu > kLocks ? 2 : 1;
+  double nu = c.nu;
+  for (const RegionCase& region : c.regions) nu = std::max(nu, region.nu.value_or(c.nu));
+  const int suits = c.method == Method::kSeriesDisplacement && nu > kLocks ? 2 : 1;
   if (mesh.isQuadratic() && c.element_order == 1)
     throw CaseError("mesh.element_order = 1 does not go with " + c.mesh.string() +
                     ", whose elements are quadratic");

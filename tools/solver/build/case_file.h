@@ -80,7 +80,7 @@ struct Case {
   std::vector<RegionCase> regions;        ///< where the material differs
   std::vector<SpringCase> springs;
   Method method{Method::kSeriesDisplacement};
-  std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges
+  std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges, or 0.8
   std::optional<int> order;            ///< p, 1 to 7; absent: 3
   std::optional<int> modes;            ///< n, 1 to 2000; absent: by field_error beside a near field, else 167
   std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a

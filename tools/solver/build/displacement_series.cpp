@@ -95,6 +95,7 @@ Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& o
       patches_(setup_.surface.graph, freeNodes(setup_.model, setup_.surface), setup_.patch_radius,
                setup_.positions.nodes),
       sources_(loadedNodes(setup_, patches_)) {
+  report_.median_edge = setup_.surface.medianEdge();
   for (const std::int32_t node : sources_)
     near_.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], near_radius_));
   checkNearBytes(near_radius_, near_, basis_.size());

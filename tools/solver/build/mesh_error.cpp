@@ -102,6 +102,10 @@ MeshErrors::MeshErrors(const SolverSetup& setup, const mesh::TetMesh& mesh, cons
 }
 MeshErrors::~MeshErrors() = default;
 
+bool MeshErrors::raised() const noexcept {
+  return state_->raised != nullptr;
+}
+
 std::optional<double> MeshErrors::at(const ContactPoint& s) const {
   const SolverSetup& setup = state_->setup;
   const Vec3 x = setup.surface.position(s);
@@ -124,6 +128,7 @@ MeshError meshError(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
   std::vector<std::optional<double>> found(samples.size());
   parallelFor(workers, samples.size(), [&](int, std::size_t i) { found[i] = errors.at(samples[i]); });
   MeshError error;
+  error.raised = errors.raised();
   for (const std::optional<double>& one : found) {
     if (!one) continue;
     error.mean += std::abs(*one);

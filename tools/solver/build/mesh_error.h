@@ -23,6 +23,8 @@ class MeshErrors {
   ~MeshErrors();
   MeshErrors(const MeshErrors&) = delete;
   MeshErrors& operator=(const MeshErrors&) = delete;
+  /// Whether the whole organ with quadratic elements is what the mesh is compared with.
+  [[nodiscard]] bool raised() const noexcept;
   /// @return nothing where springs are in reach, which the finer part has not. About a second.
   [[nodiscard]] std::optional<double> at(const ContactPoint& s) const;
 

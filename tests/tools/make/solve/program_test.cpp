@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "palpate/testing/files.h"
 #include "palpate/testing/run_program.h"
@@ -115,6 +116,51 @@ TEST_F(SolveProgram, RefusesElementsThatThereAreNot) {
   writeBlock("quadratic.msh", block);
   expectRefusal(solve({path("quadratic.msh"), "--element-order", "1", "-o", path("out.h5")}),
                 "whose elements are quadratic");
+}
+
+TEST_F(SolveProgram, SaysHowStiffTheMeshIs) {
+  const auto error = [&](const std::string& order) {
+    const ProgramResult result = solve({path("block.msh"), "--element-order", order, "--mesh-error",
+                                        "--modes", "20", "-o", path("out.h5"), "-q", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("mesh: too stiff by "), std::string::npos) << result.err;
+    return nlohmann::json::parse(result.out).at("mesh_error");
+  };
+  const auto linear = error("1"), quadratic = error("2");
+  EXPECT_EQ(linear.at("against"), "quadratic elements");
+  EXPECT_EQ(quadratic.at("against"), "elements of half the size");
+  EXPECT_EQ(linear.at("points"), 12);
+  EXPECT_GT(linear.at("mean"), 0.1);
+  EXPECT_LT(quadratic.at("mean"), 0.5 * linear.at("mean").get<double>());
+  const auto file = nlohmann::json::parse(runProgram("palpate-inspect", {path("out.h5"), "--json"}).out);
+  EXPECT_EQ(file.at("provenance").at("mesh_error"), quadratic);
+  fs::remove(folder_ / "out.h5");
+  expectRefusal(solve({path("block.msh"), "--mesh-error", "--method", "series-force", "-o", path("out.h5")}),
+                "mesh.error has no effect");
+}
+
+TEST_F(SolveProgram, WarnsOfPatchesThatAreNarrowForTheMesh) {
+  const std::string radius = "patch_radius = ";
+  for (const auto& [key, order, narrow] : {std::tuple(radius + "0.008\n", "2", true),
+                                           {radius + "0.014\n", "2", false},
+                                           {radius + "0.014\n", "1", true},
+                                           {"", "1", false},
+                                           {"", "2", false}}) {
+    const ProgramResult result = solve(
+        {writeCase("[model]\nmodes = 20\n" + key), "--element-order", order, "-o", path("out.h5"), "-q"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err.find("warning: a patch is") != std::string::npos, narrow) << key << order << '\n'
+                                                                                   << result.err;
+  }
+}
+
+TEST_F(SolveProgram, TakesMidSideNodesThatAFileHasRounded) {
+  mesh::TetMesh block = mesh::quadraticOf(mesh::readMesh(folder_ / "block.msh"));
+  block.groups.erase("organ");
+  block.nodes[static_cast<std::size_t>(block.midsides[7][2])].y() += 2e-7;
+  writeBlock("rounded.msh", block);
+  const ProgramResult result = solve({path("rounded.msh"), "--modes", "20", "-o", path("out.h5"), "-q"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST_F(SolveProgram, SolvesABareMeshWithItsAccessibleGroup) {

@@ -59,6 +59,28 @@ TEST_F(QuadraticBlock, HasPositionsAtCornersAndLoadsBetweenThem) {
   }
 }
 
+/// What the viewer's page and scripted tools look at: the nodes of drawn triangles.
+TEST_F(QuadraticBlock, TheFaceOfThreeAccessibleCornersIsAccessibleAllOver) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  const ModelView& view = model.view();
+  const std::vector<std::uint8_t> accessible = model.accessibleNodes();
+  std::size_t all = 0, none = 0;
+  for (std::size_t f = 0; f < view.contactTriangles(); ++f) {
+    const auto at = [&](std::int32_t node) { return accessible[static_cast<std::size_t>(node)] != 0; };
+    const auto corner = view.contact_triangles.subspan(3 * f, 3),
+               drawn = view.surface_triangles.subspan(12 * f, 12);
+    const auto touchable = std::count_if(corner.begin(), corner.end(), at);
+    all += touchable == 3 ? 1 : 0;
+    none += touchable == 0 ? 1 : 0;
+    EXPECT_EQ(touchable == 3, std::all_of(drawn.begin(), drawn.end(), at)) << f;
+    if (touchable < 2) {
+      EXPECT_TRUE(std::none_of(drawn.begin() + 9, drawn.end(), at)) << f;
+    }
+  }
+  EXPECT_GT(all, 100U);
+  EXPECT_GT(none, 10U);
+}
+
 TEST_F(QuadraticBlock, AnswersLikeNewtonAtCorners) {
   const MetaModel model = MetaModel::load(world_->file.path());
   for (int i = 0; i < 8; ++i) {
@@ -143,6 +165,21 @@ TEST_F(QuadraticBlock, FilesWithOtherFacesAreRefused) {
   refused(
       [](ModelData& d) { d.surface_positions[3 * static_cast<std::size_t>(d.surface_triangles[9])] += 1e-4; },
       "the node in the middle of");
+  refused(  // an edge with another middle in the neighbour's face
+      [](ModelData& d) {
+        const std::int32_t old = d.surface_triangles[9],
+                           added = static_cast<std::int32_t>(d.surface_mesh_tag.size());
+        for (std::size_t c = 0; c < 3; ++c)
+          d.surface_positions.push_back(d.surface_positions[3 * static_cast<std::size_t>(old) + c]);
+        d.surface_mesh_tag.push_back(1 << 20);
+        d.position_of_node.push_back(-1);
+        d.mesh_surface_node.push_back(d.mesh_surface_node[static_cast<std::size_t>(old)]);
+        const std::size_t n = d.modes_X.size() / (3 * static_cast<std::size_t>(added));
+        d.modes_X.resize(n * 3 * d.surface_mesh_tag.size());
+        for (std::size_t i = 0; i < 12; ++i)
+          if (d.surface_triangles[i] == old) d.surface_triangles[i] = added;
+      },
+      "one node in the middle of each edge");
   refused([](ModelData& d) { d.mesh_midsides.clear(); }, "/mesh/midsides is missing");
   refused([](ModelData& d) { d.mesh_midsides[7] = 1 << 20; }, "/mesh/midsides number 7 is 1048576");
   refused(
