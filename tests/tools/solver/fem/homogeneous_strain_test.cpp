@@ -113,14 +113,15 @@ TEST_P(IrregularBox, FollowsItsSurfaceInside) {
   EXPECT_LT((body.solve(at_surface, body.zero()) - u).norm(), 1e-11 * u.norm());
 }
 
+std::string nameOf(const ::testing::TestParamInfo<OrderAndLaw>& test) {
+  std::string name = std::get<0>(test.param) == 2 ? "quadratic" : "linear";
+  name += std::get<1>(test.param);
+  std::erase(name, '-');
+  return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, IrregularBox,
-                         ::testing::Combine(::testing::Values(1, 2), ::testing::ValuesIn(kLaws)),
-                         [](const auto& test) {
-                           const auto& [order, law] = test.param;
-                           std::string name = (order == 2 ? "quadratic" : "linear") + std::string(law);
-                           std::erase(name, '-');
-                           return name;
-                         });
+                         ::testing::Combine(::testing::Values(1, 2), ::testing::ValuesIn(kLaws)), nameOf);
 
 }  // namespace
 }  // namespace palpate::solver
