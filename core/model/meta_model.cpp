@@ -12,6 +12,7 @@
 #include "core/data/model_checks.h"
 #include "core/data/model_content.h"
 #include "core/data/model_reader.h"
+#include "core/data/region_surfaces.h"
 #include "core/data/try_in_child.h"
 #include "core/surface/surface_distance.h"
 
@@ -27,7 +28,7 @@ void compare(const std::string& name, const char* what, const std::string& store
 
 /// At most about what the model's tables take beside the copy: modes node by node, what is near the nodes that patches are
 /// centred at, the stiffness of patches over triangles, the contact's answer in rows, dimples, and the refined surface with
-/// its search tree.
+/// its search tree; and what the server makes of regions.
 std::uint64_t bytesOfTables(const ModelView& v) {
   constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have
   constexpr std::uint64_t kPerNode =
@@ -41,7 +42,8 @@ std::uint64_t bytesOfTables(const ModelView& v) {
       2 * 6 * v.triangles() * sizeof(SmoothPlaces::View) + 4 * v.surfaceNodes() * sizeof(Eigen::Matrix3f);
   return places + 2 * v.modes_X.size_bytes() + v.triangles() * sizeof(SmoothCubic<6>) +
          v.contact_stiffness.size_bytes() + v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
-         v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries;
+         v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries +
+         kRegionSurfaceBytes * v.mesh_element_region.size();
 }
 
 /// By surface node: whether it may carry load.
@@ -155,6 +157,12 @@ std::vector<std::uint8_t> MetaModel::accessibleNodes() const {
       if (corner(1) != 0 && corner(2) != 0) accessible[index(view_.surface_triangles[12 * t + 9 + k])] = 1;
     }
   return accessible;
+}
+
+std::vector<std::uint8_t> MetaModel::clampedNodes() const {
+  std::vector<std::uint8_t> clamped = freeNodes(view_);
+  for (std::uint8_t& node : clamped) node = node == 0 ? 1 : 0;
+  return clamped;
 }
 
 MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view,

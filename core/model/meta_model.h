@@ -57,9 +57,11 @@ class MetaModel {
   [[nodiscard]] const NearField& nearField() const noexcept { return near_field_; }
   /// Degree 1 of a "displacement" model's field.
   [[nodiscard]] const LinearField& linearField() const noexcept { return linear_field_; }
-  /// The field at a tool's own anchor, of a "displacement" model.
   /// [Ns] 1: a tool may touch the surface there. Contact positions say it of corners; a node between two such is one too.
   [[nodiscard]] std::vector<std::uint8_t> accessibleNodes() const;
+  /// [Ns] 1: clamped, so that it does not move.
+  [[nodiscard]] std::vector<std::uint8_t> clampedNodes() const;
+  /// The field at a tool's own anchor, of a "displacement" model.
   [[nodiscard]] const ContactDimple& dimple() const noexcept { return dimple_; }
   /// The nodes that a tool holds, wherever it is.
   [[nodiscard]] const ContactPatches& patches() const noexcept { return patches_; }

@@ -22,6 +22,21 @@ bool isVolatile(dds_entity_t writer, dds_instance_handle_t reader) noexcept {
   return durability == DDS_DURABILITY_VOLATILE;
 }
 
+/// The regions that have tetrahedra: of "elsewhere" there may be none.
+std::vector<dds::Region> regionsOf(const ModelView& view, const std::vector<RegionSurface>& surfaces) {
+  std::vector<dds::Region> regions;
+  for (std::size_t r = 0; r < surfaces.size(); ++r) {
+    if (surfaces[r].tetrahedra == 0) continue;
+    dds::Region region{};
+    dds::assignText(region.name, textOf(view.region_name[r]));
+    region.youngs_modulus = view.region_E[r];
+    dds::lend(region.positions, surfaces[r].positions.data(), surfaces[r].positions.size());
+    dds::lend(region.triangles, surfaces[r].triangles.data(), surfaces[r].triangles.size());
+    regions.push_back(region);
+  }
+  return regions;
+}
+
 }  // namespace
 
 RestSurface::RestSurface(const dds::Participant& participant, const Facts& facts, const MetaModel& model)
@@ -29,6 +44,9 @@ RestSurface::RestSurface(const dds::Participant& participant, const Facts& facts
       view_(model.view()),
       triangles_(view_.surface_triangles.begin(), view_.surface_triangles.end()),
       accessible_(model.accessibleNodes()),
+      clamped_(model.clampedNodes()),
+      region_surfaces_(regionSurfaces(view_)),
+      regions_(regionsOf(view_, region_surfaces_)),
       writer_(participant) {
   if (!write()) throw dds::DdsError("cannot publish the rest surface");
   sent_ns_ = rt::monotonicNow();
@@ -64,6 +82,8 @@ bool RestSurface::write() noexcept {
   dds::lend(mesh.triangles, triangles_.data(), triangles_.size());
   dds::lend(mesh.accessible, accessible_.data(), accessible_.size());
   dds::lend(mesh.mesh_tags, view_.surface_mesh_tag.data(), view_.surface_mesh_tag.size());
+  dds::lend(mesh.clamped, clamped_.data(), clamped_.size());
+  dds::lend(mesh.regions, regions_.data(), regions_.size());
   return writer_.write(mesh);
 }
 

@@ -25,6 +25,7 @@ std::string refusal(SmallSurface& surface) {
 
 TEST(Surface, IsCopiedUnchanged) {
   SmallSurface source;
+  source.addRegions();
   const Surface surface = checkedSurface(source.message());
   ASSERT_EQ(surface.positions.size(), 5U);
   ASSERT_EQ(surface.triangles.size(), 6U);
@@ -32,6 +33,13 @@ TEST(Surface, IsCopiedUnchanged) {
   EXPECT_EQ(surface.triangles[5], (std::array<std::uint32_t, 3>{3, 0, 4}));
   EXPECT_EQ(surface.mesh_tags[4], 15);
   EXPECT_EQ(surface.model_id, source.model_id);
+  EXPECT_EQ(surface.clamped, source.clamped);
+  ASSERT_EQ(surface.regions.size(), 2U);
+  EXPECT_EQ(surface.regions[0].name, "elsewhere");
+  EXPECT_TRUE(surface.regions[0].triangles.empty());
+  EXPECT_EQ(surface.regions[1].youngs_modulus, 70e3);
+  EXPECT_EQ(surface.regions[1].positions[2], (device::Point{0.05, 0.06, 0.02}));
+  EXPECT_EQ(surface.regions[1].triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
 }
 
 TEST(Surface, RejectsWhatAServerMustNotSend) {
@@ -53,9 +61,34 @@ TEST(Surface, RejectsWhatAServerMustNotSend) {
   SmallSurface tags;
   tags.mesh_tags.push_back(1);
   EXPECT_EQ(refusal(tags), "surface from the server: mesh_tags has 6 entries, expected 5");
+  SmallSurface clamp;
+  clamp.clamped.clear();
+  EXPECT_EQ(refusal(clamp), "surface from the server: clamped has 0 entries, expected 5");
   SmallSurface id;
   id.model_id = "a\nb";
   EXPECT_EQ(refusal(id), "surface from the server: model_id holds an unprintable character");
+}
+
+TEST(Surface, RejectsRegionsThatAServerMustNotSend) {
+  const auto refused = [](auto spoil) {
+    SmallSurface surface;
+    spoil(surface);
+    surface.addRegions();
+    return refusal(surface);
+  };
+  EXPECT_EQ(refused([](SmallSurface& s) { s.region_triangles[1] = 3; }),
+            "surface from the server: region 1: triangle 0 names node 3 of 3");
+  EXPECT_EQ(refused([](SmallSurface& s) { s.region_positions[4] = std::numeric_limits<double>::infinity(); }),
+            "surface from the server: region 1: position of node 1 is not finite");
+  EXPECT_EQ(refused([](SmallSurface& s) { s.region_positions.pop_back(); }),
+            "surface from the server: region 1: positions has 8 entries, expected 3 for each node");
+  EXPECT_EQ(refused([](SmallSurface& s) { s.region_triangles.push_back(0); }),
+            "surface from the server: region 1: triangles has 4 entries, expected 3 for each triangle");
+  SmallSurface soft;
+  soft.addRegions();
+  soft.regions[0].youngs_modulus = 0.0;
+  EXPECT_EQ(refusal(soft),
+            "surface from the server: region 0: youngs_modulus is 0.000000 Pa, expected more than 0");
 }
 
 TEST(Spot, DefaultIsTheHighestNodeWithItsOutwardNormal) {

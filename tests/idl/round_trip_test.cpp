@@ -125,12 +125,21 @@ TEST(RoundTrip, LateJoinerGetsTheSurface) {
   std::uint32_t triangles[] = {0, 1, 2};
   std::uint8_t accessible[] = {1, 0, 1};
   std::int64_t tags[] = {5, 9, 7000000000};
+  std::uint8_t clamped[] = {0, 1, 0};
   SurfaceMesh sent{};
   assignText(sent.model_id, "m");
   sent.positions = {9, 9, positions, false};
   sent.triangles = {3, 3, triangles, false};
   sent.accessible = {3, 3, accessible, false};
   sent.mesh_tags = {3, 3, tags, false};
+  sent.clamped = {3, 3, clamped, false};
+  Region regions[2]{};
+  assignText(regions[0].name, "elsewhere");
+  assignText(regions[1].name, "nodule");
+  regions[1].youngs_modulus = 70e3;
+  regions[1].positions = {9, 9, positions, false};
+  regions[1].triangles = {3, 3, triangles, false};
+  sent.regions = {2, 2, regions, false};
   ASSERT_TRUE(writer.write(sent));
   const Reader<SurfaceMesh> late(participant);
   ASSERT_TRUE(eventually([&] {
@@ -141,6 +150,13 @@ TEST(RoundTrip, LateJoinerGetsTheSurface) {
     EXPECT_EQ(got[0].triangles._buffer[2], 2U);
     EXPECT_EQ(got[0].accessible._buffer[1], 0);
     EXPECT_EQ(got[0].mesh_tags._buffer[2], 7000000000);
+    EXPECT_EQ(got[0].clamped._buffer[1], 1);
+    EXPECT_EQ(got[0].regions._length, 2U);
+    EXPECT_EQ(got[0].regions._buffer[0].triangles._length, 0U);
+    EXPECT_STREQ(got[0].regions._buffer[1].name, "nodule");
+    EXPECT_EQ(got[0].regions._buffer[1].youngs_modulus, 70e3);
+    EXPECT_EQ(got[0].regions._buffer[1].positions._buffer[7], 1.0);
+    EXPECT_EQ(got[0].regions._buffer[1].triangles._buffer[2], 2U);
     return true;
   }));
 }

@@ -64,5 +64,32 @@ TEST_F(Strangers, AReaderOfDefaultQosThatComesLateGetsTheSurface) {
   EXPECT_EQ(nodes, target_.nodes);
 }
 
+TEST_F(Strangers, TheSurfaceSaysWhatIsHeldAndWhatIsInside) {
+  palpate::testing::writeSyntheticModel(model_, {.nodule_above = 0.8});
+  ASSERT_NO_FATAL_FAILURE(start());
+  const auto data = palpate::testing::syntheticModel({.nodule_above = 0.8});
+  const dds::Entity late = reader<dds::SurfaceMesh>();
+  bool came = false;
+  for (int i = 0; i < 250 && !came; ++i, pause(20)) {
+    const dds::LoanedSamples<dds::SurfaceMesh> samples(late.handle());
+    if (samples.empty()) continue;
+    came = true;
+    const dds::SurfaceMesh& mesh = samples[0];
+    ASSERT_EQ(mesh.clamped._length, target_.nodes);
+    for (std::uint32_t node = 0; node < mesh.clamped._length; ++node)
+      EXPECT_EQ(mesh.clamped._buffer[node] == 1, data.position_of_node[node] < 0) << node;
+    ASSERT_EQ(mesh.regions._length, 2U);
+    const dds::Region &around = mesh.regions._buffer[0], &nodule = mesh.regions._buffer[1];
+    EXPECT_STREQ(around.name, "elsewhere");
+    EXPECT_EQ(around.triangles._length, 0U);
+    EXPECT_STREQ(nodule.name, "nodule");
+    EXPECT_EQ(nodule.youngs_modulus, 10.0 * data.attributes.E);
+    // A cone with its tip in the centre: a triangle for each edge of its rim, where all but one of its nodes are.
+    EXPECT_GT(nodule.triangles._length / 3, 20U);
+    EXPECT_EQ(nodule.positions._length, nodule.triangles._length + 3);
+  }
+  EXPECT_TRUE(came);
+}
+
 }  // namespace
 }  // namespace palpate::server::testing

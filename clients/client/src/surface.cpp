@@ -10,37 +10,57 @@
 namespace palpate::client {
 namespace {
 
+// Refuses what is in `part`, e.g. "region 2: ".
+struct Refusal {
+  std::string part;
+  [[noreturn]] void operator()(const std::string& what) const {
+    throw ClientError("surface from the server: " + part + what);
+  }
+};
+
 void expectSize(const char* field, std::size_t found, std::size_t expected) {
   if (found != expected)
-    throw ClientError(std::string("surface from the server: ") + field + " has " + std::to_string(found) +
-                      " entries, expected " + std::to_string(expected));
+    Refusal{}(std::string(field) + " has " + std::to_string(found) + " entries, expected " +
+              std::to_string(expected));
 }
 
-void copyPositions(const dds::SurfaceMesh& message, Surface& surface) {
+template <class Message, class Kept>
+void copyPositions(const Message& message, Kept& kept, const Refusal& refuse) {
   const auto& from = message.positions;
-  if (from._length == 0 || from._length % 3 != 0)
-    throw ClientError("surface from the server: positions has " + std::to_string(from._length) +
-                      " entries, expected 3 for each node");
+  if (from._length % 3 != 0)
+    refuse("positions has " + std::to_string(from._length) + " entries, expected 3 for each node");
   for (std::uint32_t i = 0; i < from._length; i += 3) {
     const device::Point X{from._buffer[i], from._buffer[i + 1], from._buffer[i + 2]};
-    if (!std::isfinite(dot(X, X)))
-      throw ClientError("surface from the server: position of node " + std::to_string(i / 3) +
-                        " is not finite");
-    surface.positions.push_back(X);
+    if (!std::isfinite(dot(X, X))) refuse("position of node " + std::to_string(i / 3) + " is not finite");
+    kept.positions.push_back(X);
   }
 }
 
-void copyTriangles(const dds::SurfaceMesh& message, Surface& surface) {
+template <class Message, class Kept>
+void copyTriangles(const Message& message, Kept& kept, const Refusal& refuse) {
   const auto& from = message.triangles;
-  if (from._length == 0 || from._length % 3 != 0)
-    throw ClientError("surface from the server: triangles has " + std::to_string(from._length) +
-                      " entries, expected 3 for each triangle");
+  if (from._length % 3 != 0)
+    refuse("triangles has " + std::to_string(from._length) + " entries, expected 3 for each triangle");
   for (std::uint32_t i = 0; i < from._length; ++i)
-    if (from._buffer[i] >= surface.positions.size())
-      throw ClientError("surface from the server: triangle " + std::to_string(i / 3) + " names node " +
-                        std::to_string(from._buffer[i]) + " of " + std::to_string(surface.positions.size()));
+    if (from._buffer[i] >= kept.positions.size())
+      refuse("triangle " + std::to_string(i / 3) + " names node " + std::to_string(from._buffer[i]) + " of " +
+             std::to_string(kept.positions.size()));
   for (std::uint32_t i = 0; i < from._length; i += 3)
-    surface.triangles.push_back({from._buffer[i], from._buffer[i + 1], from._buffer[i + 2]});
+    kept.triangles.push_back({from._buffer[i], from._buffer[i + 1], from._buffer[i + 2]});
+}
+
+void copyRegions(const dds::SurfaceMesh& message, Surface& surface) {
+  for (std::uint32_t r = 0; r < message.regions._length; ++r) {
+    const dds::Region& from = message.regions._buffer[r];
+    const Refusal refuse{"region " + std::to_string(r) + ": "};
+    if (!(from.youngs_modulus > 0.0 && std::isfinite(from.youngs_modulus)))
+      refuse("youngs_modulus is " + std::to_string(from.youngs_modulus) + " Pa, expected more than 0");
+    Region& region = surface.regions.emplace_back();
+    region.name = from.name;
+    region.youngs_modulus = from.youngs_modulus;
+    copyPositions(from, region, refuse);
+    copyTriangles(from, region, refuse);
+  }
 }
 
 // Sum of the triangles' normals around a node, each weighted by its angle there.
@@ -91,13 +111,17 @@ Surface checkedSurface(const dds::SurfaceMesh& message) {
   surface.model_id = message.model_id;
   checkModelId(surface.model_id);
   surface.topology_revision = message.topology_revision;
-  copyPositions(message, surface);
-  copyTriangles(message, surface);
+  copyPositions(message, surface, {});
+  copyTriangles(message, surface, {});
+  if (surface.triangles.empty()) Refusal{}("triangles has 0 entries, expected 3 for each triangle");
   expectSize("accessible", message.accessible._length, surface.positions.size());
   expectSize("mesh_tags", message.mesh_tags._length, surface.positions.size());
+  expectSize("clamped", message.clamped._length, surface.positions.size());
   surface.accessible.assign(message.accessible._buffer,
                             message.accessible._buffer + message.accessible._length);
   surface.mesh_tags.assign(message.mesh_tags._buffer, message.mesh_tags._buffer + message.mesh_tags._length);
+  surface.clamped.assign(message.clamped._buffer, message.clamped._buffer + message.clamped._length);
+  copyRegions(message, surface);
   return surface;
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/multi_index.h"
 #include "core/surface/smooth_places.h"
 #include "icosphere.h"
+#include "synthetic_mesh.h"
 #include "tools/modelfile/write_model.h"
 
 namespace palpate::testing {
@@ -237,18 +238,6 @@ void fillNear(const SyntheticOptions& o, const Icosphere& sphere, const Monomial
   }
 }
 
-void fillMesh(const Icosphere& sphere, ModelData& data) {
-  const auto centre = static_cast<std::int32_t>(sphere.nodes.size());
-  data.mesh_nodes = data.surface_positions;
-  data.mesh_nodes.resize(data.mesh_nodes.size() + 3, 0.0);
-  data.mesh_node_tag = data.surface_mesh_tag;
-  data.mesh_node_tag.push_back(centre + 1);
-  for (const auto& [a, b, c] : sphere.triangles) {
-    data.mesh_tetrahedra.insert(data.mesh_tetrahedra.end(), {centre, a, b, c});
-    data.mesh_tetrahedron_tag.push_back(static_cast<std::int64_t>(data.mesh_tetrahedron_tag.size()) + 1);
-  }
-}
-
 }  // namespace
 
 ModelData syntheticModel(const SyntheticOptions& o) {
@@ -281,7 +270,7 @@ ModelData syntheticModel(const SyntheticOptions& o) {
     fillStiffness(data, [&](const Vec3& X) { return stiffnessAt(o, X); });
     data.contact_series_radius.assign(data.contact_node.size(), std::max(o.series_radius, o.domain_radius));
   }
-  fillMesh(sphere, data);
+  fillSyntheticMesh(o, sphere, data);
   return data;
 }
 

@@ -19,6 +19,7 @@ using ToolPose = palpate_ToolPose;
 using ToolForce = palpate_ToolForce;
 using SurfaceDisplacement = palpate_SurfaceDisplacement;
 using SurfaceMesh = palpate_SurfaceMesh;
+using Region = palpate_Region;
 using Percentiles = palpate_Percentiles;
 using LiveValues = palpate_LiveValues;
 using ToolParameters = palpate_ToolParameters;

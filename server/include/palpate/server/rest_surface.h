@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/data/model_view.h"
+#include "core/data/region_surfaces.h"
 #include "core/model/meta_model.h"
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/writer.h"
@@ -12,7 +13,7 @@
 
 namespace palpate::server {
 
-/// The organ's rest surface on the wire. DDS keeps it for late readers that ask for that (transient local). Readers of
+/// The organ's rest surface on the wire, and those of its regions. DDS keeps it for late readers that ask for that (transient local). Readers of
 /// default QoS are volatile and get no history: for them it is sent again, twice after each new one, at most once a second.
 /// Threads: one. Real-time: no.
 class RestSurface {
@@ -35,6 +36,9 @@ class RestSurface {
   const ModelView& view_;
   std::vector<std::uint32_t> triangles_;
   std::vector<std::uint8_t> accessible_;
+  std::vector<std::uint8_t> clamped_;
+  std::vector<RegionSurface> region_surfaces_;
+  std::vector<dds::Region> regions_;  // borrow from these
   dds::Writer<dds::SurfaceMesh> writer_;
   std::uint32_t readers_so_far_{0};
   int repeats_{0};

@@ -12,6 +12,15 @@
 
 namespace palpate::client {
 
+/// A part of the organ with a material of its own.
+struct Region {
+  std::string name;
+  double youngs_modulus{0.0};            ///< E of the model, Pa
+  std::vector<device::Point> positions;  ///< of its surface to larger regions at rest, m; may be empty
+  std::vector<std::array<std::uint32_t, 3>>
+      triangles;  ///< 0-based, counter-clockwise from outside the region
+};
+
 /// The organ's rest surface as a client keeps it.
 struct Surface {
   std::uint32_t organ_id{0};
@@ -22,11 +31,13 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< T, 0-based, counter-clockwise from outside
   std::vector<std::uint8_t> accessible;                 ///< Ns, 1 = may be touched
   std::vector<std::int64_t> mesh_tags;                  ///< Ns node numbers in the mesh file
+  std::vector<std::uint8_t> clamped;                    ///< Ns, 1 = does not move
+  std::vector<Region> regions;                          ///< empty: one material
 };
 
 /// Checks and copies a surface from the wire; its sender is not trusted.
 /// @throw ClientError naming the field and the number: sizes that differ, an index out of range, a non-finite
-///        position, no triangle
+///        position, no triangle, a region without stiffness
 [[nodiscard]] Surface checkedSurface(const dds::SurfaceMesh& message);
 
 /// A place on the surface for a tool to touch.

@@ -23,8 +23,10 @@ struct SyntheticOptions {
   double series_radius{0.0};             ///< r_max, m; where less than d_max: d_max
   double stiffness{300.0};               ///< N/m, tangential; the normal one is 1.5 times as large
   double nonlinearity{0.1};              ///< size of the higher terms at d_ref
-  double contrast{0.0};        ///< stiffness from place to place: 1 - contrast to 1 + contrast times as large
-  double fixed_below{-0.7};    ///< z / radius below which nodes are fixed and have no contact position
+  double contrast{0.0};      ///< stiffness from place to place: 1 - contrast to 1 + contrast times as large
+  double fixed_below{-0.7};  ///< z / radius below which nodes are fixed and have no contact position
+  double nodule_above{
+      2.0};  ///< z / radius above which tetrahedra are of a region "nodule", 10 times as stiff
   double helper_below{-0.55};  ///< z / radius below which contact positions are helpers, not accessible
   Parameters parameters{Parameters::kDisplacement};  ///< the other kinds have no near field
   double reference_force{0.8};                       ///< f_ref of a "force" model, N
