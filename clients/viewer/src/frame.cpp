@@ -58,6 +58,20 @@ void putHeader(const Frame& frame, Bytes& out) {
   put(out, std::uint32_t{0});
 }
 
+/// @param of  a surface, or that of a region
+template <class T>
+void putSizes(const T& of, Bytes& out) {
+  put(out, static_cast<std::uint32_t>(of.positions.size()));
+  put(out, static_cast<std::uint32_t>(of.triangles.size()));
+}
+
+template <class T>
+void putShape(const T& of, Bytes& out) {
+  for (const device::Point& X : of.positions)
+    for (const double x : X) put(out, static_cast<float>(x));
+  for (const auto& triangle : of.triangles) put(out, triangle.data(), 3);
+}
+
 }  // namespace
 
 EncodedField encodeField(std::span<const float> displacement) {
@@ -77,14 +91,17 @@ EncodedField encodeField(std::span<const float> displacement) {
 void encodeMesh(const client::Surface& surface, std::uint32_t revision, Bytes& out) {
   const std::size_t start = out.size();
   put(out, kMeshKind);
-  put(out, static_cast<std::uint32_t>(surface.positions.size()));
-  put(out, static_cast<std::uint32_t>(surface.triangles.size()));
+  putSizes(surface, out);
   put(out, revision);
-  for (const device::Point& X : surface.positions)
-    for (const double x : X) put(out, static_cast<float>(x));
-  for (const auto& triangle : surface.triangles) put(out, triangle.data(), 3);
+  put(out, static_cast<std::uint32_t>(surface.regions.size()));
+  putShape(surface, out);
   put(out, surface.accessible.data(), surface.accessible.size());
+  put(out, surface.clamped.data(), surface.clamped.size());
   pad(out, start);
+  for (const client::Region& region : surface.regions) {
+    putSizes(region, out);
+    putShape(region, out);
+  }
 }
 
 void encodeFrame(const Frame& frame, Bytes& out) {

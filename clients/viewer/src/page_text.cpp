@@ -86,6 +86,13 @@ Json boxOf(const client::Surface& surface) {
   return std::array{low, high};
 }
 
+Json regionsOf(const client::Surface& surface) {
+  Json regions = Json::array();
+  for (const client::Region& region : surface.regions)
+    regions.push_back({{"name", region.name}, {"youngs_modulus", region.youngs_modulus}});
+  return regions;
+}
+
 }  // namespace
 
 std::string helloText(std::uint64_t page_id, double rate_hz) {
@@ -110,7 +117,8 @@ std::string meshText(const client::Surface& surface, std::uint32_t revision, dou
                {"nodes", surface.positions.size()},
                {"triangles", surface.triangles.size()},
                {"tip_radius", tip_radius},
-               {"box", boxOf(surface)}})
+               {"box", boxOf(surface)},
+               {"regions", regionsOf(surface)}})
       .dump();
 }
 

@@ -10,11 +10,11 @@
 namespace palpate::viewer {
 namespace {
 
-void expectAtMost(const char* field, std::size_t found) {
-  if (found > Surfaces::kMostNumbers)
+void expectAtMost(std::size_t most, const char* field, std::size_t found) {
+  if (found > most)
     throw client::ClientError(std::string("surface from the server: ") + field + " has " +
-                              std::to_string(found) + " entries, at most " +
-                              std::to_string(Surfaces::kMostNumbers) + " are shown");
+                              std::to_string(found) + " entries, at most " + std::to_string(most) +
+                              " are shown");
 }
 
 }  // namespace
@@ -23,8 +23,14 @@ Surfaces::Surfaces(const dds::Participant& participant)
     : reader_(participant, nullptr, this, &Surfaces::copy) {}
 
 client::Surface Surfaces::bounded(const dds::SurfaceMesh& message) {
-  expectAtMost("positions", message.positions._length);
-  expectAtMost("triangles", message.triangles._length);
+  expectAtMost(kMostRegions, "regions", message.regions._length);
+  std::size_t positions = message.positions._length, triangles = message.triangles._length;
+  for (std::uint32_t r = 0; r < message.regions._length; ++r) {
+    positions += message.regions._buffer[r].positions._length;
+    triangles += message.regions._buffer[r].triangles._length;
+  }
+  expectAtMost(kMostNumbers, "positions", positions);
+  expectAtMost(kMostNumbers, "triangles", triangles);
   return client::checkedSurface(message);
 }
 

@@ -18,7 +18,8 @@ class Surfaces {
  public:
   static constexpr std::size_t kMostKept = 16;  ///< then the oldest is dropped, but not the followed one
   static constexpr std::size_t kMostNumbers =
-      3'000'000;  ///< of positions and of triangles: a million of each
+      3'000'000;  ///< of positions and of triangles, with those of regions: a million of each
+  static constexpr std::size_t kMostRegions = 256;
 
   /// @throw dds::DdsError
   explicit Surfaces(const dds::Participant& participant);
@@ -32,7 +33,7 @@ class Surfaces {
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
   [[nodiscard]] std::string mismatch() const { return reader_.mismatch(); }
 
-  /// A copy of the surface. @throw client::ClientError  it has more than kMostNumbers, or is malformed
+  /// A copy of the surface. @throw client::ClientError  it has more than is shown, or is malformed
   [[nodiscard]] static client::Surface bounded(const dds::SurfaceMesh& message);
 
  private:

@@ -94,21 +94,30 @@ TEST(ViewerFrame, OfTwoThousandNodesAndAllAnswersStaysBelowSixtyKilobytes) {
   EXPECT_GT(out.size(), 6U * 2009U);
 }
 
-TEST(ViewerFrame, MeshHasPositionsTrianglesAndAccess) {
+TEST(ViewerFrame, MeshHasPositionsTrianglesAccessAndRegions) {
   testing::SmallSurface small;
+  small.addRegions();
   const client::Surface surface = client::checkedSurface(small.message());
   Bytes out;
   encodeMesh(surface, 7, out);
-  ASSERT_EQ(out.size(), 16U + 12U * 5U + 12U * 6U + 8U);
+  ASSERT_EQ(out.size(), 20U + 12U * 5U + 12U * 6U + 12U + 8U + 8U + 12U * 3U + 12U);
   EXPECT_EQ(at<std::uint32_t>(out, 0), 1U);
   EXPECT_EQ(at<std::uint32_t>(out, 4), 5U);
   EXPECT_EQ(at<std::uint32_t>(out, 8), 6U);
   EXPECT_EQ(at<std::uint32_t>(out, 12), 7U);
-  EXPECT_EQ(at<float>(out, 16 + 12 * 4 + 8), 0.05F) << "the apex's z";
-  EXPECT_EQ(at<std::uint32_t>(out, 76), 0U);
-  EXPECT_EQ(at<std::uint32_t>(out, 80), 2U);
-  EXPECT_EQ(at<std::uint8_t>(out, 148), 0U) << "node 0 is not accessible";
-  EXPECT_EQ(at<std::uint8_t>(out, 152), 1U);
+  EXPECT_EQ(at<std::uint32_t>(out, 16), 2U);
+  EXPECT_EQ(at<float>(out, 20 + 12 * 4 + 8), 0.05F) << "the apex's z";
+  EXPECT_EQ(at<std::uint32_t>(out, 80), 0U);
+  EXPECT_EQ(at<std::uint32_t>(out, 84), 2U);
+  EXPECT_EQ(at<std::uint8_t>(out, 152), 0U) << "node 0 is not accessible";
+  EXPECT_EQ(at<std::uint8_t>(out, 156), 1U);
+  EXPECT_EQ(at<std::uint8_t>(out, 157), 1U) << "node 0 is held";
+  EXPECT_EQ(at<std::uint8_t>(out, 158), 0U);
+  EXPECT_EQ(at<std::uint32_t>(out, 164), 0U) << "nodes of the first region, which has no surface";
+  EXPECT_EQ(at<std::uint32_t>(out, 172), 3U);
+  EXPECT_EQ(at<std::uint32_t>(out, 176), 1U);
+  EXPECT_EQ(at<float>(out, 180 + 12 * 2 + 8), 0.02F) << "z of the last node of the second";
+  EXPECT_EQ(at<std::uint32_t>(out, 180 + 12 * 3 + 8), 2U);
 }
 
 }  // namespace

@@ -18,6 +18,12 @@ TEST(Surfaces, ASurfaceTooLargeToShowIsRefusedUnread) {
   triangles.triangles = {3'000'003, 3'000'003, nullptr, false};
   EXPECT_THROW((void)Surfaces::bounded(triangles), client::ClientError);
   EXPECT_EQ(Surfaces::bounded(small.message()).positions.size(), 5U);
+  dds::Region region{};
+  region.positions = {2'999'988, 2'999'988, nullptr, false};  // 3 too many with the surface's own 15
+  small.regions = {region};
+  EXPECT_THROW((void)Surfaces::bounded(small.message()), client::ClientError);
+  small.regions.assign(257, dds::Region{});
+  EXPECT_THROW((void)Surfaces::bounded(small.message()), client::ClientError);
 }
 
 }  // namespace

@@ -61,10 +61,10 @@ void TestPage::take(const WsMessage& message) {
 void TestPage::takeMesh(const std::vector<std::uint8_t>& bytes) {
   mesh = bytes;
   const std::size_t nodes = at<std::uint32_t>(bytes, 4);
-  const std::size_t access = 16 + 12 * nodes + 12 * at<std::uint32_t>(bytes, 8);
+  const std::size_t access = 20 + 12 * nodes + 12 * at<std::uint32_t>(bytes, 8);
   top = {0.0F, 0.0F, -1e9F};
   for (std::size_t i = 0; i < nodes; ++i) {
-    const auto X = vectorAt(bytes, 16 + 12 * i);
+    const auto X = vectorAt(bytes, 20 + 12 * i);
     if (bytes.at(access + i) == 1 && X[2] > top[2]) top = X;
   }
 }

@@ -53,6 +53,11 @@ TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
   const auto page = openServedPage();
   EXPECT_EQ(page->texts["hello"]["protocol"], 1);
   EXPECT_EQ(page->texts["mesh"]["nodes"], 642);
+  const auto regions = page->texts["mesh"]["regions"];
+  ASSERT_EQ(regions.size(), 2U);
+  EXPECT_EQ(regions[1]["name"], "nodule");
+  EXPECT_EQ(regions[1]["youngs_modulus"], 1.6e6);
+  EXPECT_EQ(at<std::uint32_t>(page->mesh, 16), 2U);
   EXPECT_EQ(page->texts["status"]["tools"], 4);
   EXPECT_LT(page->frame_size, 60'000U);
 

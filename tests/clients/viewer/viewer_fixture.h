@@ -29,6 +29,7 @@ class ViewerEndToEnd : public ::testing::Test {
                                                          const std::vector<std::string>& more = {}) {
     SyntheticOptions options;
     options.subdivisions = subdivisions;
+    options.nodule_above = 0.8;
     writeSyntheticModel(model_.path(), options);
     std::vector<std::string> arguments{"--model",        model_.path().string(),
                                        "--limit",        "youngs-modulus=100:1e9",

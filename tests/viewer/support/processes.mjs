@@ -91,10 +91,10 @@ export class Bench {
     return bench;
   }
 
-  /** The tests' round organ. @param subdivisions 4: 2562 nodes */
-  model(subdivisions = 4) {
-    const file = join(this.folder, `round${subdivisions}.h5`);
-    const made = spawnSync(join(need('PALPATE_TEST_BIN'), 'write_round_organ'), [file, String(subdivisions)], { encoding: 'utf8' });
+  /** The tests' round organ. @param subdivisions 4: 2562 nodes @param more  arguments of write_round_organ */
+  model(subdivisions = 4, ...more) {
+    const file = join(this.folder, `round${[subdivisions, ...more].join('-')}.h5`);
+    const made = spawnSync(join(need('PALPATE_TEST_BIN'), 'write_round_organ'), [file, subdivisions, ...more].map(String), { encoding: 'utf8' });
     if (made.status !== 0) throw new Error(`write_round_organ: ${made.stderr}`);
     return file;
   }

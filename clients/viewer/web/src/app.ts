@@ -16,6 +16,7 @@ import { Pointers } from './pointer';
 import type { Frame, Mesh, Tool } from './protocol';
 import { Quality } from './quality';
 import { Readout, toolToShow } from './readout';
+import { RegionList } from './region_list';
 import { Stage } from './stage';
 import { csvOf, Strips } from './strip';
 import { StripChart } from './strip_chart';
@@ -50,6 +51,7 @@ export class App implements LineListener {
   private readonly chart = new StripChart(element('strip', HTMLCanvasElement));
   private readonly readout = new Readout();
   private readonly legend: Legend;
+  private readonly regionList = new RegionList((on) => this.view?.showInside(on));
   private readonly panel: Panel;
   private readonly flags = new RecentFlags();
 
@@ -84,7 +86,7 @@ export class App implements LineListener {
 
   said(message: Said): void {
     if (message.type === 'hello') this.usualHz = numberIn(message, 'rate_hz') || this.usualHz;
-    else if (message.type === 'mesh') this.setTip(numberIn(message, 'tip_radius'));
+    else if (message.type === 'mesh') this.announced(message);
     else if (message.type === 'tool') this.hand.said(message);
     else if (message.type === 'parameters') this.parameters.answered(message);
     else if (message.type === 'status') this.status(message);
@@ -97,6 +99,7 @@ export class App implements LineListener {
     this.strips.clear();
     this.view = new OrganView(mesh, this.stage, this.tipRadius);
     this.view.setColouring(this.colouring);
+    this.view.showInside(this.regionList.show(mesh));
   }
 
   frame(frame: Frame, received: readonly Received[]): void {
@@ -116,6 +119,12 @@ export class App implements LineListener {
     return this.server.level === 'good';
   }
 
+  /** What comes in words before a mesh. */
+  private announced(message: Said): void {
+    this.setTip(numberIn(message, 'tip_radius'));
+    this.regionList.announce(message);
+  }
+
   private setTip(radius: number): void {
     if (!(radius > 0)) return;
     this.tipRadius = radius;
@@ -127,8 +136,15 @@ export class App implements LineListener {
     if (!this.serving) return this.panel.heard({ type: 'status', viewer: status['viewer'] });
     this.setTip(numberIn(status, 'tip_radius'));
     this.parameters.status(status);
+    this.setStiffness(this.parameters.inForce.youngsFactor);
     this.panel.heard(status);
     this.flags.add(flagsOfStatus(numberIn(status, 'flags')), performance.now());
+  }
+
+  /** @param factor  live E over the model's */
+  private setStiffness(factor: number): void {
+    this.regionList.scale(factor);
+    this.view?.setStiffness(factor);
   }
 
   /** @param others whether further servers are on the domain */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshPhongMaterial, Sphere, Vector3, type Scene } from 'three';
-import { DISPLACEMENT, NOT_FELT, niceCeiling, STIFFNESS, TISSUE } from './colours';
+import { DISPLACEMENT, HELD, NOT_FELT, niceCeiling, rgbOf, STIFFNESS, TISSUE } from './colours';
 import type { FeltMap } from './felt';
 import type { Surface } from './surface';
 
@@ -8,11 +8,14 @@ export type Colouring = 'displacement' | 'stiffness' | 'plain';
 
 const LEAST_TOP = 0.002; // m
 const AT_REST = 1e-4; // m
+const SHOWS_INSIDE = 0.4; // opacity
+const HELD_RGB = rgbOf(HELD);
 
 /** The drawn organ: lit, shaded, coloured. */
 export class OrganMesh {
   private readonly geometry = new BufferGeometry();
   private readonly colours: Float32Array;
+  private readonly material = new MeshPhongMaterial({ vertexColors: true, shininess: 36, specular: 0x2b2b2b });
   private readonly mesh: Mesh;
   private top = LEAST_TOP; // m, end of the displacement scale
 
@@ -28,14 +31,22 @@ export class OrganMesh {
     this.geometry.setAttribute('color', dynamic(this.colours));
     this.geometry.setIndex(new BufferAttribute(surface.mesh.triangles, 1));
     this.geometry.boundingSphere = new Sphere(new Vector3(...surface.centre), surface.size); // generous: it deforms
-    this.mesh = new Mesh(this.geometry, new MeshPhongMaterial({ vertexColors: true, shininess: 36, specular: 0x2b2b2b }));
+    this.mesh = new Mesh(this.geometry, this.material);
     scene.add(this.mesh);
   }
 
   remove(): void {
     this.scene.remove(this.mesh);
     this.geometry.dispose();
-    (this.mesh.material as MeshPhongMaterial).dispose();
+    this.material.dispose();
+  }
+
+  /** Whether one sees through it to what is inside. */
+  setTranslucent(on: boolean): void {
+    this.material.transparent = on;
+    this.material.opacity = on ? SHOWS_INSIDE : 1;
+    this.material.depthWrite = !on; // else its triangles hide each other in any order
+    this.material.needsUpdate = true; // another shader
   }
 
   moved(): void {
@@ -56,7 +67,8 @@ export class OrganMesh {
   colour(how: Colouring): void {
     const { displaced, mesh } = this.surface;
     for (let n = 0; n < mesh.nodes; ++n) {
-      if (how === 'displacement') DISPLACEMENT.write(displaced[n] / this.top, this.colours, 3 * n);
+      if (mesh.held[n]) this.colours.set(HELD_RGB, 3 * n);
+      else if (how === 'displacement') DISPLACEMENT.write(displaced[n] / this.top, this.colours, 3 * n);
       else if (how === 'plain') this.colours.set(TISSUE, 3 * n);
       else if (this.felt.weight[n] < 0.02) this.colours.set(NOT_FELT, 3 * n);
       else STIFFNESS.write(this.felt.share(n), this.colours, 3 * n);

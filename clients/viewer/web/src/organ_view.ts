@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { niceCeiling } from './colours';
 import { FeltMap } from './felt';
+import { InsideMesh } from './inside';
 import { OrganMesh, type Colouring } from './organ';
 import type { Frame, Mesh, Tool } from './protocol';
 import type { Stage } from './stage';
@@ -18,8 +19,10 @@ export class OrganView {
   tools: readonly Tool[] = [];
   colouring: Colouring = 'displacement';
   private readonly organ: OrganMesh;
+  private readonly inside: InsideMesh;
   private readonly toolMeshes = new Map<number, ToolMesh>();
   private forceTop = 1; // N, of the arrows' scale
+  private stiffness = NaN; // live E over the model's
   private dirty = true;
   private moved = true;
 
@@ -31,6 +34,7 @@ export class OrganView {
     this.surface = new Surface(mesh);
     this.felt = new FeltMap(this.surface, REACH * tipRadius);
     this.organ = new OrganMesh(this.surface, this.felt, stage.scene);
+    this.inside = new InsideMesh(mesh.regions, stage.scene);
     stage.welcome(this.surface);
   }
 
@@ -40,7 +44,14 @@ export class OrganView {
 
   remove(): void {
     this.organ.remove();
+    this.inside.remove();
     this.removeTools();
+  }
+
+  showInside(on: boolean): void {
+    this.organ.setTranslucent(on);
+    this.inside.visible = on;
+    this.dirty = true;
   }
 
   /** Another server, the same organ. With another tip the felt map starts empty: each tip feels another stiffness. */
@@ -49,6 +60,14 @@ export class OrganView {
     this.tipRadius = radius;
     this.removeTools();
     this.felt.setReach(REACH * radius);
+    this.dirty = true;
+  }
+
+  /** What was felt is not true of another E. @param factor  live E over the model's; NaN: unknown */
+  setStiffness(factor: number): void {
+    if (Number.isNaN(factor) || factor === this.stiffness) return;
+    if (!Number.isNaN(this.stiffness)) this.felt.clear();
+    this.stiffness = factor;
     this.dirty = true;
   }
 

@@ -9,13 +9,19 @@ export const KIND_FRAME = 2;
 export const STATE_FREE = 0;
 export const STATE_SLIDE = 2;
 
-/** The organ's rest surface. */
-export interface Mesh {
-  readonly revision: number;
+/** Nodes at rest and triangles between them. */
+export interface Shape {
   readonly nodes: number;
   readonly positions: Float32Array; // 3 nodes, m
   readonly triangles: Uint32Array; // 3 T, counter-clockwise from outside
+}
+
+/** The organ's rest surface. */
+export interface Mesh extends Shape {
+  readonly revision: number;
   readonly accessible: Uint8Array; // nodes; 1: a tool may touch it
+  readonly held: Uint8Array; // nodes; 1: clamped, does not move
+  readonly regions: readonly Shape[]; // where each ends inside the organ; without triangles: the one round the others
 }
 
 export interface Tool {
@@ -69,20 +75,50 @@ export function kindOf(data: ArrayBuffer): number {
   return new DataView(data).getUint32(0, true);
 }
 
+/** Takes a binary message apart, from its beginning. @throws Error when it is too short */
+class Parts {
+  at = 0;
+  constructor(private readonly data: ArrayBuffer) {}
+
+  whole(count: number): Uint32Array {
+    return new Uint32Array(this.data, this.take(4 * count), count);
+  }
+
+  bytes(count: number): Uint8Array {
+    return new Uint8Array(this.data, this.take(count), count);
+  }
+
+  shape(nodes: number, count: number): Shape {
+    const positions = new Float32Array(this.data, this.take(12 * nodes), 3 * nodes);
+    const triangles = this.whole(3 * count);
+    for (const node of triangles) expect(node < nodes, `triangle node ${node} of ${nodes}`);
+    expect(positions.every(Number.isFinite), 'a position is not finite');
+    return { nodes, positions, triangles };
+  }
+
+  private take(bytes: number): number {
+    const from = this.at;
+    this.at += bytes;
+    expect(this.at <= this.data.byteLength, `mesh of ${this.data.byteLength} bytes, expected at least ${this.at}`);
+    return from;
+  }
+}
+
 /** @throws Error naming the wrong number */
 export function decodeMesh(data: ArrayBuffer): Mesh {
-  expect(data.byteLength >= 16, `mesh of ${data.byteLength} bytes, expected at least 16`);
-  const head = new DataView(data);
-  const nodes = head.getUint32(4, true);
-  const count = head.getUint32(8, true);
-  const wanted = 16 + 13 * nodes + 12 * count;
-  expect(data.byteLength >= wanted && data.byteLength < wanted + 4, `mesh of ${data.byteLength} bytes, expected ${wanted}`);
-  const positions = new Float32Array(data, 16, 3 * nodes);
-  const triangles = new Uint32Array(data, 16 + 12 * nodes, 3 * count);
-  for (const node of triangles) expect(node < nodes, `triangle node ${node} of ${nodes}`);
-  expect(positions.every(Number.isFinite), 'a position is not finite');
-  const accessible = new Uint8Array(data, 16 + 12 * nodes + 12 * count, nodes);
-  return { revision: head.getUint32(12, true), nodes, positions, triangles, accessible };
+  const parts = new Parts(data);
+  const [, nodes, count, revision, regions] = parts.whole(5);
+  const shape = parts.shape(nodes, count);
+  const accessible = parts.bytes(nodes);
+  const held = parts.bytes(nodes);
+  parts.bytes(-parts.at & 3);
+  const inside: Shape[] = [];
+  for (let r = 0; r < regions; ++r) {
+    const [n, t] = parts.whole(2);
+    inside.push(parts.shape(n, t));
+  }
+  expect(parts.at === data.byteLength, `mesh of ${data.byteLength} bytes, expected ${parts.at}`);
+  return { ...shape, revision, accessible, held, regions: inside };
 }
 
 function vectorAt(view: DataView, at: number): Vec3 {

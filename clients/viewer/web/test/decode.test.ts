@@ -5,12 +5,16 @@ import { joined, HandOver, type Parcel } from '../src/hand_over';
 import { decodeFrame, decodeMesh, kindOf } from '../src/protocol';
 import { ballMesh, frameOf } from './messages';
 
+// Three nodes and a triangle, offsets as PROTOCOL.md has them; two regions, the second a triangle of its own.
 function meshMessage(): ArrayBuffer {
-  const data = new ArrayBuffer(16 + 3 * 13 + 12 + 1);
-  new Uint32Array(data, 0, 4).set([1, 3, 1, 7]);
-  new Float32Array(data, 16, 9).set([0, 0, 0, 1, 0, 0, 0, 1, 0]);
-  new Uint32Array(data, 52, 3).set([0, 1, 2]);
-  new Uint8Array(data, 64, 3).set([1, 0, 1]);
+  const data = new ArrayBuffer(20 + 36 + 12 + 8 + 8 + 8 + 36 + 12);
+  new Uint32Array(data, 0, 5).set([1, 3, 1, 7, 2]);
+  new Float32Array(data, 20, 9).set([0, 0, 0, 1, 0, 0, 0, 1, 0]);
+  new Uint32Array(data, 56, 3).set([0, 1, 2]);
+  new Uint8Array(data, 68, 6).set([1, 0, 1, 0, 1, 0]);
+  new Uint32Array(data, 84, 2).set([3, 1]);
+  new Float32Array(data, 92, 9).set([0, 0, 5, 1, 0, 5, 0, 1, 5]);
+  new Uint32Array(data, 128, 3).set([2, 1, 0]);
   return data;
 }
 
@@ -37,18 +41,31 @@ function frameMessage(): ArrayBuffer {
 test('a mesh is read as it was written', () => {
   const mesh = decodeMesh(meshMessage());
   assert.equal(kindOf(meshMessage()), 1);
-  assert.deepEqual([mesh.revision, mesh.nodes, [...mesh.triangles], [...mesh.accessible]], [7, 3, [0, 1, 2], [1, 0, 1]]);
+  assert.deepEqual([mesh.revision, mesh.nodes, [...mesh.triangles]], [7, 3, [0, 1, 2]]);
+  assert.deepEqual([[...mesh.accessible], [...mesh.held]], [[1, 0, 1], [0, 1, 0]]);
   assert.deepEqual([...mesh.positions], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
+  assert.deepEqual(mesh.regions.map(({ nodes, triangles }) => [nodes, ...triangles]), [[0], [3, 2, 1, 0]]);
+  assert.deepEqual([...mesh.regions[1].positions], [0, 0, 5, 1, 0, 5, 0, 1, 5]);
 });
 
-test('a mesh with a triangle of no node, no number or too few bytes is refused, with the number', () => {
-  const wrong = meshMessage();
-  new Uint32Array(wrong, 52, 1)[0] = 3;
-  assert.throws(() => decodeMesh(wrong), /node 3 of 3/);
-  const nan = meshMessage();
-  new Float32Array(nan, 16, 1)[0] = NaN;
-  assert.throws(() => decodeMesh(nan), /not finite/);
-  assert.throws(() => decodeMesh(meshMessage().slice(0, 60)), /60 bytes/);
+test('a mesh with a triangle of no node, no number or another length is refused, with the number', () => {
+  for (const at of [56, 128]) {
+    const wrong = meshMessage();
+    new Uint32Array(wrong, at, 1)[0] = 3;
+    assert.throws(() => decodeMesh(wrong), /node 3 of 3/);
+  }
+  for (const at of [20, 92]) {
+    const nan = meshMessage();
+    new Float32Array(nan, at, 1)[0] = NaN;
+    assert.throws(() => decodeMesh(nan), /not finite/);
+  }
+  for (const length of [3, 16, 60, 70, 90, 139]) assert.throws(() => decodeMesh(meshMessage().slice(0, length)), /bytes/);
+  const long = new Uint8Array(144);
+  long.set(new Uint8Array(meshMessage()));
+  assert.throws(() => decodeMesh(long.buffer), /144 bytes, expected 140/);
+  const many = meshMessage();
+  new Uint32Array(many, 16, 1)[0] = 0xffffffff; // regions
+  assert.throws(() => decodeMesh(many), /140 bytes, expected at least 148/);
 });
 
 test('a frame is read as it was written', () => {

@@ -33,14 +33,15 @@ const nodes = organ.positions.length / 3;
 const nowUs = () => Number(process.hrtime.bigint()) / 1000;
 
 function meshMessage() {
-  const out = Buffer.alloc(16 + 13 * nodes + 4 * organ.triangles.length);
+  const out = Buffer.alloc(20 + 4 * Math.ceil((14 * nodes) / 4) + 4 * organ.triangles.length);
   out.writeUInt32LE(1, 0);
   out.writeUInt32LE(nodes, 4);
   out.writeUInt32LE(organ.triangles.length / 3, 8);
   out.writeUInt32LE(1, 12);
-  Buffer.from(organ.positions.buffer).copy(out, 16);
-  Buffer.from(organ.triangles.buffer).copy(out, 16 + 12 * nodes);
-  out.fill(1, 16 + 12 * nodes + 4 * organ.triangles.length);
+  Buffer.from(organ.positions.buffer).copy(out, 20);
+  const access = 20 + 12 * nodes + 4 * organ.triangles.length;
+  Buffer.from(organ.triangles.buffer).copy(out, 20 + 12 * nodes);
+  out.fill(1, access, access + nodes);
   return out;
 }
 
