@@ -2,6 +2,7 @@
 import { FLAG_FORCE_LIMITED, FLAG_FORCE_RATE_LIMITED, FLAG_RAMPING } from './flag_list';
 import { STATE_FREE, type Frame, type Tool } from './protocol';
 import type { Surface } from './surface';
+import { norm, pointOf, sub, type Vec3 } from './vec';
 
 const NOT_THE_ORGANS = FLAG_RAMPING | FLAG_FORCE_LIMITED | FLAG_FORCE_RATE_LIMITED;
 
@@ -18,6 +19,17 @@ export class FeltMap {
   ) {
     this.value = new Float32Array(surface.mesh.nodes);
     this.weight = new Float32Array(surface.mesh.nodes);
+  }
+
+  /** Stiffness at the node nearest to a point of the rest surface, N/m; NaN where nothing was felt. */
+  at(point: Vec3): number {
+    const { rest, mesh } = this.surface;
+    let [best, least] = [0, Infinity];
+    for (let n = 0; n < mesh.nodes; ++n) {
+      const d = norm(sub(pointOf(rest, n), point));
+      if (d < least) [best, least] = [n, d];
+    }
+    return this.weight[best] > 0 ? this.value[best] : NaN;
   }
 
   /** @return whether the map changed */
@@ -57,10 +69,10 @@ export class FeltMap {
     for (let n = 0; n < mesh.nodes; ++n) {
       const r = Math.hypot(rest[3 * n] - tool.anchor[0], rest[3 * n + 1] - tool.anchor[1], rest[3 * n + 2] - tool.anchor[2]);
       if (r >= this.reach) continue;
-      const w = (1 - (r / this.reach) ** 2) ** 2;
-      const share = w / (w + 0.5 * this.weight[n]); // an earlier, nearer touch counts more
-      this.value[n] += share * (stiffness - this.value[n]);
-      this.weight[n] = Math.max(this.weight[n], w);
+      const w = Math.fround((1 - (r / this.reach) ** 2) ** 2);
+      if (w < this.weight[n]) continue; // the nearest touch counts, however long another lasts
+      this.value[n] = stiffness;
+      this.weight[n] = w;
     }
   }
 

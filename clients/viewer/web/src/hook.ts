@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { App } from './app';
 import { toolToShow } from './readout';
-import { norm } from './vec';
+import { norm, type Vec3 } from './vec';
 
-/** window.palpate, for tests and the curious: the panel's numbers, read-only. */
+/** window.palpate.figures(), for tests and the curious: the panel's numbers, read-only. */
 export function figuresOf(app: App): Record<string, unknown> {
   const now = performance.now();
   const { drawn, received, decodedMs, shownMs, frames, pictures } = app.figures;
@@ -40,5 +40,6 @@ export function figuresOf(app: App): Record<string, unknown> {
 }
 
 export function giveHook(app: App): void {
-  Object.defineProperty(window, 'palpate', { value: Object.freeze({ figures: () => figuresOf(app), strip: () => app.strips.all() }) });
+  const hook = { figures: () => figuresOf(app), strip: () => app.strips.all(), felt: (point: Vec3) => app.view?.felt.at(point) };
+  Object.defineProperty(window, 'palpate', { value: Object.freeze(hook) });
 }

@@ -119,6 +119,21 @@ test('what is felt is painted round the anchor, but not the limits of a device',
   assert.ok(painted > 3 && painted < surface.mesh.nodes / 20, `${painted} nodes`);
 });
 
+test('a node keeps what the nearest touch felt there, however long one beside it lasts, and newer touches count', () => {
+  const surface = ball();
+  const felt = new FeltMap(surface, 0.01);
+  const touch = (at: Vec3, stiffness: number): boolean =>
+    felt.learn({ ...frameOf(surface.mesh, () => [0, 0, 0]), tools: [{ ...tool, anchor: at }], answers: [{ ...answer, stiffness }] });
+  const beside: Vec3 = [0.009, 0, Math.sqrt(R * R - 0.009 ** 2)];
+  assert.ok(Number.isNaN(felt.at(top)));
+  touch(top, 400);
+  for (let i = 0; i < 200; ++i) touch(beside, 300);
+  assert.deepEqual([felt.at(top), felt.at(beside), felt.low, felt.high], [400, 300, 300, 400]);
+  touch(top, 410);
+  assert.deepEqual([felt.at(top), felt.at(beside)], [410, 300]);
+  assert.ok(Number.isNaN(felt.at([0, 0, -R])));
+});
+
 test('another tip paints another width, and what the first one felt goes', () => {
   const surface = ball();
   const felt = new FeltMap(surface, 0.01);
