@@ -88,7 +88,7 @@ PatchNodes ContactPatches::room() const {
 
 void ContactPatches::markNear(std::int32_t centre, std::span<std::uint8_t> near) const {
   for (const Near& entry : nearTo(centre))
-    if (free_[index(entry.node)] != 0) near[index(entry.node)] = 1;
+    if (free_[index(entry.node)] != 0 && load_[index(entry.node)] > 0.0) near[index(entry.node)] = 1;
 }
 
 std::span<const ContactPatches::Near> ContactPatches::nearTo(std::int32_t centre) const noexcept

@@ -45,7 +45,8 @@ class ContactPatches {
   void at(const ContactPoint& s, bool slopes, PatchNodes& patch) const noexcept PALPATE_NONBLOCKING;
   /// A patch with room for any result. Not real-time.
   [[nodiscard]] PatchNodes room() const;
-  /// Sets near[i] to 1 for each free node i that a patch in a triangle at the centre may have. @param near  [Ns]
+  /// Sets near[i] to 1 for each node i that a patch in a triangle at the centre may load: free, and of an A_i above 0.
+  /// @param near  [Ns]
   void markNear(std::int32_t centre, std::span<std::uint8_t> near) const;
   /// Nodes near the centres, of all together.
   [[nodiscard]] std::size_t entries() const noexcept { return near_.size(); }

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <string>
 #include <utility>
 
+#include "tools/mesh/mesh_error.h"
 #include "tools/mesh/topology.h"
 
 namespace palpate::mesh {
@@ -38,6 +41,9 @@ std::vector<std::int32_t> common(const std::vector<std::int32_t>& a, const std::
 TetMesh quadraticOf(const TetMesh& linear) {
   TetMesh mesh = linear;
   std::int64_t tag = *std::max_element(mesh.node_tags.begin(), mesh.node_tags.end());
+  const auto most = static_cast<std::int64_t>(kTetEdges.size() * linear.tetrahedra.size());
+  if (tag > std::numeric_limits<std::int64_t>::max() - most)
+    throw MeshError("node " + std::to_string(tag) + ": no numbers are left for nodes in the middle of edges");
   Middles middles;
   for (const auto& t : linear.tetrahedra) {
     std::array<std::int32_t, 6>& added = mesh.midsides.emplace_back();

@@ -45,8 +45,8 @@ TEST(Midsides, OffTheMiddleAreRefusedByNumberAndDistance) {
   TetMesh mesh = box();
   const std::int32_t node = mesh.midsides[3][1];
   mesh.nodes[at(node)].x() += 0.004;
-  EXPECT_REFUSED(checkMesh(mesh), ("node " + std::to_string(mesh.node_tags[at(node)])).c_str(),
-                 "is 4 mm off");
+  const std::string named = "node " + std::to_string(mesh.node_tags[at(node)]);
+  EXPECT_REFUSED(checkMesh(mesh), named.c_str(), "is 4 mm off");
   mesh.nodes[at(node)].x() = 0.0 / 0.0;
   EXPECT_REFUSED(checkMesh(mesh), "not finite");
 }

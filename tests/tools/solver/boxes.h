@@ -59,7 +59,7 @@ struct Box {
 
   /// Clamped at x = 0.
   [[nodiscard]] FeModel clamped(const Material& material) const {
-    return FeModel(nodes(), tetrahedra(), face(0, false), material);
+    return FeModel(nodes(), {tetrahedra()}, face(0, false), material);
   }
 
   [[nodiscard]] PatchSurface surface(const FeModel& model) const {

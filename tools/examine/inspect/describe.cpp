@@ -9,6 +9,7 @@
 
 #include "core/data/model_view.h"
 #include "tools/modelfile/quantile.h"
+#include "tools/modelfile/reach.h"
 
 namespace palpate::inspect {
 
@@ -59,6 +60,14 @@ void describeDomain(const MetaModel& model, Json& out) {
   const bool displaced = a.parameters == Parameters::kDisplacement;
   out["domain_radius"] = displaced ? radii(v, v.contact_domain_radius) : Json(nullptr);
   out["series_radius"] = displaced ? radii(v, v.contact_series_radius) : Json(nullptr);
+  if (displaced) {
+    const modelfile::Positions positions{v.surface_positions, v.contact_triangles, v.position_of_node,
+                                         v.contact_accessible};
+    Json& list = out["reach"] = Json::array();
+    for (const modelfile::Reach& r :
+         modelfile::reachOf(positions, v.contact_domain_radius, v.contact_series_radius))
+      list.push_back({{"travel", r.travel}, {"domain", r.domain}, {"series", r.series}});
+  }
   if (a.parameters == Parameters::kForce) {
     out["reference_force"] = a.reference_force;
     out["force_radius"] = radii(v, v.contact_domain_radius);
@@ -110,6 +119,7 @@ Json describe(const MetaModel& model) {
   out["parameters"] = toString(a.parameters);
   out["nodes"] = v.mesh_node_tag.size();
   out["tetrahedra"] = v.mesh_tetrahedron_tag.size();
+  out["element_order"] = v.mesh_midsides.empty() ? 1 : 2;
   out["surface_nodes"] = v.surfaceNodes();
   out["surface_triangles"] = v.triangles();
   out["accessible_nodes"] = std::count(v.contact_accessible.begin(), v.contact_accessible.end(), 1);

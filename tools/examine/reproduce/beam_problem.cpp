@@ -75,7 +75,7 @@ int nearestTo(const solver::FeModel& model, const std::vector<std::int32_t>& nod
 
 Beam::Beam(const BeamOptions& options)
     : mesh(mesh::makeBox(kSize, options.nodes)),
-      model(mesh.nodes, mesh.tetrahedra, clampedNodes(mesh), {1e6, 0.25}),
+      model(mesh.nodes, {mesh.tetrahedra}, clampedNodes(mesh), {1e6, 0.25}),
       surface(surfaceOf(model, mesh)),
       nodes(upperNodes(model)),
       problem(model, downwardLoads(model, nodes, options.load), upperAreas(surface, nodes)),

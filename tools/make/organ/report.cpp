@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/make/organ/report.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <utility>
+
+#include "tools/mesh/topology.h"
 
 namespace palpate::organ {
 namespace {
@@ -18,6 +22,31 @@ std::string inWords(const Eigen::Vector3d& x) {
   return text;
 }
 
+std::string inMillimetres(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", 1e3 * length);
+  return text;
+}
+
+RegionReport regionOf(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary,
+                      const std::vector<std::int32_t>& tetrahedra) {
+  RegionReport region{tetrahedra.size(), 0.0, Eigen::Vector3d::Zero(), {}};
+  const auto node = [&](std::int32_t i) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(i)];
+  };
+  for (const std::int32_t t : tetrahedra) {
+    const double volume = mesh::signedVolume(mesh, static_cast<std::size_t>(t));
+    region.volume += volume;
+    for (const std::int32_t corner : mesh.tetrahedra[static_cast<std::size_t>(t)])
+      region.centre += 0.25 * volume * node(corner);
+  }
+  region.centre /= region.volume;
+  region.surface = node(*std::min_element(boundary.nodes.begin(), boundary.nodes.end(), [&](auto a, auto b) {
+    return (node(a) - region.centre).squaredNorm() < (node(b) - region.centre).squaredNorm();
+  }));
+  return region;
+}
+
 }  // namespace
 
 Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary,
@@ -29,7 +58,8 @@ Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh
                 groupSize(mesh, "accessible"),
                 {},
                 std::move(notes)};
-  for (const auto& [name, tetrahedra] : mesh.regions) report.regions[name] = tetrahedra.size();
+  for (const auto& [name, tetrahedra] : mesh.regions)
+    if (!tetrahedra.empty()) report.regions[name] = regionOf(mesh, boundary, tetrahedra);
   const double largest = (report.statistics.box_max - report.statistics.box_min).maxCoeff();
   if (largest < 0.01 || largest > 1) {
     char text[120];
@@ -43,7 +73,11 @@ Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh
 program::Json toJson(const Report& report) {
   const auto& s = report.statistics;
   program::Json regions = program::Json::object();
-  for (const auto& [name, tetrahedra] : report.regions) regions[name] = tetrahedra;
+  for (const auto& [name, region] : report.regions)
+    regions[name] = {{"tetrahedra", region.tetrahedra},
+                     {"volume", region.volume},
+                     {"centre", region.centre},
+                     {"nearest_surface", region.surface}};
   return {{"file", report.file},
           {"element_order", report.element_order},
           {"nodes", s.nodes},
@@ -75,8 +109,10 @@ void print(std::ostream& out, const Report& report) {
     out << "corners          " << s.corners << ", " << s.surface_corners << " on the surface\n";
   out << "tetrahedra       " << s.tetrahedra << (report.element_order == 2 ? " of ten nodes, " : ", ")
       << s.surface_triangles << " boundary triangles\n";
-  for (const auto& [name, tetrahedra] : report.regions)
-    out << "region           " << name << ": " << tetrahedra << " tetrahedra\n";
+  for (const auto& [name, region] : report.regions)
+    out << "region           " << name << ": " << region.tetrahedra << " tetrahedra round "
+        << inWords(region.centre) << " m, " << inMillimetres((region.centre - region.surface).norm())
+        << " mm under " << inWords(region.surface) << " m\n";
   out << "bounding box     " << inWords(s.box_min) << " to " << inWords(s.box_max) << " m, size "
       << inWords(s.box_max - s.box_min) << " m\n";
   std::snprintf(line, sizeof line, "volume           %.6g m^3\n", s.volume);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <map>
 #include <ostream>
 #include <string>
@@ -12,6 +14,14 @@
 
 namespace palpate::organ {
 
+/// A region of the organ.
+struct RegionReport {
+  std::size_t tetrahedra;
+  double volume;            ///< m^3
+  Eigen::Vector3d centre;   ///< of its volume, m
+  Eigen::Vector3d surface;  ///< the organ's surface node nearest to it, m
+};
+
 /// What palpate-organ tells about the organ it wrote.
 struct Report {
   std::string file;
@@ -19,7 +29,7 @@ struct Report {
   int element_order{1};
   std::size_t fixed_nodes{0};
   std::size_t accessible_nodes{0};
-  std::map<std::string, std::size_t> regions;  ///< name -> tetrahedra
+  std::map<std::string, RegionReport> regions;
   std::vector<std::string> notes;
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/modelfile/quantile.h"
+#include "tools/modelfile/reach.h"
 
 namespace palpate::solve_program {
 
@@ -144,6 +145,15 @@ void printRadius(const Json& s) {
   if (const int weak = wholeOr0(s, "weak_positions"); weak > 0)
     std::fprintf(stderr, "; %d positions need more modes", weak);
   std::fputc('\n', stderr);
+  if (!s.contains("reach")) return;
+  std::fprintf(stderr, "part of the accessible surface that reaches");
+  for (std::size_t i = 0; i < s["reach"].size(); ++i) {
+    const Json& r = s["reach"][i];
+    std::fprintf(stderr, "%s %.0f mm: %.0f %% (force alone %.0f %%)", i == 0 ? "" : ",",
+                 1e3 * r.at("travel").get<double>(), 100.0 * r.at("domain").get<double>(),
+                 100.0 * r.at("series").get<double>());
+  }
+  std::fputc('\n', stderr);
 }
 
 }  // namespace
@@ -200,7 +210,14 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
          {"seconds", seconds},
          {"file_bytes", std::filesystem::file_size(output)},
          {"peak_memory_MiB", peakMemoryMiB()}};
-  if (parameters == Parameters::kDisplacement) s["series_radius"] = radii(data, data.contact_series_radius);
+  if (parameters == Parameters::kDisplacement) {
+    s["series_radius"] = radii(data, data.contact_series_radius);
+    s["reach"] = Json::array();
+    for (const modelfile::Reach& r : modelfile::reachOf(
+             {data.surface_positions, data.contact_triangles, data.position_of_node, data.contact_accessible},
+             data.contact_domain_radius, data.contact_series_radius))
+      s["reach"].push_back({{"travel", r.travel}, {"domain", r.domain}, {"series", r.series}});
+  }
   if (parameters != Parameters::kLevel) s["order"] = data.attributes.order;
   if (parameters == Parameters::kForce) {
     s["reference_force"] = data.attributes.reference_force;

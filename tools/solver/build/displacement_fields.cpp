@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/solver/build/displacement_fields.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +11,8 @@
 
 namespace palpate::solver {
 
-void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const Mat3> scale,
-                 std::span<const NearNodes> near, int workers, modelfile::ModelData& data) {
+void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const NearNodes> near,
+                 int workers, modelfile::ModelData& data) {
   const Eigen::MatrixXf amplitudes = amplitudesOf(greens, X, workers);
   const std::size_t n = static_cast<std::size_t>(X.cols());
   data.green_offset.push_back(0);
@@ -26,9 +25,8 @@ void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<c
   parallelFor(workers, near.size(), [&](int, std::size_t i) {
     std::vector<float> fields(3 * greens.table.rows());
     greens.table.read(i, fields);
-    const Eigen::Matrix3f per_load = scale[i].inverse().cast<float>();  // the table's columns are per travel
-    const Eigen::MatrixXf Y = amplitudes.middleCols(static_cast<Eigen::Index>(3 * i), 3) *
-                              (per_load / static_cast<float>(greens.reference));
+    const Eigen::MatrixXf Y =  // the fit counts in units of the reference
+        amplitudes.middleCols(static_cast<Eigen::Index>(3 * i), 3) / static_cast<float>(greens.reference);
     Eigen::Map<Eigen::MatrixXf>(data.green_Y.data() + 3 * n * i, X.cols(), 3) = Y;
     const Eigen::Map<const Eigen::MatrixXf> U(fields.data(), static_cast<Eigen::Index>(greens.table.rows()),
                                               3);
@@ -38,7 +36,7 @@ void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<c
     for (std::size_t j = 0; j < K; ++j) {
       const Eigen::Index row = 3 * own.nodes[j];
       const Eigen::Matrix3f modes = X.middleRows<3>(row) * Y;
-      const Eigen::Matrix3f missed = own.window[j] * (U.middleRows<3>(row) * per_load - modes);
+      const Eigen::Matrix3f missed = own.window[j] * (U.middleRows<3>(row) - modes);
       for (std::size_t load = 0; load < 3; ++load)
         Eigen::Map<Eigen::Vector3f>(out + 3 * (load * K + j)) = missed.col(static_cast<Eigen::Index>(load));
     }

@@ -13,14 +13,14 @@ namespace palpate::solver {
 
 /// /green of a model: amplitudes of the modes by unit loads at nodes, and window (W_i - what the modes give) near node i.
 ///                                                                                       docs/design.md, Parts
-/// @param greens  W_i K, K = scale[i], by travel  @param X  the modes  @param near  nodes of each source
+/// @param greens  W_i, m/N  @param X  the modes  @param near  nodes of each source
 /// @throw std::runtime_error on a bad table
-void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const Mat3> scale,
-                 std::span<const NearNodes> near, int workers, modelfile::ModelData& data);
+void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const NearNodes> near,
+                 int workers, modelfile::ModelData& data);
 
 /// /modes/Y and /near of a model, of orders of two and more: amplitudes of the modes, and window (U_alpha - what the modes
 /// give) at the nodes near each position where that is more than a small part of the travel.   docs/design.md, Parts
-/// @param near  nodes of each source; there may be more of them than sources
+/// @param near  nodes of each source
 void storeNearField(const FitProblem& problem, const FarField& far, std::span<const NearNodes> near,
                     int workers, modelfile::ModelData& data);
 

@@ -49,11 +49,12 @@ class Builder {
   void storePosition(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii);
   void solveGreens(const Cholesky& factor, FieldTable& greens);
   void fit(const FieldTable& table, const FieldTable& greens);
-  [[nodiscard]] std::vector<FitSource> fitSources(std::size_t count) const;
+  [[nodiscard]] std::vector<NearNodes> nearOf(std::span<const std::int32_t> nodes) const;
+  [[nodiscard]] std::vector<FitSource> fitSources(std::span<const std::int32_t> nodes,
+                                                  std::span<const double> travel) const;
   [[nodiscard]] double scale(int k) const {
     return std::pow(d_ref_, force_basis_[k][0] + force_basis_[k][1] + force_basis_[k][2]);
   }
-  [[nodiscard]] Mat3 stiffnessAt(std::size_t position) const;
 
   const Case& case_;
   const mesh::TetMesh& mesh_;
@@ -65,21 +66,31 @@ class Builder {
   double d_ref_;        ///< half a patch width: the travel at which the fit weighs the orders
   double near_radius_;  ///< rho, m
   ContactPatches patches_;
-  std::vector<std::int32_t>
-      sources_;                  ///< nodes that carry load: the contact positions, then others in patches
-  std::vector<NearNodes> near_;  ///< of each source
-  std::vector<Mat3> scale_;      ///< of each source's linear columns, N/m
+  std::vector<std::int32_t> loaded_;    ///< surface nodes that patches load
+  std::vector<NearNodes> near_;         ///< of each contact position
+  std::vector<NearNodes> near_loaded_;  ///< of each loaded node
   modelfile::ModelData data_;
 };
 
-/// The near field is part of the model; this program and the server hold all of it in memory.
-void checkNearBytes(double near_radius, std::span<const NearNodes> near, int coefficients) {
-  constexpr double kMost = 2147483648.0;  // bytes
+double nearBytes(std::span<const NearNodes> near, int coefficients) {
   double bytes = 0.0;
   for (const NearNodes& nodes : near) bytes += 12.0 * coefficients * static_cast<double>(nodes.nodes.size());
+  return bytes;
+}
+
+/// The near field is part of the model; this program and the server hold all of it in memory.
+void checkNearBytes(double near_radius, double bytes) {
+  constexpr double kMost = 2147483648.0;
   if (bytes > kMost)
     throw CaseError("model.near_radius = " + text(near_radius) + " m makes a near field of " +
                     text(1e-6 * bytes) + " MB; the limit is " + text(1e-6 * kMost) + " MB");
+}
+
+std::vector<NearNodes> Builder::nearOf(std::span<const std::int32_t> nodes) const {
+  std::vector<NearNodes> near;
+  for (const std::int32_t node : nodes)
+    near.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], near_radius_));
+  return near;
 }
 
 Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options, BuildReport& report)
@@ -94,11 +105,11 @@ Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& o
       near_radius_(c.nearRadiusOrDefault(setup_.patch_radius)),
       patches_(setup_.surface.graph, freeNodes(setup_.model, setup_.surface), setup_.patch_radius,
                setup_.positions.nodes),
-      sources_(loadedNodes(setup_, patches_)) {
+      loaded_(loadedNodes(setup_, patches_)),
+      near_(nearOf(setup_.positions.nodes)),
+      near_loaded_(nearOf(loaded_)) {
   report_.median_edge = setup_.surface.medianEdge();
-  for (const std::int32_t node : sources_)
-    near_.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], near_radius_));
-  checkNearBytes(near_radius_, near_, basis_.size());
+  checkNearBytes(near_radius_, nearBytes(near_, basis_.size()) + nearBytes(near_loaded_, 3));
   const std::size_t coefficients = static_cast<std::size_t>(force_basis_.size());
   data_.contact_force.resize(setup_.positions.nodes.size() * coefficients * 3);
   data_.contact_domain_radius.resize(setup_.positions.nodes.size());
@@ -116,49 +127,37 @@ void Builder::storePosition(const SeriesSolver& series, int lane, std::size_t po
   }
 }
 
-/// K at a contact position, from the linear part of its force.
-Mat3 Builder::stiffnessAt(std::size_t position) const {
-  const double* const f = data_.contact_force.data() + 3 * position * at(force_basis_.size());
-  return Eigen::Map<const Mat3>(f) / d_ref_;
-}
-
-/// The fields of unit loads at single nodes, times the stiffness of the patch there, so that they have the size of a patch's
-/// field per travel.
+/// The fields of unit loads at single nodes.
 void Builder::solveGreens(const Cholesky& factor, FieldTable& greens) {
-  const std::size_t M = setup_.positions.nodes.size();
   constexpr double kWidest = 6.5;  // of a patch's nodes, in a
-  Mat3 mean = Mat3::Zero();
-  for (std::size_t p = 0; p < M; ++p) mean += stiffnessAt(p) / static_cast<double>(M);
-  scale_.clear();
-  for (std::size_t i = 0; i < sources_.size(); ++i) scale_.push_back(i < M ? stiffnessAt(i) : mean);
-  CloseGreens close(setup_.surface, sources_, kWidest * setup_.patch_radius);
-  Progress progress("nodal Green's functions", sources_.size(), options_.quiet);
+  CloseGreens close(setup_.surface, loaded_, kWidest * setup_.patch_radius);
+  Progress progress("nodal Green's functions", loaded_.size(), options_.quiet);
   std::vector<std::unique_ptr<NodalGreens>> solvers(at(options_.workers));
   const std::size_t chunk = NodalGreens::kMost;
-  parallelFor(options_.workers, (sources_.size() + chunk - 1) / chunk, [&](int worker, std::size_t number) {
+  parallelFor(options_.workers, (loaded_.size() + chunk - 1) / chunk, [&](int worker, std::size_t number) {
     auto& solver = solvers[at(worker)];
     if (!solver) solver = std::make_unique<NodalGreens>(setup_.model, factor, setup_.surface);
-    const std::size_t first = number * chunk, count = std::min(chunk, sources_.size() - first);
-    solver->solve(std::span(sources_).subspan(first, count));
+    const std::size_t first = number * chunk, count = std::min(chunk, loaded_.size() - first);
+    solver->solve(std::span(loaded_).subspan(first, count));
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::MatrixXd& W = solver->of(i);
       close.keep(first + i, W);
-      const Eigen::MatrixXf scaled = (W * scale_[first + i]).cast<float>();
-      greens.write(first + i, {scaled.data(), static_cast<std::size_t>(scaled.size())});
+      const Eigen::MatrixXf per_load = W.cast<float>();
+      greens.write(first + i, {per_load.data(), static_cast<std::size_t>(per_load.size())});
     }
     progress.advance(count);
   });
   data_.contact_stiffness = patchStiffness(setup_, patches_, close, options_.workers);
 }
 
-/// The first `count` of the nodes that carry load.
-std::vector<FitSource> Builder::fitSources(std::size_t count) const {
+/// @param travel  m, of each; empty: d_ref
+std::vector<FitSource> Builder::fitSources(std::span<const std::int32_t> nodes,
+                                           std::span<const double> travel) const {
   std::vector<FitSource> sources;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3& place = setup_.surface.positions[at(sources_[i])];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3& place = setup_.surface.positions[at(nodes[i])];
     // Large travel is rare and must not cost accuracy at small travel.
-    const double ball =
-        i < data_.contact_domain_radius.size() ? std::min(d_ref_, data_.contact_domain_radius[i]) : d_ref_;
+    const double ball = travel.empty() ? d_ref_ : std::min(d_ref_, travel[i]);
     sources.push_back({place, fitWeights(setup_.surface, place, near_radius_), ball, d_ref_});
   }
   return sources;
@@ -166,7 +165,7 @@ std::vector<FitSource> Builder::fitSources(std::size_t count) const {
 
 /// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.
 void Builder::fit(const FieldTable& table, const FieldTable& greens) {
-  const std::vector<FitSource> sources = fitSources(setup_.positions.nodes.size());
+  const std::vector<FitSource> sources = fitSources(setup_.positions.nodes, data_.contact_domain_radius);
   const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
   FitOptions options;
   report_.fit_asked = case_.modes ? 0.0 : case_.fieldErrorOrDefault();
@@ -184,11 +183,11 @@ void Builder::fit(const FieldTable& table, const FieldTable& greens) {
   report_.fit_p95 = largest[largest.size() - 1 - largest.size() / 20];
   report_.fit_max = largest.back();
   data_.modes_X.assign(far.X.data(), far.X.data() + far.X.size());
-  const std::vector<FitSource> loaded = fitSources(sources_.size());
+  const std::vector<FitSource> loaded = fitSources(loaded_, {});
   const MonomialBasis linear(1);
   const FitProblem by_load{greens, linear, setup_.surface.areas, setup_.surface.positions, loaded, d_ref_};
-  data_.green_node = sources_;
-  storeGreens(by_load, far.X, scale_, near_, options_.workers, data_);
+  data_.green_node = loaded_;
+  storeGreens(by_load, far.X, near_loaded_, options_.workers, data_);
   storeNearField(problem, far, near_, options_.workers, data_);
 }
 
@@ -206,7 +205,7 @@ modelfile::ModelData Builder::run() {
                  [&](const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii) {
                    storePosition(series, lane, position, radii);
                  });
-  FieldTable greens(options_.scratch, sources_.size(), 3, rows);
+  FieldTable greens(options_.scratch, loaded_.size(), 3, rows);
   solveGreens(factor, greens);
   report_.series_seconds = series_watch.seconds();
 

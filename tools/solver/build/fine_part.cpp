@@ -107,8 +107,7 @@ PatchSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
   return {model, std::move(boundary.nodes), std::move(boundary.triangles), std::move(boundary.faces)};
 }
 
-FinePart::FinePart(const SolverSetup& setup, const mesh::TetMesh& mesh, const Columns& coarse, const Vec3& x,
-                   double reach) {
+std::vector<std::int32_t> elementsNear(const mesh::TetMesh& mesh, const Vec3& x, double reach) {
   std::vector<std::int32_t> chosen;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const auto& corners = mesh.tetrahedra[t];
@@ -116,6 +115,11 @@ FinePart::FinePart(const SolverSetup& setup, const mesh::TetMesh& mesh, const Co
                     [&](std::int32_t node) { return (mesh.nodes[at(node)] - x).norm() < reach; }))
       chosen.push_back(static_cast<std::int32_t>(t));
   }
+  return chosen;
+}
+
+FinePart::FinePart(const SolverSetup& setup, const mesh::TetMesh& mesh, const Columns& coarse,
+                   std::span<const std::int32_t> chosen) {
   mesh::Eighths eighths = mesh::eighthsOf(mesh, chosen);
   parent_ = std::move(eighths.parent);
   mesh_ = mesh.isQuadratic() ? mesh::quadraticOf(eighths.mesh) : std::move(eighths.mesh);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "core/base/contact_point.h"
@@ -29,11 +30,14 @@ using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 /// n . K_s n, N/m. @param u  the fields of unit loads
 [[nodiscard]] double stiffnessOf(const Patch& patch, const Columns& u, const Vec3& n);
 
-/// The elements round a point, divided into eight, with the coarse solution where they were cut out.
+/// The elements with a corner nearer to x than that, m.
+[[nodiscard]] std::vector<std::int32_t> elementsNear(const mesh::TetMesh& mesh, const Vec3& x, double reach);
+
+/// Some elements, such as those near a point, divided into eight, with the coarse solution where they were cut out.
 class FinePart {
  public:
-  FinePart(const SolverSetup& setup, const mesh::TetMesh& mesh, const Columns& coarse, const Vec3& x,
-           double reach);
+  FinePart(const SolverSetup& setup, const mesh::TetMesh& mesh, const Columns& coarse,
+           std::span<const std::int32_t> chosen);
   /// n . K_s n of the patch at x.
   [[nodiscard]] double stiffnessAt(const Vec3& x, const Vec3& n, double patch_radius) const;
 

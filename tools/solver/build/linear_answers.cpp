@@ -93,10 +93,9 @@ void CloseGreens::apply(const PatchNodes& patch, std::vector<Matrix3d>& Q) const
 }
 
 std::vector<std::int32_t> loadedNodes(const SolverSetup& setup, const ContactPatches& patches) {
-  std::vector<std::int32_t> nodes = setup.positions.nodes;
+  std::vector<std::int32_t> nodes;
   std::vector<std::uint8_t> near(setup.surface.nodes.size(), 0);
   for (const std::int32_t centre : setup.positions.nodes) patches.markNear(centre, near);
-  for (const std::int32_t centre : setup.positions.nodes) near[at(centre)] = 0;
   for (std::size_t i = 0; i < near.size(); ++i)
     if (near[i] != 0) nodes.push_back(static_cast<std::int32_t>(i));
   return nodes;

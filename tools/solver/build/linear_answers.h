@@ -31,7 +31,7 @@ class CloseGreens {
   std::vector<std::int32_t> source_of_;  // [Ns] or -1
 };
 
-/// The surface nodes that carry load: the contact positions in their order, then the others in patches of their triangles.
+/// The surface nodes that patches in the triangles of contact positions may load, ascending.
 [[nodiscard]] std::vector<std::int32_t> loadedNodes(const SolverSetup& setup, const ContactPatches& patches);
 
 /// The stiffness of patches at rest, K_s = C_s^-1, C_s = sum w_i(s) w_j(s) W_ij, exact at the smooth places, with its

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "tools/mesh/quadratic.h"
@@ -46,10 +47,13 @@ std::vector<ContactPoint> draw(const SolverSetup& setup, int count) {
   return samples;
 }
 
-/// Whether a spring holds an element within reach, which the finer part does not have.
-bool hasSprings(const SolverSetup& setup, const Vec3& x, double reach) {
-  return std::any_of(setup.model.springs().begin(), setup.model.springs().end(), [&](const Spring& spring) {
-    return (setup.model.nodes()[at(spring.node)] - x).norm() < 1.5 * reach;
+/// Whether a spring holds one of the elements; the finer part has none.
+bool hasSprings(const FeModel& model, std::span<const std::int32_t> elements) {
+  std::vector<bool> sprung(static_cast<std::size_t>(model.nodeCount()), false);
+  for (const Spring& spring : model.springs()) sprung[at(spring.node)] = true;
+  return std::any_of(elements.begin(), elements.end(), [&](std::int32_t element) {
+    const std::span<const std::int32_t> nodes = model.elementNodes(element);
+    return std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return sprung[at(node)]; });
   });
 }
 
@@ -115,8 +119,9 @@ std::optional<double> MeshErrors::at(const ContactPoint& s) const {
   const Columns coarse = nodal(setup.model, state_->factor.solve(loads(setup.model, patch)));
   const double found = stiffnessOf(patch, coarse, n);
   if (state_->raised) return found / state_->raised->stiffnessAt(x, n, setup.patch_radius) - 1.0;
-  if (hasSprings(setup, x, state_->reach)) return std::nullopt;
-  const FinePart fine(setup, state_->mesh, coarse, x, state_->reach);
+  const std::vector<std::int32_t> chosen = elementsNear(state_->mesh, x, state_->reach);
+  if (hasSprings(setup.model, chosen)) return std::nullopt;
+  const FinePart fine(setup, state_->mesh, coarse, chosen);
   return found / fine.stiffnessAt(x, n, setup.patch_radius) - 1.0;
 }
 

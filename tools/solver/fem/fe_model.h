@@ -17,13 +17,8 @@ namespace palpate::solver {
 
 /// Tetrahedra of four nodes, or with those in the middle of their edges of ten.
 struct Tetrahedra {
-  std::vector<std::array<std::int32_t, 4>> corners;   ///< 0-based, positive volume
-  std::vector<std::array<std::int32_t, 6>> midsides;  ///< of mesh::kTetEdges; empty: linear elements
-
-  // NOLINTNEXTLINE(google-explicit-constructor): a list of corners is a mesh of linear elements
-  Tetrahedra(std::vector<std::array<std::int32_t, 4>> linear,
-             std::vector<std::array<std::int32_t, 6>> middle_nodes = {})
-      : corners(std::move(linear)), midsides(std::move(middle_nodes)) {}
+  std::vector<std::array<std::int32_t, 4>> corners;     ///< 0-based, positive volume
+  std::vector<std::array<std::int32_t, 6>> midsides{};  ///< of mesh::kTetEdges; empty: linear elements
 };
 
 /// Ties a node to where it rests, alike in every direction.
@@ -32,7 +27,8 @@ struct Spring {
   double stiffness;  ///< N/m, > 0
 };
 
-/// A body of tetrahedra, linear or quadratic, clamped at some nodes and held by springs at others: the discrete problem that every solver here works on.
+/// A body of tetrahedra, linear or quadratic, clamped at some nodes and held by springs at others: the discrete problem
+/// that every solver here works on.
 /// Nodal vectors u, f have 3 N entries, node-interleaved; the unknowns ("dofs") are those of the free nodes.
 class FeModel {
  public:

@@ -47,6 +47,10 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   EXPECT_DOUBLE_EQ(json["material"]["nu"], 0.48);
   EXPECT_EQ(json["provenance"]["program"], "synthetic");
   EXPECT_DOUBLE_EQ(json["domain_radius"]["p05"], 0.008);
+  EXPECT_EQ(json["reach"][0]["travel"], 0.007);
+  EXPECT_EQ(json["reach"][0]["domain"], 1.0);
+  EXPECT_EQ(json["reach"][1]["domain"], 0.0);
+  EXPECT_EQ(json["element_order"], 1);
   const unsigned rows = json["contact_positions"].get<unsigned>() * (19U - 3U);
   EXPECT_EQ(json["bytes"]["far_field"], 2U * (4U * 3U * 162U + rows * 4U) + 4U * (4U + rows));
   EXPECT_GT(json["bytes"]["greens_functions"], 2U * 3U * 4U * json["contact_positions"].get<unsigned>());

@@ -72,7 +72,8 @@ TEST(Program, WritesTheDefaultOrganWithItsCase) {
   const mesh::TetMesh mesh = mesh::readMesh(file);
   EXPECT_TRUE(mesh.isQuadratic());
   for (const char* region : {"liver", "nodule"})
-    EXPECT_EQ(json.at("regions").at(region).get<std::size_t>(), mesh.regions.at(region).size());
+    EXPECT_EQ(json.at("regions").at(region).at("tetrahedra").get<std::size_t>(),
+              mesh.regions.at(region).size());
   const std::string text = mesh::test::contentOf(case_file);
   EXPECT_TRUE(text.starts_with("[mesh]\nfile = '../coarse.msh'\n")) << text;
   EXPECT_NE(text.find("group = \"nodule\""), std::string::npos);

@@ -96,6 +96,32 @@ TEST_F(LockingBlock, OfAPartAreNearlyThoseOfTheWhole) {
   EXPECT_NEAR(coarse.error(), whole, 0.3 * whole);
 }
 
+/// The finer part has no springs, so a place with springs in reach is left out.
+TEST_F(LockingBlock, APlaceOnSpringsIsLeftOut) {
+  mesh::TetMesh bed = mesh::quadraticOf(coarse_);
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(bed.nodes.size()); ++node)
+    if (bed.nodes[static_cast<std::size_t>(node)].x() < 1e-9) bed.groups["bed"].push_back(node);
+  Case c = caseOf(0.48);
+  c.springs.push_back({"bed", 1e6, "here"});
+  const SolverSetup setup(c, bed);
+  ASSERT_FALSE(setup.model.springs().empty());
+  Cholesky factor(setup.model);
+  factor.factorize(Eigen::VectorXd::Zero(3 * setup.model.nodeCount()));
+  const MeshErrors errors(setup, bed, factor);
+  bool with = false, without = false;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(setup.surface.faces.size()) && !(with && without);
+       ++f) {
+    const ContactPoint s{f, {0.3, 0.3, 0.4}};
+    const Vec3 x = setup.surface.position(s);
+    if (x.z() < 0.049 || (x.x() > 0.02 && x.x() < 0.08)) continue;
+    const bool near = x.x() < 0.02;
+    if (near ? with : without) continue;
+    EXPECT_EQ(errors.at(s).has_value(), !near) << x.transpose();
+    (near ? with : without) = true;
+  }
+  EXPECT_TRUE(with && without);
+}
+
 TEST_F(LockingBlock, OfLinearElementsAreThoseAgainstQuadraticOnes) {
   const mesh::TetMesh raised = mesh::quadraticOf(coarse_);
   const Middle linear(coarse_);

@@ -30,7 +30,7 @@ class BlockSeries : public ::testing::Test {
   struct Case {
     Case(const Box& box, double E, Law law = {}) : Case(box, Material{{E, 0.45}, law}) {}
     Case(const Box& box, const Material& material, const std::vector<Spring>& springs = {})
-        : model(box.nodes(), box.tetrahedra(), box.face(0, false), material, springs),
+        : model(box.nodes(), {box.tetrahedra()}, box.face(0, false), material, springs),
           surface(box.surface(model)),
           factor(model) {
       factor.factorize(Eigen::VectorXd::Zero(3 * model.nodeCount()));
