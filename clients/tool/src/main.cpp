@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-tool: a scripted tool touches the organ and prints the force over time.
+#include <chrono>
 #include <iostream>
 #include <optional>
+#include <thread>
 
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
@@ -14,6 +16,9 @@
 
 namespace palpate::tool {
 namespace {
+
+/// A server keeps a tool for its sender until it has been silent for at most this long (StepConfig::zero_after).
+constexpr std::chrono::milliseconds kLetGo{50};
 
 struct Options {
   std::string script{"press"};
@@ -93,6 +98,7 @@ int body(int argc, char** argv) {
   }
 
   // 4. The same beside it.
+  std::this_thread::sleep_for(kLetGo);
   const Played other = prepare(options, options.beside, server);
   const Recording other_recording = play(participant, options.tool_id, other.path, runOf(server));
   out << '\n' << tableOf(other, other_recording) << comparisonOf(recording, other_recording) << std::flush;

@@ -53,13 +53,9 @@ Json radii(const modelfile::ModelData& data, std::span<const double> radius) {
 
 void printTimes(const Json& seconds) {
   std::string line = "time:";
-  const std::pair<const char*, const char*> names[] = {{"factor", "factor"},
-                                                       {"series", "series"},
-                                                       {"fit", "fit"},
-                                                       {"pgd", "PGD"},
-                                                       {"recompression", "recompression"},
-                                                       {"write", "writing"},
-                                                       {"total", "together"}};
+  const std::pair<const char*, const char*> names[] = {
+      {"factor", "factor"}, {"mesh_error", "the mesh's error"}, {"series", "series"}, {"fit", "fit"},
+      {"pgd", "PGD"},       {"recompression", "recompression"}, {"write", "writing"}, {"total", "together"}};
   for (const auto& [key, name] : names) {
     if (!seconds.contains(key)) continue;
     char part[64];
@@ -168,9 +164,12 @@ Json meshErrorOf(const solver::BuildReport& report) {
 }
 
 Json stages(Method method, const solver::BuildReport& report) {
-  if (isSeries(method))
-    return {
+  if (isSeries(method)) {
+    Json seconds{
         {"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}};
+    if (report.mesh_error) seconds["mesh_error"] = report.mesh_error_seconds;
+    return seconds;
+  }
   Json seconds{{"factor", report.factor_seconds}, {"pgd", report.pgd_seconds}};
   if (method == Method::kPgdLinear) seconds["recompression"] = report.recompression_seconds;
   return seconds;

@@ -196,8 +196,11 @@ modelfile::ModelData Builder::run() {
   Cholesky factor(setup_.model);
   factorizeAtRest(factor, setup_, mesh_, case_);
   report_.factor_seconds = factor_watch.seconds();
-  if (case_.mesh_error) report_.mesh_error = meshError(setup_, mesh_, factor, options_.workers);
-
+  if (case_.mesh_error) {
+    const Stopwatch mesh_watch;
+    report_.mesh_error = meshError(setup_, mesh_, factor, options_.workers);
+    report_.mesh_error_seconds = mesh_watch.seconds();
+  }
   const Stopwatch series_watch;
   const std::size_t rows = 3 * setup_.surface.nodes.size();
   FieldTable table(options_.scratch, setup_.positions.nodes.size(), at(basis_.size()), rows);

@@ -12,7 +12,7 @@ namespace {
 
 using StVK = StVenantKirchhoff;
 
-/// The loops that serve elements of 4 nodes, with elements of 10.
+/// The loops over integration points, with elements of 10 nodes.
 class QuadraticElements : public ::testing::Test {
  protected:
   const Box box_{2, 2, 2, Vec3(0.02, 0.03, 0.02)};

@@ -14,7 +14,7 @@
 namespace palpate::solver {
 namespace {
 
-/// The kernels of the series, which serve elements of 4 nodes, with elements of 10. The reference is the plain loops of
+/// The kernels of the series, with elements of 10 nodes. The reference is the plain loops of
 /// integration_point.h: along a ray d = t e forces and energies are polynomials in t, whose coefficients are known.
 class QuadraticKernels : public ::testing::TestWithParam<std::string_view> {
  protected:
