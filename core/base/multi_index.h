@@ -19,8 +19,8 @@ using MultiIndex = std::array<int, 3>;
 /// There is no constant term: an organ that is not touched does not move.
 class MonomialBasis {
  public:
-  static constexpr int kMaxOrder = 7;           ///< 119 monomials
-  static constexpr int kMaxCoefficients = 119;  ///< size(kMaxOrder)
+  static constexpr int kMaxOrder = 9;           ///< 219 monomials: an energy, whose force has degree 8
+  static constexpr int kMaxCoefficients = 219;  ///< size(kMaxOrder)
 
   /// Number of monomials up to degree p: (p+1)(p+2)(p+3)/6 - 1, e.g. 3, 9, 19, 34, 55.
   [[nodiscard]] static constexpr int size(int order) noexcept {

@@ -11,7 +11,7 @@ namespace palpate {
 
 TEST(MonomialBasis, HoldsEachMonomialOnceByDegree) {
   const MonomialBasis basis(MonomialBasis::kMaxOrder);
-  EXPECT_EQ(basis.size(), 119);
+  EXPECT_EQ(basis.size(), MonomialBasis::kMaxCoefficients);
   for (int k = 0; k < basis.size(); ++k) {
     EXPECT_EQ(basis.find(basis[k]), k);
     const int degree = basis[k][0] + basis[k][1] + basis[k][2];

@@ -226,11 +226,11 @@ INSTANTIATE_TEST_SUITE_P(
                   [](const auto& p) {
                     replaceWith(p, "levels/Z", H5T_IEEE_F64LE, {3, 1});
                   }},
-        WrongFile{"NoLevelFunction", Parameters::kLevel, "/levels/Z has 0 level functions, expected 1 to 119",
+        WrongFile{"NoLevelFunction", Parameters::kLevel, "/levels/Z has 0 level functions, expected 1 to 219",
                   [](const auto& p) { setLevelFunctions(p, 0); }},
         WrongFile{"TooManyLevelFunctions", Parameters::kLevel,
-                  "/levels/Z has 120 level functions, expected 1 to 119",
-                  [](const auto& p) { setLevelFunctions(p, 120); }},
+                  "/levels/Z has 220 level functions, expected 1 to 219",
+                  [](const auto& p) { setLevelFunctions(p, 220); }},
         WrongFile{"NoLevelAtAll", Parameters::kLevel, "/levels/Z has 0 levels, expected 2 to 100001",
                   [](const auto& p) {
                     replaceWith(p, "levels/Z", H5T_IEEE_F64LE, {3, 0});

@@ -145,7 +145,7 @@ std::vector<WrongLayout> layouts() {
        [](const auto& p) { deleteThing(p, nullptr, "contact/triangles"); }},
       {{"Order", "attribute order is 8, expected 1 to 7"},
        [](const auto& p) { setNumber(p, "order", H5T_NATIVE_INT, 8); }},
-      {{"ForceOrderBelowTheFields", "attribute force_order is 2, expected 3 to 7"},
+      {{"ForceOrderBelowTheFields", "attribute force_order is 2, expected 3 to 9"},
        [](const auto& p) { setNumber(p, "force_order", H5T_NATIVE_INT, 2); }},
       {{"ForceOrderAboveTheData",
         "/contact/force has shape " + M + " x 19 x 3, expected M = " + M + " x 34 x 3"},

@@ -89,7 +89,7 @@ TEST(WriteModel, RefusesLoadDrivenSizesThatDoNotFit) {
        [](ModelData& d) { d.contact_displacement.assign(3, 0.0); }},
       {Parameters::kLevel, "/contact/displacement has",
        [](ModelData& d) { d.contact_displacement.pop_back(); }},
-      {Parameters::kLevel, "/contact/displacement has 0 level functions, expected 1 to 119",
+      {Parameters::kLevel, "/contact/displacement has 0 level functions, expected 1 to 219",
        [](ModelData& d) { d.contact_displacement.clear(); }},
       {Parameters::kLevel, "/levels/Z has 32 numbers, expected a multiple of 3",
        [](ModelData& d) { d.levels_Z.pop_back(); }},

@@ -26,6 +26,7 @@ accessible = "accessible"
 
 [model]
 patch_radius = 0.006          # m; the tip of a finger-like tool of 5 mm radius
+travel = 0.007                # m; how far it presses
 )";
 
 // As TOML's literal string takes it; with a quote in it, as a basic one.

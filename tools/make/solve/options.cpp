@@ -46,7 +46,17 @@ void override(const Options& options, solver::Case& c) {
     c.modes = options.modes;
     c.field_error.reset();
   }
-  if (options.order) c.order = options.order;
+  if (options.order) {
+    c.order = options.order;
+    c.force_order.reset();
+    c.travel.reset();
+  }
+  if (options.travel) {
+    if (options.order) throw solver::CaseError("--travel does not go with --order: it chooses it");
+    c.travel = options.travel;
+    c.order.reset();
+    c.force_order.reset();
+  }
   if (options.steps) c.load.steps = options.steps;
   if (options.load) c.load.magnitude = options.load;
   if (options.direction) setDirection(*options.direction, c.load);
@@ -70,7 +80,10 @@ void describe(program::Options line, Options& options) {
   line.add("--modes", &options.modes,
            "modes of the model (default: 167; series-displacement: as many as its field_error of 1 % wants)")
       .range(1, 2000);
-  line.add("--order", &options.order, "degree of the series").range(1, 7);
+  line.add("--order", &options.order, "degree of the series (default: 3)").range(1, 7);
+  line.add("--travel", &options.travel,
+           "series-displacement: how far tools press, m; chooses the degrees of fields and force")
+      .range(1e-9, 1.0);
   line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
   line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);

@@ -45,6 +45,7 @@ void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solv
                            {"method", toString(c.method)},
                            {"seconds", stages(c.method, report)}};
   if (report.mesh_error) provenance["mesh_error"] = meshErrorOf(report);
+  if (report.travel) provenance["travel"] = report.travel->travel;
   if (report.fit_errors.empty()) {
     provenance["load"] = loadOf(c, report);
     provenance["pairs"] = report.greedy_pairs;

@@ -141,7 +141,18 @@ void printRadius(const Json& s) {
   if (const int weak = wholeOr0(s, "weak_positions"); weak > 0)
     std::fprintf(stderr, "; %d positions need more modes", weak);
   std::fputc('\n', stderr);
+}
+
+/// How far tools may press, and what a travel asked for.
+void printReach(const Json& s) {
   if (!s.contains("reach")) return;
+  if (const Json* const travel = s.find("travel"); travel != nullptr) {
+    const int reaching = travel->at("reaching").get<int>(), places = travel->at("places").get<int>();
+    std::fprintf(
+        stderr, "%s%d of %d places reach the travel of %.4g mm with fields of degree %d, force of %d\n",
+        2 * reaching < places ? "warning: " : "", reaching, places, 1e3 * travel->at("travel").get<double>(),
+        s["order"].get<int>(), s["force_order"].get<int>());
+  }
   std::fprintf(stderr, "part of the accessible surface that reaches");
   for (std::size_t i = 0; i < s["reach"].size(); ++i) {
     const Json& r = s["reach"][i];
@@ -218,12 +229,17 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
       s["reach"].push_back({{"travel", r.travel}, {"domain", r.domain}, {"series", r.series}});
   }
   if (parameters != Parameters::kLevel) s["order"] = data.attributes.order;
+  if (parameters == Parameters::kDisplacement) s["force_order"] = data.attributes.force_order;
   if (parameters == Parameters::kForce) {
     s["reference_force"] = data.attributes.reference_force;
     s["weak_positions"] = report.weak_positions;
   }
   if (report.median_edge > 0.0) s["median_surface_edge"] = report.median_edge;
   if (report.mesh_error) s["mesh_error"] = meshErrorOf(report);
+  if (report.travel)
+    s["travel"] = {{"travel", report.travel->travel},
+                   {"reaching", report.travel->reaching},
+                   {"places", report.travel->places}};
   if (isSeries(c.method)) {
     s["fit_error"] = report.fit_errors.back();
     if (parameters == Parameters::kDisplacement) {
@@ -254,6 +270,7 @@ void print(const Json& s) {
   printTimes(s["seconds"]);
   printFit(s);
   printRadius(s);
+  printReach(s);
   std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
                1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());
 }

@@ -42,7 +42,7 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
   std::vector<std::vector<float>> fields(at(options.workers));  // of the chunk that a worker has
   parallelFor(options.workers, (count + kLanes - 1) / kLanes, [&](int worker, std::size_t chunk) {
     auto& solver = solvers[at(worker)];
-    if (!solver) solver = std::make_unique<SeriesSolver>(setup.model, factor, c.orderOrDefault(), kind);
+    if (!solver) solver = std::make_unique<SeriesSolver>(setup.model, factor, c.orders(), kind);
     const std::size_t first = chunk * kLanes;
     const std::size_t lanes = std::min<std::size_t>(kLanes, count - first);
     solver->solve(std::span(positions.patches).subspan(first, lanes));

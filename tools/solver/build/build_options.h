@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "tools/solver/series/series_orders.h"
+
 namespace palpate::solver {
 
 struct BuildOptions {
@@ -21,6 +23,14 @@ struct MeshError {
   bool raised{false};   ///< better: quadratic elements; else those near the tool at half the edge length
 };
 
+/// The orders that a travel asks for, see ordersFor().
+struct TravelOrders {
+  double travel;  ///< m
+  SeriesOrders orders;
+  int reaching;  ///< places that reach it with these orders
+  int places;    ///< that were tried
+};
+
 /// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
 struct BuildReport {
   double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
@@ -30,6 +40,7 @@ struct BuildReport {
   double fit_p95{0}, fit_max{0};          ///< series-displacement: FarField::largest over the positions
   double median_edge{0};                  ///< of the surface, corner to corner, m
   std::optional<MeshError> mesh_error{};  ///< where the case asks for it
+  std::optional<TravelOrders> travel{};   ///< where it chose the orders
   double fit_asked{0};                    ///< of fit_p95, where it chose the modes: the case's field_error
   int greedy_pairs{0};                    ///< PGD methods: pairs before recompression
   double residual{0};         ///< PGD methods: of the last enrichment, dual norm, relative, an estimate

@@ -10,6 +10,7 @@
 #include "tools/mesh/tet_mesh.h"
 #include "tools/solver/build/case_error.h"
 #include "tools/solver/fem/fe_model.h"
+#include "tools/solver/series/series_orders.h"
 
 namespace palpate::solver {
 
@@ -81,7 +82,9 @@ struct Case {
   std::vector<SpringCase> springs;
   Method method{Method::kSeriesDisplacement};
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges, or 0.8
-  std::optional<int> order;            ///< p, 1 to 7; absent: 3
+  std::optional<int> order;            ///< p, 1 to 7; absent: by travel, or 3
+  std::optional<int> force_order;      ///< p to 2p, at most 8; absent: by travel, or 2p up to 6
+  std::optional<double> travel;        ///< m, (0, 1]: how far a tool presses; chooses the orders
   std::optional<int> modes;            ///< n, 1 to 2000; absent: by field_error beside a near field, else 167
   std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a
   std::optional<double> field_error;   ///< largest error of the field over abs(d), (0, 1); absent: 0.01
@@ -90,7 +93,10 @@ struct Case {
   PgdCase pgd;
   std::string text;  ///< the case file as read, for the provenance
 
-  [[nodiscard]] int orderOrDefault() const { return order.value_or(3); }
+  [[nodiscard]] SeriesOrders orders() const {
+    const SeriesOrders usual = SeriesOrders::of(order.value_or(3));
+    return {usual.fields, force_order.value_or(usual.answer)};
+  }
   /// Of the load-driven methods.
   [[nodiscard]] int modesOrDefault() const { return modes.value_or(167); }
   [[nodiscard]] double nearRadiusOrDefault(double a) const { return near_radius.value_or(4.5 * a); }

@@ -42,6 +42,9 @@ void checkKeys(const Case& c) {
   const bool direction = c.load.direction || c.load.any_direction;
   for (const Rule& rule : std::initializer_list<Rule>{
            {"model.order", c.order.has_value(), kSeries, "it is the degree of a series"},
+           {"model.force_order", c.force_order.has_value(), kDisplacement,
+            "its answer has the degree of its fields"},
+           {"model.travel", c.travel.has_value(), kDisplacement, "it is of the series in d"},
            {"mesh.error", c.mesh_error, kDisplacement, "it is of the series in d"},
            {"model.near_radius", c.near_radius.has_value(), kDisplacement, "its model is modes only"},
            {"model.field_error", c.field_error.has_value(), kDisplacement,
@@ -100,6 +103,13 @@ void checkCase(const Case& c) {
   if (c.pgd.hadamard.value_or(false) && c.pgd.block.value_or(1) > 1)
     throw CaseError("pgd.block = " + std::to_string(*c.pgd.block) +
                     " does not go with pgd.separation = \"hadamard\": such pairs are found one at a time");
+  if (c.travel && (c.order || c.force_order))
+    throw CaseError("model.travel does not go with model.order and model.force_order: it chooses both");
+  if (!c.orders().areKnown())
+    throw CaseError("model.force_order = " + std::to_string(c.orders().answer) +
+                    " does not go with fields of order " + std::to_string(c.orders().fields) + ": expected " +
+                    std::to_string(c.orders().fields) + " to " +
+                    std::to_string(std::min(2 * c.orders().fields, SeriesOrders::kMostAnswer)));
   if (c.modes && c.field_error)
     throw CaseError("model.field_error does not go with model.modes: it chooses their number");
   if (c.nodalLoad() && c.patch_radius)

@@ -20,6 +20,7 @@
 #include "tools/solver/build/domain_rings.h"
 #include "tools/solver/build/linear_answers.h"
 #include "tools/solver/build/mesh_error.h"
+#include "tools/solver/build/travel_orders.h"
 #include "tools/solver/fit/far_field.h"
 #include "tools/solver/series/nodal_greens.h"
 
@@ -42,12 +43,13 @@ std::string text(double x) {
 /// Collects the parts of the model.
 class Builder {
  public:
-  Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options, BuildReport& report);
+  Builder(const Case& c, const mesh::TetMesh& mesh, const SolverSetup& setup, const Cholesky& factor,
+          const BuildOptions& options, BuildReport& report);
   modelfile::ModelData run();
 
  private:
   void storePosition(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii);
-  void solveGreens(const Cholesky& factor, FieldTable& greens);
+  void solveGreens(FieldTable& greens);
   void fit(const FieldTable& table, const FieldTable& greens);
   [[nodiscard]] std::vector<NearNodes> nearOf(std::span<const std::int32_t> nodes) const;
   [[nodiscard]] std::vector<FitSource> fitSources(std::span<const std::int32_t> nodes,
@@ -62,7 +64,8 @@ class Builder {
   BuildReport& report_;
   MonomialBasis basis_;        ///< of the fields
   MonomialBasis force_basis_;  ///< of the force; begins with the monomials of the fields
-  SolverSetup setup_;
+  const SolverSetup& setup_;
+  const Cholesky& factor_;
   double d_ref_;        ///< half a patch width: the travel at which the fit weighs the orders
   double near_radius_;  ///< rho, m
   ContactPatches patches_;
@@ -93,14 +96,16 @@ std::vector<NearNodes> Builder::nearOf(std::span<const std::int32_t> nodes) cons
   return near;
 }
 
-Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options, BuildReport& report)
+Builder::Builder(const Case& c, const mesh::TetMesh& mesh, const SolverSetup& setup, const Cholesky& factor,
+                 const BuildOptions& options, BuildReport& report)
     : case_(c),
       mesh_(mesh),
       options_(options),
       report_(report),
-      basis_(c.orderOrDefault()),
-      force_basis_(SeriesSolver::answerOrder(c.orderOrDefault())),
-      setup_(c, mesh),
+      basis_(c.orders().fields),
+      force_basis_(c.orders().answer),
+      setup_(setup),
+      factor_(factor),
       d_ref_(0.5 * setup_.patch_radius),
       near_radius_(c.nearRadiusOrDefault(setup_.patch_radius)),
       patches_(setup_.surface.graph, freeNodes(setup_.model, setup_.surface), setup_.patch_radius,
@@ -128,7 +133,7 @@ void Builder::storePosition(const SeriesSolver& series, int lane, std::size_t po
 }
 
 /// The fields of unit loads at single nodes.
-void Builder::solveGreens(const Cholesky& factor, FieldTable& greens) {
+void Builder::solveGreens(FieldTable& greens) {
   constexpr double kWidest = 6.5;  // of a patch's nodes, in a
   CloseGreens close(setup_.surface, loaded_, kWidest * setup_.patch_radius);
   Progress progress("nodal Green's functions", loaded_.size(), options_.quiet);
@@ -136,7 +141,7 @@ void Builder::solveGreens(const Cholesky& factor, FieldTable& greens) {
   const std::size_t chunk = NodalGreens::kMost;
   parallelFor(options_.workers, (loaded_.size() + chunk - 1) / chunk, [&](int worker, std::size_t number) {
     auto& solver = solvers[at(worker)];
-    if (!solver) solver = std::make_unique<NodalGreens>(setup_.model, factor, setup_.surface);
+    if (!solver) solver = std::make_unique<NodalGreens>(setup_.model, factor_, setup_.surface);
     const std::size_t first = number * chunk, count = std::min(chunk, loaded_.size() - first);
     solver->solve(std::span(loaded_).subspan(first, count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -192,24 +197,15 @@ void Builder::fit(const FieldTable& table, const FieldTable& greens) {
 }
 
 modelfile::ModelData Builder::run() {
-  const Stopwatch factor_watch;
-  Cholesky factor(setup_.model);
-  factorizeAtRest(factor, setup_, mesh_, case_);
-  report_.factor_seconds = factor_watch.seconds();
-  if (case_.mesh_error) {
-    const Stopwatch mesh_watch;
-    report_.mesh_error = meshError(setup_, mesh_, factor, options_.workers);
-    report_.mesh_error_seconds = mesh_watch.seconds();
-  }
   const Stopwatch series_watch;
   const std::size_t rows = 3 * setup_.surface.nodes.size();
   FieldTable table(options_.scratch, setup_.positions.nodes.size(), at(basis_.size()), rows);
-  solveAllSeries(setup_, mesh_, case_, factor, SeriesKind::kDisplacement, options_, table,
+  solveAllSeries(setup_, mesh_, case_, factor_, SeriesKind::kDisplacement, options_, table,
                  [&](const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii) {
                    storePosition(series, lane, position, radii);
                  });
   FieldTable greens(options_.scratch, loaded_.size(), 3, rows);
-  solveGreens(factor, greens);
+  solveGreens(greens);
   report_.series_seconds = series_watch.seconds();
 
   const Stopwatch fit_watch;
@@ -232,7 +228,23 @@ modelfile::ModelData Builder::run() {
 
 modelfile::ModelData buildDisplacementSeries(const Case& c, const mesh::TetMesh& mesh,
                                              const BuildOptions& options, BuildReport& report) {
-  return Builder(c, mesh, options, report).run();
+  const SolverSetup setup(c, mesh);
+  const Stopwatch factor_watch;
+  Cholesky factor(setup.model);
+  factorizeAtRest(factor, setup, mesh, c);
+  report.factor_seconds = factor_watch.seconds();
+  if (c.mesh_error) {
+    const Stopwatch mesh_watch;
+    report.mesh_error = meshError(setup, mesh, factor, options.workers);
+    report.mesh_error_seconds = mesh_watch.seconds();
+  }
+  Case chosen = c;
+  if (c.travel && !c.order && !c.force_order) {
+    report.travel = ordersFor(*c.travel, setup, factor, options);
+    chosen.order = report.travel->orders.fields;
+    chosen.force_order = report.travel->orders.answer;
+  }
+  return Builder(chosen, mesh, setup, factor, options, report).run();
 }
 
 }  // namespace palpate::solver

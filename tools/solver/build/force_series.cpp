@@ -31,7 +31,7 @@ class ForceBuilder {
         options_(options),
         report_(report),
         setup_(c, mesh),
-        basis_(c.orderOrDefault()),
+        basis_(c.orders().fields),
         radius_(setup_.positions.nodes.size()),
         compliance_(setup_.positions.nodes.size()) {}
   std::vector<modelfile::ModelData> run(std::span<const FitSize> sizes);

@@ -124,7 +124,7 @@ Index FarFieldFit::modesFor(double error, double asked) const {
 
 /// A basis from a part of the sources, of as many modes as the asked error wants.
 void FarFieldFit::headStart() {
-  constexpr double kReweightingGains = 0.8;  // of the error of plain sweeps
+  constexpr double kReweightingGains = 0.92;  // of the error of plain sweeps over a part
   activate(options_.head_start > 0 ? headStride() : 1);
   sketch();
   for (int i = 1; i <= options_.head_start; ++i)
@@ -172,7 +172,7 @@ MatrixXf FarFieldFit::amplitudes(const MatrixXf& X) {
   result_.X = X;
   result_.Y.setZero(modes_, result_.Y.cols());
   activate(1);
-  sweep(Step::kLast);
+  sweep(Step::kAmplitudes);
   return std::move(result_.Y);
 }
 

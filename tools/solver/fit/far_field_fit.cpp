@@ -30,7 +30,7 @@ MatrixXd FarFieldFit::sumOfRhs() const {
 }
 
 /// One sweep over the active sources. All but plain sweeps measure the errors that are seen, which the next sweep's weights
-/// may follow; the last has no X-step.
+/// may follow; the last has no X-step, nor has that for amplitudes, which measures nothing.
 void FarFieldFit::sweep(Step step) {
   for (Worker& worker : workers_) {
     worker.row_rhs = MatrixXd::Zero(rows_, modes_);
@@ -51,7 +51,7 @@ void FarFieldFit::sweep(Step step) {
   }
   if (count > 0.0) mean_seen_ = seen / count;
   result_.errors.push_back(std::sqrt(error / std::max(energy, 1e-300)));
-  if (step != Step::kLast) solveX(sumOfRhs());
+  if (step < Step::kLast) solveX(sumOfRhs());
 }
 
 /// Y-step: n x n normal equations per source: those of the areas, changed at nodes with another weight.
@@ -72,6 +72,7 @@ void FarFieldFit::solveY(Sources block, const GramSums& grams, Step step, Worker
           NormalEquations(N, scale, "source " + std::to_string(chunk[i])).solve(b).cast<float>();
       addError(chunk[i], column, b, worker);
     }
+    if (step == Step::kAmplitudes) continue;
     if (step != Step::kPlain) measure(chunk, step == Step::kReweighted, worker);
     if (step != Step::kLast) feedX(chunk, worker);
   }

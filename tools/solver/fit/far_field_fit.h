@@ -33,7 +33,7 @@ class FarFieldFit {
     double seen{0.0};         // sum of the errors seen near the sources, over d
     double count{0.0};        // of them
   };
-  enum class Step : std::uint8_t { kPlain, kMeasured, kReweighted, kLast };
+  enum class Step : std::uint8_t { kPlain, kMeasured, kReweighted, kLast, kAmplitudes };
   using Sources = std::span<const std::int32_t>;
   [[nodiscard]] const FitSource& source(std::int32_t s) const {
     return problem_.sources[static_cast<std::size_t>(s)];

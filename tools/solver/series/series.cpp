@@ -20,15 +20,15 @@
 namespace palpate::solver {
 
 struct SeriesSolver::State {
-  State(const FeModel& fe, const Cholesky& factor, int order, SeriesKind driven_by)
+  State(const FeModel& fe, const Cholesky& factor, const SeriesOrders& orders, SeriesKind driven_by)
       : model(fe),
         kind(driven_by),
-        basis(order),
-        answer_basis(answerOrder(order)),
-        energy_basis(std::min(answerOrder(order) + 1, MonomialBasis::kMaxOrder)),
-        product(basis, order),
-        factor_product(answer_basis, order),
-        energy_rows(CauchyProduct(energy_basis, answerOrder(order)), firstEnergy()),
+        basis(orders.fields),
+        answer_basis(orders.answer),
+        energy_basis(orders.answer + 1),
+        product(basis, orders.fields),
+        factor_product(answer_basis, orders.fields),
+        energy_rows(CauchyProduct(energy_basis, orders.answer), firstEnergy()),
         order_of_nodes(fe, factor),
         points(order_of_nodes.sorted(fe.points())),
         det_points(order_of_nodes.sorted(fe.detPoints())),
@@ -187,7 +187,7 @@ void SeriesSolver::State::nextDegree(int degree) {
   takeFields(first, last, mix.data());
 }
 
-/// For p < |alpha| <= answerOrder(p): f_alpha,i = (alpha_i + 1) W_(alpha + e_i). With f prescribed the
+/// For p < |alpha| <= the degree of the answer: f_alpha,i = (alpha_i + 1) W_(alpha + e_i). With f prescribed the
 /// potential W - f . d takes the place of W, and d is its negative gradient; in these degrees f . d has no
 /// part.
 void SeriesSolver::State::answerFromEnergy() {
@@ -209,8 +209,13 @@ void SeriesSolver::State::answerFromEnergy() {
   }
 }
 
-SeriesSolver::SeriesSolver(const FeModel& model, const Cholesky& factor, int order, SeriesKind kind)
-    : state_(std::make_unique<State>(model, factor, order, kind)) {}
+SeriesSolver::SeriesSolver(const FeModel& model, const Cholesky& factor, const SeriesOrders& orders,
+                           SeriesKind kind) {
+  if (!orders.areKnown())
+    throw std::invalid_argument("a series with fields of degree " + std::to_string(orders.fields) +
+                                " and an answer of degree " + std::to_string(orders.answer));
+  state_ = std::make_unique<State>(model, factor, orders, kind);
+}
 SeriesSolver::~SeriesSolver() = default;
 
 void SeriesSolver::solve(std::span<const Patch> patches) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,6 +10,7 @@
 #include "tools/solver/fem/cholesky.h"
 #include "tools/solver/fem/fe_model.h"
 #include "tools/solver/fem/patch.h"
+#include "tools/solver/series/series_orders.h"
 
 namespace palpate::solver {
 
@@ -33,7 +33,7 @@ struct DomainCriteria {
   double field_error{
       0.01};              ///< largest error of the fields near the patch, of |d|; driven by displacement only
   double min_det_f{0.3};  ///< over all integration points
-  double series_error{0.05};  ///< of the force at the end of the polynomials; driven by displacement only
+  double series_error{0.2};  ///< estimate for the force at the end of the polynomials; driven by displacement only
   double cap{0.05};           ///< m, largest radius; driven by force: of the linear answer
 };
 
@@ -47,24 +47,22 @@ struct DomainCriteria {
 /// thread; the factor is shared.
 class SeriesSolver {
  public:
-  /// @param factor  of K_T(0)  @param order  p, 1 to MonomialBasis::kMaxOrder
-  SeriesSolver(const FeModel& model, const Cholesky& factor, int order,
+  /// @param factor  of K_T(0)  @throw std::invalid_argument on orders that are not known
+  SeriesSolver(const FeModel& model, const Cholesky& factor, const SeriesOrders& orders,
                SeriesKind kind = SeriesKind::kDisplacement);
+  /// The same with the usual degree of the answer.
+  SeriesSolver(const FeModel& model, const Cholesky& factor, int order,
+               SeriesKind kind = SeriesKind::kDisplacement)
+      : SeriesSolver(model, factor, SeriesOrders::of(order), kind) {}
   ~SeriesSolver();
 
   /// @param patches  1 to kLanes contact patches with at least one free node each
   /// @throw std::runtime_error when C_s is not positive definite or a result is not finite
   void solve(std::span<const Patch> patches);
 
-  /// Degree of the answer for fields of degree p: 2p, or less where a MonomialBasis cannot hold the energy,
-  /// which has one degree more.
-  [[nodiscard]] static constexpr int answerOrder(int order) noexcept {
-    return std::max(order, std::min(2 * order, MonomialBasis::kMaxOrder - 1));
-  }
-
   /// The monomials of the fields, degree p.
   [[nodiscard]] const MonomialBasis& basis() const noexcept;
-  /// The monomials of the answer, degree answerOrder(p).
+  /// The monomials of the answer.
   [[nodiscard]] const MonomialBasis& answerBasis() const noexcept;
   /// f_alpha (driven by force: d_alpha) of the position in a lane, alpha = answerBasis()[k].
   [[nodiscard]] Vec3 answer(int lane, int k) const;

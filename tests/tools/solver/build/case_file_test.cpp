@@ -107,7 +107,8 @@ TEST_F(CaseFile, LeavesDefaultsWhereAKeyIsAbsent) {
   const Case c = readCase(write("mesh = \"organ.msh\"\n"));
   EXPECT_EQ(c.E, 160e3);
   EXPECT_EQ(c.nu, 0.48);
-  EXPECT_EQ(c.orderOrDefault(), 3);
+  EXPECT_EQ(c.orders().fields, 3);
+  EXPECT_EQ(c.orders().answer, 6);
   EXPECT_FALSE(c.accessible.has_value());
   EXPECT_FALSE(c.patch_radius.has_value());
 }
@@ -141,6 +142,8 @@ TEST_F(CaseFile, RefusesAnUnknownLaw) {
 }
 TEST_F(CaseFile, RefusesAnOrderAboveSeven) {
   expectRefusal("mesh = \"a\"\n[model]\norder = 8\n", ".toml:3: model.order", "[1, 7]");
+  expectRefusal("mesh = \"a\"\n[model]\nforce_order = 9\n", ".toml:3: model.force_order", "[1, 8]");
+  expectRefusal("mesh = \"a\"\n[model]\ntravel = 0\n", ".toml:3: model.travel", "(0, 1]");
 }
 TEST_F(CaseFile, RefusesAMissingMesh) {
   expectRefusal("[model]\norder = 3\n", ".toml", "mesh is missing");
@@ -239,6 +242,16 @@ TEST_F(CaseCheck, TakesEveryMethodWithNothingButAMesh) {
 TEST_F(CaseCheck, TheOrderIsThatOfASeries) {
   for (const char* method : {"pgd-linear", "pgd-explicit", "pgd-euler"})
     expectRefused(method, "model.order = 3", "model.order", "it is for series-displacement, series-force");
+}
+TEST_F(CaseCheck, TheOrdersFitEachOtherAndATravelChoosesBoth) {
+  const char* const method = "series-displacement";
+  expectRefused(method, "model.force_order = 7", "model.force_order", "expected 3 to 6");
+  expectRefused(method, "model.travel = 0.01\nmodel.order = 4", "model.travel", "it chooses both");
+  expectRefused("series-force", "model.travel = 0.01", "model.travel", "it is for series-displacement");
+  expectRefused("series-force", "model.force_order = 3", "model.force_order", "it is for series-displacement");
+  const Case c = readCase(write("mesh = \"a\"\n[model]\norder = 4\nforce_order = 8\ntravel = 0.01\n"));
+  EXPECT_EQ(c.orders().answer, 8);
+  EXPECT_EQ(c.travel, 0.01);
 }
 TEST_F(CaseCheck, OnlyTheThreePartModelHasANearField) {
   for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"}) {
