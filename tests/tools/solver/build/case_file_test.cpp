@@ -248,7 +248,8 @@ TEST_F(CaseCheck, TheOrdersFitEachOtherAndATravelChoosesBoth) {
   expectRefused(method, "model.force_order = 7", "model.force_order", "expected 3 to 6");
   expectRefused(method, "model.travel = 0.01\nmodel.order = 4", "model.travel", "it chooses both");
   expectRefused("series-force", "model.travel = 0.01", "model.travel", "it is for series-displacement");
-  expectRefused("series-force", "model.force_order = 3", "model.force_order", "it is for series-displacement");
+  expectRefused("series-force", "model.force_order = 3", "model.force_order",
+                "it is for series-displacement");
   const Case c = readCase(write("mesh = \"a\"\n[model]\norder = 4\nforce_order = 8\ntravel = 0.01\n"));
   EXPECT_EQ(c.orders().answer, 8);
   EXPECT_EQ(c.travel, 0.01);
