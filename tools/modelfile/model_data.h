@@ -42,7 +42,7 @@ struct ModelData {
   std::vector<double>
       contact_stiffness;  ///< [places][6][4] K_s at rest and its gradient; "displacement" only
   // Nodal Green's functions, "displacement" only: G nodes that carry load.
-  std::vector<std::int32_t> green_node;            ///< [G] surface nodes, the contact positions first
+  std::vector<std::int32_t> green_node;            ///< [G] surface nodes that patches load, ascending
   std::vector<float> green_Y;                      ///< [G][3][n] m/N
   std::vector<std::int64_t> green_offset;          ///< [G+1]
   std::vector<std::int32_t> green_near_node;       ///< [sum Kg]
