@@ -58,4 +58,7 @@ class MonomialBasis {
   std::vector<MultiIndex> indices_;
 };
 
+/// Highest degrees of a model: of the fields, and of the force, which costs a tick.
+inline constexpr int kMostOrder = 7, kMostForceOrder = 8;
+
 }  // namespace palpate

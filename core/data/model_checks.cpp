@@ -20,10 +20,9 @@ namespace palpate {
 namespace {
 
 void checkOrders(const ModelAttributes& a, const Checker& check) {
-  const int highest = a.parameters == Parameters::kForce ? a.order : MonomialBasis::kMaxOrder;
-  check.require(a.order >= 1 && a.order <= MonomialBasis::kMaxOrder,
-                "attribute order is " + std::to_string(a.order),
-                "1 to " + std::to_string(MonomialBasis::kMaxOrder));
+  const int highest = a.parameters == Parameters::kForce ? a.order : kMostForceOrder;
+  check.require(a.order >= 1 && a.order <= kMostOrder, "attribute order is " + std::to_string(a.order),
+                "1 to " + std::to_string(kMostOrder));
   check.require(a.force_order >= a.order && a.force_order <= highest,
                 "attribute force_order is " + std::to_string(a.force_order),
                 a.order == highest ? std::to_string(highest)

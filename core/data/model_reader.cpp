@@ -79,7 +79,7 @@ void readLevels(const Hdf5Reader& file, Lengths& size, ModelView& v) {
       file.fail(dataset::kLevelsZ.name() + " has " + std::to_string(found) + what + ", expected " +
                 std::to_string(least) + " to " + std::to_string(most));
   };
-  require(" level functions", size.value("C"), 1, MonomialBasis::kMaxCoefficients);
+  require(" level functions", size.value("C"), 1, kMostLevelFunctions);
   require(" levels", size.value("L + 1"), 2, kMaxSteps + 1);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/multi_index.h"
 #include "core/data/datasets.h"
 
 namespace palpate {
@@ -35,18 +36,21 @@ enum class Parameters {
 /// The laws of the material that model files may name. The solver's MaterialLaw says what they are.
 inline constexpr std::array<std::string_view, 2> kLaws{"stvk", "stable-neo-hookean"};
 
+/// Most functions of a level, as many as fields of the highest degree have monomials.
+inline constexpr int kMostLevelFunctions = MonomialBasis::size(kMostOrder);
+
 /// Root attributes of a model file.
 struct ModelAttributes {
-  std::string law;         ///< one of kLaws
-  std::string provenance;  ///< text of a JSON object: who made it, from what, how well it fits
-  double E{0.0};           ///< Young's modulus, Pa, > 0
-  double nu{0.0};          ///< Poisson's ratio, in (-1, 0.5)
-  int order{0};  ///< p, highest degree of the fields, 1 to MonomialBasis::kMaxOrder; unused (0) for "level"
+  std::string law;           ///< one of kLaws
+  std::string provenance;    ///< text of a JSON object: who made it, from what, how well it fits
+  double E{0.0};             ///< Young's modulus, Pa, > 0
+  double nu{0.0};            ///< Poisson's ratio, in (-1, 0.5)
+  int order{0};              ///< p, highest degree of the fields, 1 to kMostOrder; unused (0) for "level"
   double patch_radius{0.0};  ///< a, m, > 0
   double near_radius{0.0};   ///< rho, m, >= 0
   /// d_ref, m, > 0: polynomials of "displacement" models are ones in d / d_ref; else the organ's scale only
   double reference_displacement{0.0};
-  int force_order{0};  ///< highest degree of the contact's answer, p to kMaxOrder; writers take 0 for p
+  int force_order{0};  ///< highest degree of the contact's answer, p to kMostForceOrder; writers take 0 for p
   Parameters parameters{Parameters::kDisplacement};
   double reference_force{0.0};             ///< f_ref, N, > 0 for "force": polynomials are ones in f / f_ref
   std::array<double, 3> load_direction{};  ///< unit vector, for "level"

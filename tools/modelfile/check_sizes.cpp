@@ -24,10 +24,9 @@ void expectTuples(const std::string& dataset, std::size_t found, std::size_t wid
                          std::to_string(width));
 }
 
-std::size_t coefficients(int order) {
-  if (order < 1 || order > MonomialBasis::kMaxOrder)
-    throw ModelFileError("order is " + std::to_string(order) + ", expected 1 to " +
-                         std::to_string(MonomialBasis::kMaxOrder));
+std::size_t coefficients(int order, int most) {
+  if (order < 1 || order > most)
+    throw ModelFileError("order is " + std::to_string(order) + ", expected 1 to " + std::to_string(most));
   return static_cast<std::size_t>(MonomialBasis::size(order));
 }
 
@@ -41,7 +40,7 @@ void checkSurface(const ModelData& d, std::size_t Ns) {
 void checkContact(const ModelData& d, std::size_t M, std::size_t C) {
   expectSize(dataset::kContactAccessible.name(), d.contact_accessible.size(), M);
   const bool load_driven = d.attributes.parameters != Parameters::kDisplacement;
-  const std::size_t Cf = load_driven ? 0 : coefficients(forceOrder(d.attributes));
+  const std::size_t Cf = load_driven ? 0 : coefficients(forceOrder(d.attributes), kMostForceOrder);
   expectSize(dataset::kContactForce.name(), d.contact_force.size(), M * Cf * 3);
   expectSize(dataset::kContactDisplacement.name(), d.contact_displacement.size(),
              load_driven ? M * C * 3 : 0);
@@ -94,16 +93,16 @@ void checkMesh(const ModelData& d) {
 }  // namespace
 
 std::size_t fieldCoefficients(const ModelData& data) {
-  if (data.attributes.parameters != Parameters::kLevel) return coefficients(data.attributes.order);
+  if (data.attributes.parameters != Parameters::kLevel)
+    return coefficients(data.attributes.order, kMostOrder);
   const std::size_t width = 3 * data.contact_node.size();
   if (width == 0)
     throw ModelFileError(dataset::kContactNode.name() + " is empty, expected contact positions");
   expectTuples(dataset::kContactDisplacement.name(), data.contact_displacement.size(), width);
   const std::size_t C = data.contact_displacement.size() / width;
-  if (C == 0 || C > static_cast<std::size_t>(MonomialBasis::kMaxCoefficients))
+  if (C == 0 || C > static_cast<std::size_t>(kMostLevelFunctions))
     throw ModelFileError(dataset::kContactDisplacement.name() + " has " + std::to_string(C) +
-                         " level functions, expected 1 to " +
-                         std::to_string(MonomialBasis::kMaxCoefficients));
+                         " level functions, expected 1 to " + std::to_string(kMostLevelFunctions));
   return C;
 }
 

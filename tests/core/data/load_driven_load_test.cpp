@@ -194,8 +194,8 @@ INSTANTIATE_TEST_SUITE_P(
                   [](const auto& p) { deleteThing(p, "force_order", nullptr); }},
         WrongFile{"ForceOrder", Parameters::kForce, "attribute force_order is 4, expected 3",
                   [](const auto& p) { setNumber(p, "force_order", H5T_NATIVE_INT, 4); }},
-        WrongFile{"Order", Parameters::kForce, "attribute order is 10, expected 1 to 9",
-                  [](const auto& p) { setNumber(p, "order", H5T_NATIVE_INT, 10); }},
+        WrongFile{"Order", Parameters::kForce, "attribute order is 8, expected 1 to 7",
+                  [](const auto& p) { setNumber(p, "order", H5T_NATIVE_INT, 8); }},
         WrongFile{"NoReferenceForce", Parameters::kForce, "attribute reference_force is missing",
                   [](const auto& p) { deleteThing(p, "reference_force", nullptr); }},
         WrongFile{"ReferenceForceIsNoFloat", Parameters::kForce,
@@ -226,11 +226,11 @@ INSTANTIATE_TEST_SUITE_P(
                   [](const auto& p) {
                     replaceWith(p, "levels/Z", H5T_IEEE_F64LE, {3, 1});
                   }},
-        WrongFile{"NoLevelFunction", Parameters::kLevel, "/levels/Z has 0 level functions, expected 1 to 219",
+        WrongFile{"NoLevelFunction", Parameters::kLevel, "/levels/Z has 0 level functions, expected 1 to 119",
                   [](const auto& p) { setLevelFunctions(p, 0); }},
         WrongFile{"TooManyLevelFunctions", Parameters::kLevel,
-                  "/levels/Z has 220 level functions, expected 1 to 219",
-                  [](const auto& p) { setLevelFunctions(p, 220); }},
+                  "/levels/Z has 120 level functions, expected 1 to 119",
+                  [](const auto& p) { setLevelFunctions(p, 120); }},
         WrongFile{"NoLevelAtAll", Parameters::kLevel, "/levels/Z has 0 levels, expected 2 to 100001",
                   [](const auto& p) {
                     replaceWith(p, "levels/Z", H5T_IEEE_F64LE, {3, 0});

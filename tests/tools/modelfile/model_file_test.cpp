@@ -44,7 +44,7 @@ const SyntheticOptions& small() {
 
 TEST(WriteModel, RefusesSizesThatDoNotFit) {
   const std::vector<std::pair<std::string, std::function<void(ModelData&)>>> cases{
-      {"order is 0, expected 1 to 9", [](ModelData& d) { d.attributes.order = 0; }},
+      {"order is 0, expected 1 to 7", [](ModelData& d) { d.attributes.order = 0; }},
       {"/surface/mesh_tag is empty", [](ModelData& d) { d.surface_mesh_tag.clear(); }},
       {"/contact/node is empty", [](ModelData& d) { d.contact_node.clear(); }},
       {"/surface/positions has 125 numbers, expected 126",
@@ -89,7 +89,7 @@ TEST(WriteModel, RefusesLoadDrivenSizesThatDoNotFit) {
        [](ModelData& d) { d.contact_displacement.assign(3, 0.0); }},
       {Parameters::kLevel, "/contact/displacement has",
        [](ModelData& d) { d.contact_displacement.pop_back(); }},
-      {Parameters::kLevel, "/contact/displacement has 0 level functions, expected 1 to 219",
+      {Parameters::kLevel, "/contact/displacement has 0 level functions, expected 1 to 119",
        [](ModelData& d) { d.contact_displacement.clear(); }},
       {Parameters::kLevel, "/levels/Z has 32 numbers, expected a multiple of 3",
        [](ModelData& d) { d.levels_Z.pop_back(); }},

@@ -109,7 +109,7 @@ void checkCase(const Case& c) {
     throw CaseError("model.force_order = " + std::to_string(c.orders().answer) +
                     " does not go with fields of order " + std::to_string(c.orders().fields) + ": expected " +
                     std::to_string(c.orders().fields) + " to " +
-                    std::to_string(std::min(2 * c.orders().fields, SeriesOrders::kMostAnswer)));
+                    std::to_string(std::min(2 * c.orders().fields, kMostForceOrder)));
   if (c.modes && c.field_error)
     throw CaseError("model.field_error does not go with model.modes: it chooses their number");
   if (c.nodalLoad() && c.patch_radius)

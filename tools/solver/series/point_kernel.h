@@ -23,8 +23,7 @@ struct PointInput {
   int coefficients;     ///< stride of U and V
   const Lanes* U;       ///< U_alpha
   const FloatLanes* V;  ///< U_alpha length^|alpha|, for energies and bounds
-  double
-      length;  ///< of the size of an element, m, or N for series driven by force: numbers near 1 for float32
+  double length;        ///< of an element's size, m (driven by force: N): numbers near 1 for float32
 };
 
 // What the kernels of series_kernel.h do with one part of one integration point, for elements of any number of nodes.

@@ -169,8 +169,7 @@ void SeriesSolver::State::fillSides(std::size_t count) {
 /// U = v + W_s f = v - sum_i U_{e_i} (G_s^T v)_i.
 void SeriesSolver::State::nextDegree(int degree) {
   const int first = basis.begin(degree);
-  const int last = basis.begin(degree + 1);
-  const int count = last - first;
+  const int last = basis.begin(degree + 1), count = last - first;
   r.assign(static_cast<std::size_t>(model.nodeCount()) * static_cast<std::size_t>(count) * 3, Lanes{});
   assembleDegree(input(points), product, first, last, r.data());
   fillSides(static_cast<std::size_t>(count));
@@ -210,12 +209,8 @@ void SeriesSolver::State::answerFromEnergy() {
 }
 
 SeriesSolver::SeriesSolver(const FeModel& model, const Cholesky& factor, const SeriesOrders& orders,
-                           SeriesKind kind) {
-  if (!orders.areKnown())
-    throw std::invalid_argument("a series with fields of degree " + std::to_string(orders.fields) +
-                                " and an answer of degree " + std::to_string(orders.answer));
-  state_ = std::make_unique<State>(model, factor, orders, kind);
-}
+                           SeriesKind kind)
+    : state_(std::make_unique<State>(model, factor, orders.checked(), kind)) {}
 SeriesSolver::~SeriesSolver() = default;
 
 void SeriesSolver::solve(std::span<const Patch> patches) {

@@ -33,9 +33,8 @@ struct DomainCriteria {
   double field_error{
       0.01};              ///< largest error of the fields near the patch, of |d|; driven by displacement only
   double min_det_f{0.3};  ///< over all integration points
-  double series_error{
-      0.2};          ///< estimate for the force at the end of the polynomials; driven by displacement only
-  double cap{0.05};  ///< m, largest radius; driven by force: of the linear answer
+  double series_error{0.2};  ///< of the force where the polynomials end; driven by displacement only
+  double cap{0.05};          ///< m, largest radius; driven by force: of the linear answer
 };
 
 /// The series of up to kLanes contact positions at once.                               docs/design.md, Series

@@ -17,7 +17,7 @@ struct KernelInput {
   int coefficients;     ///< stride of U and V
   const Lanes* U;       ///< U_alpha
   const FloatLanes* V;  ///< U_alpha length^|alpha|, for energies and bounds
-  double length;        ///< of the size of an element, m, or N for series driven by force
+  double length;        ///< of an element's size, m (driven by force: N)
 };
 
 /// r[node][k - first][3] += r_alpha for the coefficients first <= k < last of one degree:

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "core/base/multi_index.h"
 
@@ -9,8 +11,6 @@ namespace palpate::solver {
 
 /// Degrees of a series: of the fields, p, and of the answer (the force, where d is prescribed).
 struct SeriesOrders {
-  static constexpr int kMostFields = 7, kMostAnswer = MonomialBasis::kMaxOrder - 1;
-
   int fields;
   int answer;
 
@@ -19,8 +19,15 @@ struct SeriesOrders {
     return {fields, std::max(fields, std::min(2 * fields, 6))};
   }
   [[nodiscard]] constexpr bool areKnown() const noexcept {
-    return fields >= 1 && fields <= kMostFields && answer >= fields &&
-           answer <= std::min(2 * fields, kMostAnswer);
+    return fields >= 1 && fields <= kMostOrder && answer >= fields &&
+           answer <= std::min(2 * fields, kMostForceOrder);
+  }
+  /// @throw std::invalid_argument unless they are known
+  [[nodiscard]] const SeriesOrders& checked() const {
+    if (!areKnown())
+      throw std::invalid_argument("a series with fields of degree " + std::to_string(fields) +
+                                  " and an answer of degree " + std::to_string(answer));
+    return *this;
   }
 };
 

@@ -13,8 +13,9 @@
 
 namespace palpate::server {
 
-/// The organ's rest surface on the wire, and those of its regions. DDS keeps it for late readers that ask for that (transient local). Readers of
-/// default QoS are volatile and get no history: for them it is sent again, twice after each new one, at most once a second.
+/// The organ's rest surface on the wire, and those of its regions. DDS keeps it for late readers that ask for that
+/// (transient local). Readers of default QoS are volatile and get no history: for them it is sent again, twice after each
+/// new one, at most once a second.
 /// Threads: one. Real-time: no.
 class RestSurface {
  public:
