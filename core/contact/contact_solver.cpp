@@ -5,6 +5,7 @@
 
 #include "core/contact/equilibrium.h"
 #include "core/contact/tip_sweep.h"
+#include "core/model/field_evaluation.h"
 
 namespace palpate {
 
@@ -42,7 +43,7 @@ Vec3 shown(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   const Response& response = contact.coupled.response;
   Vec3 d = response.displacement;
   if (contact.carried.constant != Vec3::Zero()) {
-    const double most = response.series_radius + contact.carried.constant.norm();
+    const double most = kShownRadii * response.series_radius + contact.carried.constant.norm();
     d = contact.coupled.displacement;
     d *= std::min(1.0, most / std::max(d.norm(), most));
   }

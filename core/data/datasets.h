@@ -38,7 +38,7 @@ struct Dataset {
 /// All datasets: the only place that spells their paths, types, shapes and units. Ns surface nodes, T triangles, M contact
 /// positions, C coefficients of the fields, Cm of those that modes and near fields have (of a "displacement" model without the
 /// first degree, which nodal Green's functions give), Cf of the contact's force, G nodes that carry load, P places of the
-/// patch's stiffness, n modes, K near nodes of a position, N volume nodes, V tetrahedra, F fixed nodes, R regions, S springs.
+/// patch's stiffness, E = P - M edges between contact positions, Ce coefficients of these, n modes, K near nodes of a position, N volume nodes, V tetrahedra, F fixed nodes, R regions, S springs.
 namespace dataset {
 inline constexpr Dataset<double> kSurfacePositions{"surface/positions", {"Ns", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kSurfaceTriangles{"surface/triangles", {"T", "3"}, ""};
@@ -79,6 +79,13 @@ inline constexpr Dataset<std::int64_t> kGreenOffset{"green/offset", {"G + 1"}, "
 inline constexpr Dataset<std::int32_t> kGreenNearNode{"green/near_node", {"sum Kg"}, ""};
 inline constexpr Dataset<std::int16_t> kGreenNear{"green/near", {"9 sum Kg"}, ""};
 inline constexpr Dataset<float> kGreenNearScale{"green/near_scale", {"G", "3"}, "m/N"};
+
+// What the middles of the edges between contact positions add to the mixture of these, orders of two and more of a
+// "displacement" model. All four, or none.
+inline constexpr Dataset<std::int64_t> kEdgeOffset{"edges/offset", {"E + 1"}, ""};
+inline constexpr Dataset<std::int32_t> kEdgeNode{"edges/node", {"sum Ke"}, ""};
+inline constexpr Dataset<std::int16_t> kEdgeField{"edges/field", {"3 Ce sum Ke"}, ""};
+inline constexpr Dataset<float> kEdgeScale{"edges/scale", {"E", "Ce"}, "m"};
 
 inline constexpr Dataset<double> kMeshNodes{"mesh/nodes", {"N", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kMeshTetrahedra{"mesh/tetrahedra", {"V", "4"}, ""};

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/index.h"
 #include "core/base/multi_index.h"
 #include "core/base/types.h"
 #include "core/data/checker.h"
@@ -125,6 +126,23 @@ void checkGreens(const ModelView& v, const Checker& check) {
             v.surfaceNodes(), check);
 }
 
+/// Edges are those that the stiffness has middles of; their fields are those of positions to some degree.
+void checkEdges(const ModelAttributes& a, const ModelView& v, const Checker& check) {
+  if (v.edge_offset.empty()) return;
+  const std::size_t E = v.edge_offset.size() - 1, edges = v.places() - std::min(v.places(), v.positions());
+  check.require(E == edges && E > 0, dataset::kEdgeScale.name() + " has " + std::to_string(E) + " edges",
+                std::to_string(edges) + ", the places of " + dataset::kContactStiffness.name() +
+                    " less the contact positions, at least 1");
+  const std::size_t Ce = v.edge_scale.size() / E;
+  bool whole = false;
+  for (int degree = 2; degree <= a.order; ++degree)
+    whole = whole || Ce == index(MonomialBasis::size(degree)) - kLinearCoefficients;
+  check.require(whole, dataset::kEdgeScale.name() + " has " + std::to_string(Ce) + " coefficients",
+                "those of degree 2 to one of at most " + std::to_string(a.order));
+  checkNear({dataset::kEdgeOffset.name(), dataset::kEdgeNode.name(), v.edge_offset, v.edge_node},
+            v.surfaceNodes(), check);
+}
+
 /// Of fields: above zero, and so that every number is finite.
 void checkScale(const std::string& name, std::span<const float> scale, const Checker& check) {
   constexpr float kLargest = std::numeric_limits<float>::max() / 32768.0F;
@@ -210,13 +228,17 @@ void checkContents(const ModelAttributes& a, const ModelView& v, const std::stri
   checkScale(dataset::kNearScale.name(), v.near_scale, check);
   checkScale(dataset::kGreenYScale.name(), v.green_Y_scale, check);
   checkScale(dataset::kGreenNearScale.name(), v.green_near_scale, check);
+  checkScale(dataset::kEdgeScale.name(), v.edge_scale, check);
   checkPositions(v, check);
   checkFaces(v, check);
   checkDomain(a.parameters, v.contact_domain_radius, check);
   checkSeries(v.contact_series_radius, v.contact_domain_radius, check);
   checkNear({dataset::kNearOffset.name(), dataset::kNearNode.name(), v.near_offset, v.near_node},
             v.surfaceNodes(), check);
-  if (a.parameters == Parameters::kDisplacement) checkGreens(v, check);
+  if (a.parameters == Parameters::kDisplacement) {
+    checkGreens(v, check);
+    checkEdges(a, v, check);
+  }
   checkLoadDriven(a, v, check);
   const std::size_t N = v.mesh_node_tag.size();
   check.require(N > 0, dataset::kMeshNodes.name() + " is empty", "the volume mesh");

@@ -95,11 +95,17 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
   size["Cm"] = modeCoefficients(a, C);
   if (a.parameters != Parameters::kDisplacement) return size;
   size["Cf"] = sizeOf(a.force_order);
-  size["P"] = v.contact_stiffness.size() / kStiffnessNumbers;
+  size["P"] = v.places();
   size["G"] = v.green_node.size();
   size["G + 1"] = v.green_offset.size();
   size["sum Kg"] = v.green_near_node.size();
   size["9 sum Kg"] = v.green_near.size();
+  if (v.edge_offset.empty()) return size;
+  size["E"] = v.edge_offset.size() - 1;
+  size["E + 1"] = v.edge_offset.size();
+  size["Ce"] = size["E"] == 0 ? 0 : v.edge_scale.size() / size["E"];
+  size["sum Ke"] = v.edge_node.size();
+  size["3 Ce sum Ke"] = v.edge_field.size();
   return size;
 }
 

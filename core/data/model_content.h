@@ -75,6 +75,12 @@ void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit)
     visit(dataset::kGreenNear, v.green_near);
     visit(dataset::kGreenNearScale, v.green_near_scale);
   }
+  if (!v.edge_offset.empty()) {
+    visit(dataset::kEdgeOffset, v.edge_offset);
+    visit(dataset::kEdgeNode, v.edge_node);
+    visit(dataset::kEdgeField, v.edge_field);
+    visit(dataset::kEdgeScale, v.edge_scale);
+  }
   visit(dataset::kMeshNodes, v.mesh_nodes);
   visit(dataset::kMeshTetrahedra, v.mesh_tetrahedra);
   if (!v.mesh_midsides.empty()) visit(dataset::kMeshMidsides, v.mesh_midsides);

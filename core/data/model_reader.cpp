@@ -124,6 +124,16 @@ void readGreens(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.green_near_scale = file.dataset(dataset::kGreenNearScale, size);
 }
 
+void readEdges(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+  if (!file.hasDataset(dataset::kEdgeOffset.path) && !file.hasDataset(dataset::kEdgeScale.path)) return;
+  v.edge_scale = file.dataset(dataset::kEdgeScale, size);
+  size.define("E + 1", size.value("E") + 1);
+  v.edge_offset = file.dataset(dataset::kEdgeOffset, size);
+  v.edge_node = file.dataset(dataset::kEdgeNode, size);
+  size.define("3 Ce sum Ke", 3 * size.value("Ce") * size.value("sum Ke"));
+  v.edge_field = file.dataset(dataset::kEdgeField, size);
+}
+
 void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.mesh_nodes = file.dataset(dataset::kMeshNodes, size);
   v.mesh_tetrahedra = file.dataset(dataset::kMeshTetrahedra, size);
@@ -170,7 +180,10 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
   size.define("Cm", modeCoefficients(a, size.value("C")));
   readContact(file, a, size, contents.view);
   readFields(file, size, contents.view);
-  if (a.parameters == Parameters::kDisplacement) readGreens(file, size, contents.view);
+  if (a.parameters == Parameters::kDisplacement) {
+    readGreens(file, size, contents.view);
+    readEdges(file, size, contents.view);
+  }
   readMesh(file, size, contents.view);
   readRegions(file, size, contents.view);
   readSprings(file, size, contents.view);

@@ -107,6 +107,10 @@ struct ModelView {
   std::span<const std::int32_t> green_near_node;  ///< [sum K] surface nodes
   std::span<const std::int16_t> green_near;       ///< per node [3][K][3], windowed, over their scale
   std::span<const float> green_near_scale;        ///< [G][3] m/N
+  std::span<const std::int64_t> edge_offset;      ///< [E+1] prefix sums of the near nodes' counts, or empty
+  std::span<const std::int32_t> edge_node;        ///< [sum K] surface nodes
+  std::span<const std::int16_t> edge_field;       ///< per edge [Ce][K][3], over their scale
+  std::span<const float> edge_scale;              ///< [E][Ce] m
   std::span<const double> mesh_nodes;             ///< [N][3] m
   std::span<const std::int32_t> mesh_tetrahedra;  ///< [V][4]
   std::span<const std::int32_t> mesh_midsides;    ///< [V][6] of quadratic elements, else empty
@@ -126,6 +130,8 @@ struct ModelView {
   [[nodiscard]] std::size_t triangles() const noexcept { return surface_triangles.size() / 3; }
   [[nodiscard]] std::size_t contactTriangles() const noexcept { return contact_triangles.size() / 3; }
   [[nodiscard]] std::size_t positions() const noexcept { return contact_node.size(); }
+  /// Contact positions and edges between them, of a "displacement" model.
+  [[nodiscard]] std::size_t places() const noexcept { return contact_stiffness.size() / kStiffnessNumbers; }
   [[nodiscard]] std::size_t modes() const noexcept { return modes_X_scale.size(); }
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/base/index.h"
+#include "core/base/length.h"
 #include "core/model/clamp_to_length.h"
 
 namespace palpate {
@@ -18,10 +19,14 @@ std::array<TouchPatch, sizeof...(I)> touchPatches(const MetaModel& model, std::i
 
 using Functions = std::array<double, MonomialBasis::kMaxCoefficients>;
 
+bool isDisplaced(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
+  return model.attributes().parameters == Parameters::kDisplacement;
+}
+
 /// One source that the model answers.
 struct Answered {
   PositionMix mix;
-  Vec3 parameter;                 // no longer than r_max
+  Vec3 parameter;                 // as far as fields go
   std::span<const double> modes;  // its functions that modes and near fields of positions have
 };
 
@@ -30,15 +35,11 @@ bool answer(const MetaModel& model, const FieldSource& source, Functions& values
             Answered& out) noexcept PALPATE_NONBLOCKING {
   out.mix = model.surface().mix(source.s);
   if (out.mix.count == 0) return false;
-  out.parameter = clampToLength(source.parameter, model.response().limit(out.mix));
   const auto size = static_cast<std::size_t>(model.functions().size());
-  model.functions().evaluate(out.parameter, std::span(values).first(size));
+  out.parameter =
+      fieldFunctions(model, source.parameter, model.response().limit(out.mix), std::span(values).first(size));
   out.modes = std::span<const double>(values).first(size).last(modeCoefficients(model.attributes(), size));
   return true;
-}
-
-bool isDisplaced(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
-  return model.attributes().parameters == Parameters::kDisplacement;
 }
 
 Vec3 loadOf(const MetaModel& model, const ContactPoint& s, const Vec3& d) noexcept PALPATE_NONBLOCKING {
@@ -59,13 +60,15 @@ Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, cons
     Answered at;
     if ((displaced && source.s == point) || !answer(model, source, values, at)) continue;
     const Stencil stencil = fieldStencil(model, source.s);
-    for (std::size_t b = 0; b < stencil.count; ++b) {
-      const double weight = source.gain * stencil.weight[b];
-      model.amplitudes().add(stencil.position[b], at.modes, weight, scratch.amplitudes);
-      for (std::size_t k = 0; k < 3; ++k)
-        u += weight * at_point.weight[k] *
-             model.nearField().at(stencil.position[b], at.modes, at_point.node[k]);
-    }
+    for (std::size_t b = 0; b < stencil.count; ++b)
+      model.amplitudes().add(stencil.position[b], at.modes, source.gain * stencil.weight[b],
+                             scratch.amplitudes);
+    forEachNear(model, source.s, stencil, at.modes,
+                [&](const NearField& field, std::int32_t from, std::span<const double> phi,
+                    double weight) noexcept PALPATE_NONBLOCKING {
+                  for (std::size_t k = 0; k < 3; ++k)
+                    u += source.gain * weight * at_point.weight[k] * field.at(from, phi, at_point.node[k]);
+                });
     if (!displaced) continue;
     const Vec3 f = source.gain * loadOf(model, source.s, at.parameter);
     const TouchPatch& from = scratch.touchAt(model, source.s);
@@ -88,7 +91,8 @@ Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, cons
 
 FieldScratch::FieldScratch(const MetaModel& model)
     : amplitudes(static_cast<std::size_t>(model.farField().modes())),
-      near_block(std::max(model.nearField().blockSize(), model.linearField().blockSize())),
+      near_block(std::max(
+          {model.nearField().blockSize(), model.edgeField().blockSize(), model.linearField().blockSize()})),
       patch(model.patches().room()),
       weight(index(model.surface().nodes()), Eigen::Vector4f::Zero()),
       touches(touchPatches(model, std::make_index_sequence<kMaxTools + 1>{})) {}
@@ -101,6 +105,20 @@ const TouchPatch& FieldScratch::touchAt(const MetaModel& model,
   asked[place] = ++questions;
   touches[place].moveTo(model, s);  // nothing to do where it is there
   return touches[place];
+}
+
+Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
+                    std::span<double> values) noexcept PALPATE_NONBLOCKING {
+  const Vec3 edge = clampToLength(parameter, limit);
+  model.functions().evaluate(edge, values);
+  if (!isDisplaced(model)) return edge;
+  const double beyond = std::min(lengthOf(parameter) / limit, kShownRadii) - 1.0;
+  if (!(beyond > 0.0)) return edge;
+  const MonomialBasis& basis = model.functions().basis();
+  for (int degree = 1; degree <= basis.order(); ++degree)
+    for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k)
+      values[index(k)] *= 1.0 + degree * beyond;
+  return (1.0 + beyond) * edge;
 }
 
 Stencil fieldStencil(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
@@ -127,9 +145,11 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
   for (const FieldSource& source : sources) {
     if (!answer(model, source, values, at)) continue;
     const Stencil stencil = fieldStencil(model, source.s);
-    for (std::size_t b = 0; b < stencil.count; ++b)
-      model.nearField().add(stencil.position[b], at.modes, source.gain * stencil.weight[b],
-                            scratch.near_block, u);
+    forEachNear(model, source.s, stencil, at.modes,
+                [&](const NearField& field, std::int32_t from, std::span<const double> phi,
+                    double weight) noexcept PALPATE_NONBLOCKING {
+                  field.add(from, phi, source.gain * weight, scratch.near_block, u);
+                });
     if (!isDisplaced(model)) continue;
     model.patches().at(source.s, false, scratch.patch);
     model.linearField().addNear(scratch.patch, source.gain * loadOf(model, source.s, at.parameter),

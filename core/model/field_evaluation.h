@@ -14,6 +14,15 @@
 
 namespace palpate {
 
+/// Fields of a "displacement" model end at this many r_max.
+inline constexpr double kShownRadii = 2.0;
+
+/// The functions that fields are sums of. Beyond abs(d) = limit those of a "displacement" model go on along d by their tangent,
+/// up to kShownRadii limits; then they stay, as those of a load-driven model do at the limit. docs/design.md, Series
+/// @param limit  m, N or 1  @param[out] values  functions().size(). @return the parameter as far as fields go. Real-time: yes.
+Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
+                    std::span<double> values) noexcept PALPATE_NONBLOCKING;
+
 /// Scratch of the field evaluation; one per thread, allocated before the loop.
 struct FieldScratch {
   explicit FieldScratch(const MetaModel& model);
@@ -34,7 +43,7 @@ struct FieldScratch {
 /// One tool's part in a field.
 struct FieldSource {
   ContactPoint s;
-  Vec3 parameter = Vec3::Zero();  ///< Response::parameter; no longer than r_max
+  Vec3 parameter = Vec3::Zero();  ///< Response::parameter
   double gain{1.0};               ///< any finite number
 
   [[nodiscard]] bool operator==(const FieldSource& other) const noexcept {
@@ -47,13 +56,31 @@ struct FieldSource {
 [[nodiscard]] Stencil fieldStencil(const MetaModel& model,
                                    const ContactPoint& s) noexcept PALPATE_NONBLOCKING;
 
+/// Calls add(field, source, phi, weight) for the near fields that make up the one of a touch at s: of the stencil's positions,
+/// and of the edges round s with the weights 4 lambda_a lambda_b of their middles.           docs/design.md, Parts
+/// @param phi  [Cm] functions of near fields. Real-time: as add is.
+template <class Add>
+void forEachNear(const MetaModel& model, const ContactPoint& s, const Stencil& stencil,
+                 std::span<const double> phi, const Add& add) noexcept PALPATE_NONBLOCKING {
+  for (std::size_t b = 0; b < stencil.count; ++b)
+    add(model.nearField(), stencil.position[b], phi, stencil.weight[b]);
+  if (model.edgeCoefficients() == 0 || stencil.count == 0) return;
+  const std::array<std::int32_t, 6>& place = model.places().of(s.triangle);
+  const auto positions = static_cast<std::int32_t>(model.view().positions());
+  for (std::size_t k = 0; k < 3 && place[0] >= 0; ++k) {
+    const double weight = 4.0 * s.barycentric[(k + 1) % 3] * s.barycentric[(k + 2) % 3];
+    if (weight > 0.0)
+      add(model.edgeField(), place[3 + k] - positions, phi.first(model.edgeCoefficients()), weight);
+  }
+}
+
 /// Displacement of the surface nodes, far plus near field, superposed over the tools (docs/design.md, Parts).
 /// @param[out] u  [Ns][3], m, overwritten; zero when no source is accessible. Cost O(n Ns). Real-time: yes.
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;
 
-/// The field where tools are, m. A tool's own part comes from a table (ContactDimple), within 1 % of |d| of what
-/// evaluateField() gives there. @param points  triangle -1: zero there  @param[out] u  [points]
+/// The field where tools are, m. A tool's own part comes from a table (ContactDimple), which follows the
+/// touch and not the drawn triangles. @param points  triangle -1: zero there  @param[out] u  [points]
 /// Cost O(points C), and with others beside O(points sources (C n + K)). Real-time: yes.
 void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING;

@@ -103,6 +103,10 @@ std::size_t modeRows(const ModelView& view) {
   return view.modes_Y_scale.size() / view.positions();
 }
 
+std::size_t edgeRows(const ModelView& view) {
+  return view.edge_offset.empty() ? 0 : view.edge_scale.size() / (view.edge_offset.size() - 1);
+}
+
 /// The content is what the writer wrote. @return its digest
 Digest verified(const ModelContents& contents, const std::string& name) {
   const std::string& provenance = contents.attributes.provenance;
@@ -183,6 +187,9 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
       amplitudes_(view_.modes_Y, view_.modes_Y_scale, modeRows(view_), view_.modes()),
       near_field_({view_.near_offset, view_.near_node, view_.near_field, view_.near_scale}, modeRows(view_)),
       near_reach_(near_field_.reach(view_.contact_node, view_.surface_positions)),
+      edge_coefficients_(edgeRows(view_)),
+      edge_field_({view_.edge_offset, view_.edge_node, view_.edge_field, view_.edge_scale},
+                  edge_coefficients_),
       linear_field_(view_) {
   if (attributes_.parameters != Parameters::kDisplacement) return;
   checkLoadedNodes(view_, patches_);

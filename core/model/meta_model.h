@@ -55,6 +55,10 @@ class MetaModel {
   /// Of contact positions, by functions; of a "displacement" model those of orders two and more.
   [[nodiscard]] const Amplitudes& amplitudes() const noexcept { return amplitudes_; }
   [[nodiscard]] const NearField& nearField() const noexcept { return near_field_; }
+  /// What middles of edges add, by edge in the order of places(), orders of two and more. docs/design.md, Parts
+  [[nodiscard]] const NearField& edgeField() const noexcept { return edge_field_; }
+  /// Ce, how many of these coefficients edges have; 0 where they add nothing.
+  [[nodiscard]] std::size_t edgeCoefficients() const noexcept { return edge_coefficients_; }
   /// Degree 1 of a "displacement" model's field.
   [[nodiscard]] const LinearField& linearField() const noexcept { return linear_field_; }
   /// [Ns] 1: a tool may touch the surface there. Contact positions say it of corners; a node between two such is one too.
@@ -98,6 +102,8 @@ class MetaModel {
   Amplitudes amplitudes_;
   NearField near_field_;
   double near_reach_;
+  std::size_t edge_coefficients_;
+  NearField edge_field_;
   LinearField linear_field_;
   ContactDimple dimple_;
 };

@@ -69,7 +69,7 @@ ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, 
   constexpr int kInside = 1, kContinued = 4;  // evaluations; second derivatives and eigenvalues cost more
   out.domain_radius = series.domainRadius();
   out.series_radius = series.limit();
-  out.displacement = clampToLength(d, out.series_radius);
+  out.displacement = clampToLength(d, kShownRadii * out.series_radius);
   out.parameter = out.displacement;
   const double length = lengthOf(d);
   if (length > out.series_radius) {

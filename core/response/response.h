@@ -16,7 +16,7 @@ enum class ResponseStatus { kOk, kBeyond, kNoAnswer };
 struct Response {
   Vec3 force = Vec3::Zero();         ///< f, of the tool on the organ, W, N
   Mat3 stiffness = Mat3::Zero();     ///< df/dd, N/m; beyond r_max that of the continued force
-  Vec3 displacement = Vec3::Zero();  ///< the d that the fields show: no longer than series_radius, m
+  Vec3 displacement = Vec3::Zero();  ///< the d that the fields show: no longer than 2 series_radius, m
   double domain_radius{0.0};         ///< d_max(s), m; of a load-driven model that along the load's direction
   double series_radius{
       0.0};  ///< r_max(s) >= d_max(s), m: the polynomials run up to it; load-driven: d_max(s)

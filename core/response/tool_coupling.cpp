@@ -35,21 +35,22 @@ TouchPatch::Averages averaged(const MetaModel& model, const ContactPoint& s, std
   const PatchNodes& nodes = to.nodes();
   for (std::size_t j = 0; j < nodes.count; ++j)
     scratch.weight[index(nodes.node[j])] << static_cast<float>(nodes.weight[j]), nodes.slope[j].cast<float>();
-  for (std::size_t b = 0; b < from.count; ++b) {
-    if (!meets(model, from.position[b], to)) continue;
-    const auto weighs = [&](std::int32_t node) noexcept PALPATE_NONBLOCKING {
-      return scratch.weight[index(node)][0] > 0.0F;
-    };
-    const std::span<const std::int32_t> list = model.nearField().nodes(from.position[b]);
-    if (std::none_of(list.begin(), list.end(), weighs)) continue;
-    const NearField::Block block =
-        model.nearField().block(from.position[b], phi, from.weight[b], scratch.near_block);
+  const auto weighs = [&](std::int32_t node) noexcept PALPATE_NONBLOCKING {
+    return scratch.weight[index(node)][0] > 0.0F;
+  };
+  const auto addBlock = [&](const NearField& field, std::int32_t source, std::span<const double> functions,
+                            double weight) noexcept PALPATE_NONBLOCKING {
+    if (&field == &model.nearField() && !meets(model, source, to)) return;
+    const std::span<const std::int32_t> list = field.nodes(source);
+    if (std::none_of(list.begin(), list.end(), weighs)) return;
+    const NearField::Block block = field.block(source, functions, weight, scratch.near_block);
     Eigen::Matrix<float, 3, 4> near = Eigen::Matrix<float, 3, 4>::Zero();
     for (std::size_t i = 0; i < list.size(); ++i)
       near += Eigen::Map<const Eigen::Vector3f>(block.u.data() + 3 * i) *
               scratch.weight[index(list[i])].transpose();
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += near.col(Eigen::Index(k)).cast<double>();
-  }
+  };
+  forEachNear(model, s, from, phi, addBlock);
   for (std::size_t j = 0; j < nodes.count; ++j) scratch.weight[index(nodes.node[j])].setZero();
   return sum;
 }
@@ -69,10 +70,10 @@ TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, 
   for (Vec3& part : moved) part.setZero();
   const PositionMix from = model.surface().mix(source.s);
   if (from.count == 0 || to.nodes().count == 0) return moved;
-  const Vec3 p = clampToLength(source.parameter, model.response().limit(from));
   std::array<double, MonomialBasis::kMaxCoefficients> all;
   const auto size = index(model.functions().size());
-  model.functions().evaluate(p, std::span(all).first(size));
+  const Vec3 p =
+      fieldFunctions(model, source.parameter, model.response().limit(from), std::span(all).first(size));
   moved = averaged(model, source.s,
                    std::span(all).first(size).last(modeCoefficients(model.attributes(), size)), to, scratch);
   if (isDisplaced(model)) {

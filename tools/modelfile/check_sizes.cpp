@@ -74,6 +74,7 @@ void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t 
   expectSize(dataset::kGreenY.name(), d.green_Y.size(), G * 3 * n);
   expectSize(dataset::kGreenOffset.name(), d.green_offset.size(), displaced ? G + 1 : 0);
   expectSize(dataset::kGreenNear.name(), d.green_near.size(), 9 * d.green_near_node.size());
+  expectSize(dataset::kEdgeField.name(), d.edge_field.size(), 3 * edgeCoefficients(d) * d.edge_node.size());
 }
 
 void checkMesh(const ModelData& d) {

@@ -55,6 +55,10 @@ struct ModelData {
   std::vector<std::int64_t> near_offset;           ///< [M+1]
   std::vector<std::int32_t> near_node;             ///< [sum K]
   std::vector<float> near_field;                   ///< per position [Cm][K_m][3] m
+  int edge_order{0};                               ///< degree of what edges add; 0: nothing
+  std::vector<std::int64_t> edge_offset;           ///< [E+1], or empty
+  std::vector<std::int32_t> edge_node;             ///< [sum Ke]
+  std::vector<float> edge_field;                   ///< per edge [Ce][K_e][3] m
   std::vector<double> mesh_nodes;                  ///< [N][3] m
   std::vector<std::int32_t> mesh_tetrahedra;       ///< [V][4]
   std::vector<std::int32_t> mesh_midsides;         ///< [V][6] of quadratic elements, else empty
@@ -70,6 +74,12 @@ struct ModelData {
   std::vector<std::int32_t> spring_node;           ///< [S] volume nodes, or empty
   std::vector<double> spring_stiffness;            ///< [S] N/m
 };
+
+/// Ce, coefficients of what edges add.
+[[nodiscard]] inline std::size_t edgeCoefficients(const ModelData& d) {
+  return d.edge_order < 2 ? 0
+                          : static_cast<std::size_t>(MonomialBasis::size(d.edge_order)) - kLinearCoefficients;
+}
 
 /// n, the number of modes; 0 without a surface.
 [[nodiscard]] inline std::size_t modeCount(const ModelData& d) {

@@ -92,6 +92,7 @@ PackedFields packFields(const ModelData& data) {
   packNear(data.near_field, data.near_offset, modeCoefficients(data.attributes, fieldCoefficients(data)),
            packed.near);
   packNear(data.green_near, data.green_offset, kLinearCoefficients, packed.green_near);
+  packNear(data.edge_field, data.edge_offset, edgeCoefficients(data), packed.edges);
   return packed;
 }
 

@@ -84,6 +84,7 @@ void makeGroups(const Hdf5Handle& file, const ModelData& data) {
   const ModelAttributes& attributes = data.attributes;
   if (attributes.parameters == Parameters::kLevel) makeGroup(file, groupOf(dataset::kLevelsZ.path));
   if (attributes.parameters == Parameters::kDisplacement) makeGroup(file, groupOf(dataset::kGreenNode.path));
+  if (!data.edge_offset.empty()) makeGroup(file, groupOf(dataset::kEdgeNode.path));
   if (!data.region_name.empty()) makeGroup(file, groupOf(dataset::kRegionName.path));
   if (!data.spring_node.empty()) makeGroup(file, groupOf(dataset::kSpringNode.path));
 }
@@ -202,6 +203,10 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.green_near_node = d.green_near_node;
   v.green_near = fields.green_near.whole;
   v.green_near_scale = fields.green_near.scale;
+  v.edge_offset = d.edge_offset;
+  v.edge_node = d.edge_node;
+  v.edge_field = fields.edges.whole;
+  v.edge_scale = fields.edges.scale;
   v.mesh_nodes = d.mesh_nodes;
   v.mesh_tetrahedra = d.mesh_tetrahedra;
   v.mesh_midsides = d.mesh_midsides;

@@ -110,7 +110,28 @@ INSTANTIATE_TEST_SUITE_P(
                            d.near_node[1] = d.near_node[0];
                          }},
             WrongNumbers{{"StiffnessOfFewerPlaces", "/contact/stiffness has 126 places, expected 127"},
-                         [](ModelData& d) { d.contact_stiffness.resize(d.contact_stiffness.size() - 24); }},
+                         [](ModelData& d) {
+                           d.contact_stiffness.resize(d.contact_stiffness.size() - 24);
+                           d.edge_order = 0;
+                           d.edge_offset.clear(), d.edge_node.clear(), d.edge_field.clear();
+                         }},
+            WrongNumbers{{"FewerEdges", "/edges/scale has 91 edges, expected 92, the places of"},
+                         [](ModelData& d) {
+                           const auto last = static_cast<std::size_t>(d.edge_offset.end()[-2]);
+                           d.edge_offset.pop_back();
+                           d.edge_node.resize(last);
+                           d.edge_field.resize(3 * 16 * last);
+                         }},
+            WrongNumbers{
+                {"EdgesOfAHigherDegree", "/edges/scale has 31 coefficients, expected those of degree 2 to"},
+                [](ModelData& d) {
+                  d.edge_order = 4;
+                  d.edge_field.resize(3 * 31 * d.edge_node.size());
+                }},
+            WrongNumbers{{"EdgeOffsetFalls", "/edges/offset number 2 is 0, expected at least"},
+                         [](ModelData& d) { d.edge_offset[2] = 0; }},
+            WrongNumbers{{"EdgeNode", "/edges/node number 0 is 42, expected 0 to 41"},
+                         [](ModelData& d) { d.edge_node[0] = 42; }},
             WrongNumbers{{"GreensNode", "/green/node number 3 is 42, expected 0 to 41"},
                          [](ModelData& d) { d.green_node[3] = 42; }},
             WrongNumbers{{"GreensOfALoadedNodeMissing", "/green/node lacks node"},

@@ -49,6 +49,11 @@ TEST(Load, GivesBackEveryBitThatWasWritten) {
   EXPECT_TRUE(sameBits(d.green_near_node, v.green_near_node));
   EXPECT_TRUE(sameBits(fields.green_near.whole, v.green_near));
   EXPECT_TRUE(sameBits(fields.green_near.scale, v.green_near_scale));
+  EXPECT_TRUE(sameBits(d.edge_offset, v.edge_offset));
+  EXPECT_TRUE(sameBits(d.edge_node, v.edge_node));
+  EXPECT_TRUE(sameBits(fields.edges.whole, v.edge_field));
+  EXPECT_TRUE(sameBits(fields.edges.scale, v.edge_scale));
+  EXPECT_FALSE(v.edge_node.empty());
   EXPECT_TRUE(sameBits(d.mesh_nodes, v.mesh_nodes));
   EXPECT_TRUE(sameBits(d.mesh_tetrahedra, v.mesh_tetrahedra));
   EXPECT_TRUE(sameBits(d.mesh_node_tag, v.mesh_node_tag));
@@ -81,6 +86,18 @@ TEST(Load, TakesAModelWithoutModesAndNearField) {
   modelfile::writeModel(file.path(), d);
   EXPECT_EQ(complaint(file.path()), "");
   EXPECT_EQ(MetaModel::load(file.path()).view().modes(), 0U);
+}
+
+TEST(Load, TakesAModelWhoseEdgesAddNothing) {
+  ModelData d = goodData();
+  d.edge_order = 0;
+  d.edge_offset.clear(), d.edge_node.clear(), d.edge_field.clear();
+  const TemporaryFile file("without-edges.h5"), with("with-edges.h5");
+  modelfile::writeModel(file.path(), d);
+  modelfile::writeModel(with.path(), goodData());
+  const MetaModel model = MetaModel::load(file.path());
+  EXPECT_EQ(model.edgeCoefficients(), 0U);
+  EXPECT_NE(model.id(), MetaModel::load(with.path()).id());
 }
 
 TEST(Load, LongProvenanceComesBack) {

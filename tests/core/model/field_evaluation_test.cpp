@@ -43,6 +43,23 @@ void addLinear(const ContactPoint& s, const Vec3& d, std::vector<double>& u) {
   }
 }
 
+/// u += sum over the edges round s of 4 lambda_a lambda_b times what their middles add.
+void addEdges(const ContactPoint& s, const std::vector<double>& monomial, std::vector<double>& u) {
+  const ModelView& v = organ().view();
+  const std::size_t E = v.edge_offset.size() - 1, C = v.edge_scale.size() / E;
+  const std::array<std::int32_t, 6>& place = organ().places().of(s.triangle);
+  for (std::size_t corner = 0; corner < 3 && place[3] >= 0; ++corner) {
+    const double w = 4.0 * s.barycentric[(corner + 1) % 3] * s.barycentric[(corner + 2) % 3];
+    const std::size_t e = static_cast<std::size_t>(place[3 + corner]) - v.positions();
+    const auto first = static_cast<std::size_t>(v.edge_offset[e]);
+    const auto K = static_cast<std::size_t>(v.edge_offset[e + 1]) - first;
+    for (std::size_t k = 0; k < C; ++k)
+      for (std::size_t i = 0; i < 3 * K; ++i)
+        u[3 * static_cast<std::size_t>(v.edge_node[first + i / 3]) + i % 3] +=
+            w * monomial[k] * double(v.edge_scale[e * C + k]) * v.edge_field[3 * C * first + k * 3 * K + i];
+  }
+}
+
 /// The sum of the format's text, term by term, in double precision.
 std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
   const ModelView& v = organ().view();
@@ -51,6 +68,7 @@ std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
   MonomialBasis(options().order).evaluate(d / options().reference_displacement, all);
   const std::vector<double> monomial(all.begin() + 3, all.end());
   addLinear(s, d, u);
+  addEdges(s, monomial, u);
   const Stencil mix = organ().mixing().at(organ().surface(), s);
   for (std::size_t b = 0; b < mix.count; ++b) {
     const auto m = static_cast<std::size_t>(mix.position[b]);

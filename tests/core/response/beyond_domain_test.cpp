@@ -61,12 +61,35 @@ TEST(Response, WhereThePolynomialsEndTheForceGoesOnAlongTheStiffnessThatPushesBa
   Response far, edge;
   EXPECT_EQ(respond(organ(), s, d, far), ResponseStatus::kBeyond);
   (void)respond(organ(), s, on_edge * (1.0 - 1e-12), edge);
-  EXPECT_NEAR(far.displacement.norm(), options().series_radius, 1e-15);
+  EXPECT_NEAR(far.displacement.norm(), kShownRadii * options().series_radius, 1e-15);
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(edge.stiffness);
   const Mat3& V = eigen.eigenvectors();
   const Mat3 positive = V * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * V.transpose();
   EXPECT_LT((far.force - edge.force - positive * (d - on_edge)).norm(), 1e-8 * far.force.norm());
   EXPECT_LT(largestDifference(field(s, d), field(s, far.displacement)), 1e-9);
+}
+
+TEST(Response, BeyondItsPolynomialsTheFieldGoesOnByItsTangentAndThenStays) {
+  Random random;
+  for (int sample = 0; sample < 10; ++sample) {
+    const ContactPoint s = random.contactPoint();
+    const Vec3 direction = random.vector(1.0).normalized();
+    Response here;
+    (void)respond(organ(), s, direction, here);
+    const Vec3 edge = here.series_radius * direction;
+    const double h = 1e-3;
+    const std::vector<float> at_edge = field(s, edge), before = field(s, (1.0 - h) * edge),
+                             beyond = field(s, 1.7 * edge), end = field(s, kShownRadii * edge);
+    double largest = 0.0, bent = 0.0;
+    for (std::size_t i = 0; i < at_edge.size(); ++i) {
+      const double u = double{at_edge[i]}, slope = (u - double{before[i]}) / h;
+      largest = std::max(largest, std::abs(double{beyond[i]} - u - 0.7 * slope));
+      bent = std::max(bent, std::abs(double{beyond[i]} - 1.7 * u));
+    }
+    EXPECT_LT(largest, 0.01 * here.series_radius);  // of the difference: h and rounding
+    EXPECT_GT(bent, 5.0 * largest);
+    EXPECT_EQ(field(s, 3.0 * edge), end);
+  }
 }
 
 TEST(Response, ForceHasNoCliffAtTheDomainAndItsStiffnessIsItsSlope) {

@@ -83,12 +83,12 @@ TEST(Step, StiffnessIsTheSlopeOfTheRenderedForce) {
   }
 }
 
-TEST(Step, BeyondTheDomainIsClampedAndFlagged) {
+TEST(Step, FarBeyondTheDomainIsClampedAndFlagged) {
   Driver driver(organ());
   press(driver, 0.012);
   const ToolResult& r = driver.result().tools[0];
   EXPECT_EQ(r.flags & kBeyondDomain, kBeyondDomain);
-  EXPECT_NEAR(vec(r.displacement).norm(), r.domain_radius, 1e-12);
+  EXPECT_LE(vec(r.displacement).norm(), kShownRadii * r.domain_radius + 1e-12);
   EXPECT_GT(r.penetration, 0.011);
   EXPECT_EQ(driver.status(), StepStatus::kFlagged);
 }

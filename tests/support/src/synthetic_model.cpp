@@ -238,6 +238,35 @@ void fillNear(const SyntheticOptions& o, const Icosphere& sphere, const Monomial
   }
 }
 
+/// What edges add: as near fields of positions, smaller, and another one for each edge.
+void fillEdges(const SyntheticOptions& o, const Icosphere& sphere, ModelData& data) {
+  data.edge_order = std::min(o.order, 3);
+  const MonomialBasis basis(data.edge_order);
+  const SmoothPlaces places(data.surface_positions, data.surface_triangles, data.position_of_node);
+  data.edge_offset.push_back(0);
+  for (std::size_t place = data.contact_node.size(); place < places.size(); ++place) {
+    const ContactPoint& s = places.views(place).front().s;
+    Vec3 X = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      X += s.barycentric[k] * o.radius *
+           sphere.nodes[static_cast<std::size_t>(
+               data.surface_triangles[3 * static_cast<std::size_t>(s.triangle) + k])];
+    const std::size_t first = data.edge_node.size();
+    const auto radius = [&](std::int32_t node) {
+      return 1.2 * (o.radius * sphere.nodes[static_cast<std::size_t>(node)] - X).norm();
+    };
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(sphere.nodes.size()); ++node)
+      if (radius(node) < o.near_radius) data.edge_node.push_back(node);
+    const double size = 0.01 + 0.002 * static_cast<double>(place % 7);
+    for (int k = kLinear; k < basis.size(); ++k)
+      for (std::size_t i = first; i < data.edge_node.size(); ++i) {
+        const Vec3 u = size * nearValue(o, basis[k], radius(data.edge_node[i]));
+        for (const double number : u) data.edge_field.push_back(static_cast<float>(number));
+      }
+    data.edge_offset.push_back(static_cast<std::int64_t>(data.edge_node.size()));
+  }
+}
+
 }  // namespace
 
 ModelData syntheticModel(const SyntheticOptions& o) {
@@ -268,6 +297,7 @@ ModelData syntheticModel(const SyntheticOptions& o) {
     fillNear(o, sphere, basis, data);
     fillGreens(o, sphere, basis, data);
     fillStiffness(data, [&](const Vec3& X) { return stiffnessAt(o, X); });
+    if (o.order > 1) fillEdges(o, sphere, data);
     data.contact_series_radius.assign(data.contact_node.size(), std::max(o.series_radius, o.domain_radius));
   }
   fillSyntheticMesh(o, sphere, data);

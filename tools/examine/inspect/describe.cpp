@@ -33,6 +33,7 @@ Json bytesOfParts(const ModelView& v) {
   bytes["near_field"] = bytesOf(v.near_offset, v.near_node, v.near_field, v.near_scale);
   bytes["greens_functions"] = bytesOf(v.green_node, v.green_Y, v.green_Y_scale, v.green_offset,
                                       v.green_near_node, v.green_near, v.green_near_scale);
+  bytes["edges"] = bytesOf(v.edge_offset, v.edge_node, v.edge_field, v.edge_scale);
   bytes["mesh"] =
       bytesOf(v.mesh_nodes, v.mesh_tetrahedra, v.mesh_midsides, v.mesh_node_tag, v.mesh_tetrahedron_tag,
               v.mesh_fixed, v.mesh_surface_node, v.mesh_element_region, v.region_name, v.region_E,

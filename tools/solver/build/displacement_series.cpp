@@ -18,6 +18,7 @@
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/displacement_fields.h"
 #include "tools/solver/build/domain_rings.h"
+#include "tools/solver/build/edge_fields.h"
 #include "tools/solver/build/linear_answers.h"
 #include "tools/solver/build/mesh_error.h"
 #include "tools/solver/build/travel_orders.h"
@@ -221,6 +222,9 @@ modelfile::ModelData Builder::run() {
   a.force_order = force_basis_.order();
   a.near_radius = near_radius_;
   a.reference_displacement = d_ref_;
+  const Stopwatch edge_watch;
+  storeEdgeFields(setup_, factor_, patches_, basis_.order(), options_, data_);
+  report_.series_seconds += edge_watch.seconds();
   return std::move(data_);
 }
 

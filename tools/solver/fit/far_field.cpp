@@ -124,14 +124,13 @@ Index FarFieldFit::modesFor(double error, double asked) const {
 
 /// A basis from a part of the sources, of as many modes as the asked error wants.
 void FarFieldFit::headStart() {
-  constexpr double kReweightingGains = 0.92;  // of the error of plain sweeps over a part
   activate(options_.head_start > 0 ? headStride() : 1);
   sketch();
   for (int i = 1; i <= options_.head_start; ++i)
     sweep(i == options_.head_start ? Step::kMeasured : Step::kPlain);
   for (int round = 0; round < 4 && options_.error > 0.0; ++round) {
     sweep(Step::kLast);
-    const double error = kReweightingGains * quantileOfLargest();
+    const double error = quantileOfLargest();
     if (error <= options_.error || modes_ >= options_.most_modes) break;
     const Index before = modes_;
     grow(modesFor(error, options_.error));

@@ -6,6 +6,8 @@
 #include "block_model.h"
 #include "tools/mesh/box_mesh.h"
 #include "tools/mesh/quadratic.h"
+#include "tools/solver/fem/cholesky.h"
+#include "tools/solver/series/series.h"
 
 namespace palpate::solver {
 namespace {
@@ -103,6 +105,58 @@ TEST_F(QuadraticBlock, SmallTouchesBetweenCornersAreAsNewtonSays) {
     EXPECT_LT(errors.force, 2e-3);
     EXPECT_LT(errors.field, 5e-3);
   }
+}
+
+/// In the middle of an edge the orders of two and more are those of the patch there.
+TEST_F(QuadraticBlock, EdgesAddWhatTheMixtureOfPositionsLacks) {
+  modelfile::ModelData mixed = world_->data;
+  ASSERT_EQ(mixed.edge_order, 3);
+  mixed.edge_order = 0;
+  mixed.edge_offset.clear(), mixed.edge_node.clear(), mixed.edge_field.clear();
+  const palpate::testing::TemporaryFile file("mixed.h5");
+  modelfile::writeModel(file.path(), mixed);
+  const MetaModel model = MetaModel::load(world_->file.path()), without = MetaModel::load(file.path());
+  Cholesky factor(world_->fe);
+  factor.factorize(Eigen::VectorXd::Zero(3 * world_->fe.nodeCount()));
+  SeriesSolver series(world_->fe, factor, model.attributes().order);
+  std::vector<double> power(static_cast<std::size_t>(series.basis().size()));
+  double error = 0.0, error_without = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    ContactPoint s = anywhere(0.012);
+    s.barycentric = {0.0, 0.5, 0.5};
+    const Vec3 d = travel(2e-3);
+    const std::vector<Patch> patch{makePatch(world_->fe, world_->surface, s, world_->setup.patch_radius)};
+    series.solve(patch);
+    series.basis().evaluate(d, power);
+    const auto bent = [&](const MetaModel& of) {  // the field less its linear part
+      constexpr float kSmall = 1e-4F;
+      FieldScratch scratch(of);
+      std::vector<float> u(3 * world_->surface.nodes.size()), linear(u.size());
+      evaluateField(of, s, d, scratch, u);
+      evaluateField(of, s, double{kSmall} * d, scratch, linear);
+      for (std::size_t k = 0; k < u.size(); ++k) u[k] -= linear[k] / kSmall;
+      return u;
+    };
+    const auto off = [&](const std::vector<float>& u) {
+      double largest = 0.0;
+      for (std::size_t node = 0; node < world_->surface.nodes.size(); ++node) {
+        if ((world_->surface.positions[node] - world_->surface.position(s)).norm() >
+            1.5 * world_->setup.patch_radius)
+          continue;  // there the modes' error is larger than what edges add
+        Vec3 truth = Vec3::Zero();
+        for (int k = 3; k < series.basis().size(); ++k)
+          truth +=
+              power[static_cast<std::size_t>(k)] * series.displacement(0, k, world_->surface.nodes[node]);
+        const Vec3 own = Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * node).cast<double>();
+        largest = std::max(largest, (own - truth).norm());
+      }
+      return largest / d.norm();
+    };
+    error += off(bent(model)) / 8.0;
+    error_without += off(bent(without)) / 8.0;
+  }
+  EXPECT_LT(error, 0.25 * error_without) << error << " and " << error_without << " of the travel";
+  EXPECT_LT(error, 2e-3);
 }
 
 /// Across an edge of 90 degrees K_s has kinks that the mesh is too coarse for.
