@@ -24,9 +24,9 @@ namespace palpate::solver {
 
 namespace {
 
-constexpr int kMostDegree = 3;     ///< of what edges add: a fourth costs more than both and gives a tenth
-constexpr double kShortest = 1.15; ///< of an edge that adds something, in patch radii
-constexpr double kReach = 3.0;     ///< of what it adds, in patch radii
+constexpr int kMostDegree = 3;      ///< of what edges add: a fourth costs more than both and gives a tenth
+constexpr double kShortest = 1.15;  ///< of an edge that adds something, in patch radii
+constexpr double kReach = 3.0;      ///< of what it adds, in patch radii
 
 ModelView surfaceOf(const modelfile::ModelData& data) {
   ModelView view;
