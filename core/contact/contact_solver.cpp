@@ -5,7 +5,6 @@
 
 #include "core/contact/equilibrium.h"
 #include "core/contact/tip_sweep.h"
-#include "core/model/field_evaluation.h"
 
 namespace palpate {
 
@@ -37,13 +36,13 @@ bool beganSoftly(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   return depth <= kDeep && contact.coupled.response.force.norm() <= owed + kSmallForce;
 }
 
-/// What the patch moved as the model shows it: no farther than what others do by themselves and the tool's own domain. At the border
-/// of the accessible part an anchor waits, with a displacement along the surface that no friction would hold.
+/// What the patch moved as the model shows it: no farther than what others do by themselves and the field of the tool goes. At the
+/// border of the accessible part an anchor waits, with a displacement along the surface that no friction would hold.
 Vec3 shown(const Contact& contact) noexcept PALPATE_NONBLOCKING {
   const Response& response = contact.coupled.response;
   Vec3 d = response.displacement;
   if (contact.carried.constant != Vec3::Zero()) {
-    const double most = kShownRadii * response.series_radius + contact.carried.constant.norm();
+    const double most = response.shown_radius + contact.carried.constant.norm();
     d = contact.coupled.displacement;
     d *= std::min(1.0, most / std::max(d.norm(), most));
   }

@@ -38,7 +38,8 @@ struct Dataset {
 /// All datasets: the only place that spells their paths, types, shapes and units. Ns surface nodes, T triangles, M contact
 /// positions, C coefficients of the fields, Cm of those that modes and near fields have (of a "displacement" model without the
 /// first degree, which nodal Green's functions give), Cf of the contact's force, G nodes that carry load, P places of the
-/// patch's stiffness, E = P - M edges between contact positions, Ce coefficients of these, n modes, K near nodes of a position, N volume nodes, V tetrahedra, F fixed nodes, R regions, S springs.
+/// patch's stiffness, E = P - M edges between contact positions, Ce coefficients of these, n modes, K near nodes of a position,
+/// N volume nodes, V tetrahedra, F fixed nodes, R regions, S springs.
 namespace dataset {
 inline constexpr Dataset<double> kSurfacePositions{"surface/positions", {"Ns", "3"}, "m"};
 inline constexpr Dataset<std::int32_t> kSurfaceTriangles{"surface/triangles", {"T", "3"}, ""};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/data/model_reader.h"
 
+#include <algorithm>
+#include <array>
+
 #include "core/base/multi_index.h"
 #include "core/data/datasets.h"
 #include "core/data/hdf5_reader.h"
@@ -124,8 +127,13 @@ void readGreens(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.green_near_scale = file.dataset(dataset::kGreenNearScale, size);
 }
 
+bool hasEdges(const Hdf5Reader& file) {
+  const std::array<const char*, 4> paths{dataset::kEdgeOffset.path, dataset::kEdgeNode.path,
+                                         dataset::kEdgeField.path, dataset::kEdgeScale.path};
+  return std::any_of(paths.begin(), paths.end(), [&](const char* path) { return file.hasDataset(path); });
+}
+
 void readEdges(const Hdf5Reader& file, Lengths& size, ModelView& v) {
-  if (!file.hasDataset(dataset::kEdgeOffset.path) && !file.hasDataset(dataset::kEdgeScale.path)) return;
   v.edge_scale = file.dataset(dataset::kEdgeScale, size);
   size.define("E + 1", size.value("E") + 1);
   v.edge_offset = file.dataset(dataset::kEdgeOffset, size);
@@ -182,7 +190,9 @@ ModelContents readModel(const SealedImage& image, const std::string& name) {
   readFields(file, size, contents.view);
   if (a.parameters == Parameters::kDisplacement) {
     readGreens(file, size, contents.view);
-    readEdges(file, size, contents.view);
+    if (hasEdges(file)) readEdges(file, size, contents.view);
+  } else if (hasEdges(file)) {
+    file.fail("has /edges, expected none in a model driven by " + std::string(toString(a.parameters)));
   }
   readMesh(file, size, contents.view);
   readRegions(file, size, contents.view);

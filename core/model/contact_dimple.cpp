@@ -1,80 +1,126 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/model/contact_dimple.h"
 
-#include <array>
-
-#include "core/base/index.h"
+#include <algorithm>
 
 namespace palpate {
 
-ContactDimple::ContactDimple(const Parts& parts, const SmoothPlaces& places)
-    : linear_(places.size()),
-      bend_count_(parts.view.positions() == 0 ? 0
-                                              : parts.view.modes_Y_scale.size() / parts.view.positions()) {
-  const std::size_t n = parts.view.modes();
-  PatchNodes patch = parts.patches.room();
-  std::vector<float> y(n);
-  for (std::size_t place = 0; place < places.size(); ++place) {
-    const ContactPoint& s = places.views(place).front().s;
-    parts.patches.at(s, false, patch);
-    const NodeMix nodes = parts.surface.nodesAt(s);
-    Mat3 per_load = Mat3::Zero();
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      std::fill(y.begin(), y.end(), 0.0F);
-      parts.linear.addAmplitudes(patch, Vec3::Unit(axis), y);
-      for (std::size_t k = 0; k < 3; ++k)
-        if (nodes.weight[k] > 0.0)
-          per_load.col(axis) +=
-              nodes.weight[k] * (parts.modes.at(y, nodes.node[k]) +
-                                 parts.linear.nearAt(patch, Vec3::Unit(axis), nodes.node[k]));
-    }
+namespace {
+
+/// The whole field at places, by the functions that it is a sum of.
+class FieldThere {
+ public:
+  explicit FieldThere(const ContactDimple::Parts& parts)
+      : parts_(parts),
+        modes_(parts.view.modes()),
+        patch_(parts.patches.room()),
+        y_(modes_),
+        X_(3 * modes_),
+        one_(parts.rows - kLinearCoefficients, 0.0) {}
+
+  /// @param[out] u  rows, of three numbers each, m
+  void at(std::size_t place, std::size_t rows, float* u) {
+    const ContactPoint& s = parts_.places.views(place).front().s;
+    nodes_ = parts_.surface.nodesAt(s);
+    std::fill(X_.begin(), X_.end(), 0.0F);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (nodes_.weight[k] > 0.0)
+        parts_.modes.addNode(nodes_.node[k], static_cast<float>(nodes_.weight[k]), X_);
+    parts_.patches.at(s, false, patch_);
     PatchStiffness::Value stiffness;
-    parts.stiffness.at(parts.surface, s, stiffness);
-    linear_[place] = (per_load * stiffness.K).cast<float>();
+    parts_.stiffness.at(parts_.surface, s, stiffness);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      store(linear(parts_.reference * stiffness.K.col(axis)), u + 3 * axis);
+    const Stencil stencil = parts_.mixing.at(parts_.surface, s);
+    for (std::size_t row = kLinearCoefficients; row < rows; ++row)
+      store(bend(place, stencil, row), u + 3 * row);
   }
-  std::vector<double> one(bend_count_, 0.0);
-  for (std::size_t m = 0; m < parts.view.positions(); ++m) {
-    const std::int32_t node = parts.view.contact_node[m];
-    for (std::size_t k = 0; k < bend_count_; ++k) {
-      one[k] = 1.0;
-      std::fill(y.begin(), y.end(), 0.0F);
-      parts.amplitudes.add(static_cast<std::int32_t>(m), one, 1.0, y);
-      const Vec3 u = parts.modes.at(y, node) + parts.near.at(static_cast<std::int32_t>(m), one, node);
-      for (const double number : u) bends_.push_back(static_cast<float>(number));
-      one[k] = 0.0;
+
+ private:
+  static void store(const Vec3& from, float* to) { Eigen::Map<Eigen::Vector3f>{to} = from.cast<float>(); }
+
+  /// Of something at a node, its value at the place.
+  template <class At>
+  [[nodiscard]] Vec3 atNodes(const At& at) const {
+    Vec3 u = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      if (nodes_.weight[k] > 0.0) u += nodes_.weight[k] * at(nodes_.node[k]);
+    return u;
+  }
+
+  /// What the modes give with the amplitudes y_.
+  [[nodiscard]] Vec3 modes() const {
+    const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3>> X(X_.data(), Eigen::Index(modes_), 3);
+    return (X.transpose() * Eigen::Map<const Eigen::VectorXf>(y_.data(), Eigen::Index(modes_)))
+        .cast<double>();
+  }
+
+  [[nodiscard]] Vec3 linear(const Vec3& force) {
+    std::fill(y_.begin(), y_.end(), 0.0F);
+    parts_.linear.addAmplitudes(patch_, force, y_);
+    return modes() + atNodes([&](std::int32_t node) { return parts_.linear.nearAt(patch_, force, node); });
+  }
+
+  [[nodiscard]] Vec3 bend(std::size_t place, const Stencil& stencil, std::size_t row) {
+    one_[row - kLinearCoefficients] = 1.0;
+    std::fill(y_.begin(), y_.end(), 0.0F);
+    Vec3 u = Vec3::Zero();
+    for (std::size_t b = 0; b < stencil.count; ++b) {
+      parts_.amplitudes.add(stencil.position[b], one_, stencil.weight[b], y_);
+      u += stencil.weight[b] *
+           atNodes([&](std::int32_t node) { return parts_.near.at(stencil.position[b], one_, node); });
     }
+    if (place >= parts_.view.positions()) {
+      const auto edge = static_cast<std::int32_t>(place - parts_.view.positions());
+      u += atNodes([&](std::int32_t node) {
+        return parts_.edges.at(edge, std::span(one_).first(parts_.edge_rows), node);
+      });
+    }
+    one_[row - kLinearCoefficients] = 0.0;
+    return u + modes();
+  }
+
+  const ContactDimple::Parts& parts_;
+  std::size_t modes_;
+  PatchNodes patch_;
+  NodeMix nodes_{};
+  std::vector<float> y_;     // [n]
+  std::vector<float> X_;     // [3][n]
+  std::vector<double> one_;  // [Cm]
+};
+
+}  // namespace
+
+ContactDimple::ContactDimple(const Parts& parts)
+    : positions_(parts.view.positions()),
+      rows_(parts.rows),
+      edge_rows_(kLinearCoefficients + parts.edge_rows),
+      position_(positions_ * 3 * rows_),
+      edge_((parts.places.size() - positions_) * 3 * edge_rows_) {
+  FieldThere field(parts);
+  for (std::size_t m = 0; m < positions_; ++m) field.at(m, rows_, position_.data() + 3 * rows_ * m);
+  for (std::size_t place = positions_; place < parts.places.size(); ++place) {
+    float* const beyond = edge_.data() + 3 * edge_rows_ * (place - positions_);
+    field.at(place, edge_rows_, beyond);
+    const ContactPoint& s = parts.places.views(place).front().s;
+    const std::array<std::int32_t, 6>& corner = parts.places.of(s.triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (s.barycentric[k] > 0.0)
+        for (std::size_t i = 0; i < 3 * edge_rows_; ++i) beyond[i] -= 0.5F * ofPosition(corner[k])[i];
   }
 }
 
 Vec3 ContactDimple::at(const SmoothPlaces& places, const ContactPoint& s, const PositionMix& mix,
-                       const Vec3& d, std::span<const double> phi) const noexcept PALPATE_NONBLOCKING {
+                       std::span<const double> phi) const noexcept PALPATE_NONBLOCKING {
+  Vec3 u = Vec3::Zero();
+  const auto add = [&](const float* table, std::size_t rows, double weight) noexcept PALPATE_NONBLOCKING {
+    for (std::size_t k = 0; k < rows; ++k)
+      u += weight * phi[k] * Eigen::Map<const Eigen::Vector3f>(table + 3 * k).cast<double>();
+  };
+  for (std::size_t b = 0; b < index(mix.count); ++b) add(ofPosition(mix.position[b]), rows_, mix.weight[b]);
   const std::array<std::int32_t, 6>& place = places.of(s.triangle);
-  Eigen::Matrix3f linear = Eigen::Matrix3f::Zero();
-  if (place[0] < 0) {
-    for (std::size_t b = 0; b < index(mix.count); ++b)
-      linear += static_cast<float>(mix.weight[b]) * linear_[index(mix.position[b])];
-  } else {
-    std::array<double, 3> corner{}, middle{};  // hat functions; middles opposite to the corners
-    const std::array<double, 3>& l = s.barycentric;
-    std::size_t near = 3;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (l[k] > 0.5) near = k;
-    for (std::size_t k = 0; k < 3; ++k) middle[k] = near == 3 ? 1.0 - 2.0 * l[k] : 0.0;
-    if (near < 3) {
-      corner[near] = 2.0 * l[near] - 1.0;
-      middle[(near + 2) % 3] = 2.0 * l[(near + 1) % 3];
-      middle[(near + 1) % 3] = 2.0 * l[(near + 2) % 3];
-    }
-    for (std::size_t k = 0; k < 3; ++k)
-      linear += static_cast<float>(corner[k]) * linear_[index(place[k])] +
-                static_cast<float>(middle[k]) * linear_[index(place[3 + k])];
-  }
-  Vec3 u = linear.cast<double>() * d;
-  for (std::size_t b = 0; b < index(mix.count); ++b) {
-    const float* const bend = bends_.data() + 3 * bend_count_ * index(mix.position[b]);
-    for (std::size_t k = 0; k < bend_count_; ++k)
-      u += mix.weight[b] * phi[k] * Eigen::Map<const Eigen::Vector3f>(bend + 3 * k).cast<double>();
-  }
+  for (std::size_t k = 0; k < 3 && place[0] >= 0; ++k)
+    add(ofEdge(place[3 + k]), edge_rows_, 4.0 * s.barycentric[(k + 1) % 3] * s.barycentric[(k + 2) % 3]);
   return u;
 }
 

@@ -14,47 +14,62 @@
 #include "core/model/fields.h"
 #include "core/model/linear_field.h"
 #include "core/model/patch_stiffness.h"
+#include "core/model/smooth_mixing.h"
 #include "core/surface/contact_patches.h"
 #include "core/surface/smooth_places.h"
+#include "core/surface/surface_mesh.h"
 
 namespace palpate {
 
 /// The surface where a tool is: u(X(s); s, d) of its own touch, which a tick reports. A table, so that a tick needs no modes;
-/// made at load from the same modes and near fields as the whole field, and linear between its places: contact positions and
-/// middles of edges for order one, which equals the whole field there; contact positions for the rest. Of a "displacement"
-/// model only.
+/// made at load from the whole field, which it equals at contact positions, and at edge midpoints up to the degree that edges
+/// have; quadratic over a triangle. Of a "displacement" model only.
 class ContactDimple {
  public:
-  /// What the model gives at contact positions, orders of two and more. Cost O(k n) for each place and patches of k nodes.
+  /// What the whole field is made of.
   struct Parts {
     const ModelView& view;
+    const SurfaceMesh& surface;
+    const SmoothPlaces& places;
     const ContactPatches& patches;
     const PatchStiffness& stiffness;
-    const SurfaceMesh& surface;
+    const SmoothMixing& mixing;
     const SeparatedField& modes;
     const Amplitudes& amplitudes;
     const NearField& near;
+    const NearField& edges;
     const LinearField& linear;
+    std::size_t rows;       ///< C
+    std::size_t edge_rows;  ///< Ce
+    double reference;       ///< d_ref, m
   };
   ContactDimple() = default;
-  ContactDimple(const Parts& parts, const SmoothPlaces& places);
+  /// Cost O(k n) for each place and patches of k nodes, O(Ce n) for each edge.
+  explicit ContactDimple(const Parts& parts);
 
-  /// @param mix  of s  @param d  m  @param phi  [Cm] the functions of orders two and more at d. Cost O(C). Real-time: yes.
+  /// @param mix  of s  @param phi  [C] the functions that fields are sums of. Cost O(C). Real-time: yes.
   [[nodiscard]] Vec3 at(const SmoothPlaces& places, const ContactPoint& s, const PositionMix& mix,
-                        const Vec3& d, std::span<const double> phi) const noexcept PALPATE_NONBLOCKING;
+                        std::span<const double> phi) const noexcept PALPATE_NONBLOCKING;
   /// Asks the cache for what at() reads. @param place  SmoothPlaces::of() a triangle. Real-time: yes.
   void expect(const std::array<std::int32_t, 6>& place) const noexcept PALPATE_NONBLOCKING {
-    if (linear_.empty() || place[0] < 0) return;
-    for (const std::int32_t at : place) prefetch(linear_[index(at)]);
-    const std::size_t bend = 3 * bend_count_;
-    for (std::size_t k = 0; k < 3; ++k)
-      prefetch(bends_.data() + bend * index(place[k]), bend * sizeof(float));
+    if (position_.empty() || place[0] < 0) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      prefetch(ofPosition(place[k]), 3 * rows_ * sizeof(float));
+      prefetch(ofEdge(place[3 + k]), 3 * edge_rows_ * sizeof(float));
+    }
   }
 
  private:
-  std::vector<Eigen::Matrix3f> linear_;  // [places] du/dd at rest, 1
-  std::vector<float> bends_;             // [M][Cm][3] m
-  std::size_t bend_count_{0};            // Cm
+  [[nodiscard]] const float* ofPosition(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
+    return position_.data() + 3 * rows_ * index(position);
+  }
+  [[nodiscard]] const float* ofEdge(std::int32_t place) const noexcept PALPATE_NONBLOCKING {
+    return edge_.data() + 3 * edge_rows_ * (index(place) - positions_);
+  }
+
+  std::size_t positions_{0}, rows_{0}, edge_rows_{0};  // M, C, 3 + Ce
+  std::vector<float> position_;                        // [M][C][3] m
+  std::vector<float> edge_;                            // [E][3 + Ce][3] m, beyond the mean of the edge's ends
 };
 
 }  // namespace palpate

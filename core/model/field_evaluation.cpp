@@ -19,15 +19,12 @@ std::array<TouchPatch, sizeof...(I)> touchPatches(const MetaModel& model, std::i
 
 using Functions = std::array<double, MonomialBasis::kMaxCoefficients>;
 
-bool isDisplaced(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
-  return model.attributes().parameters == Parameters::kDisplacement;
-}
-
 /// One source that the model answers.
 struct Answered {
   PositionMix mix;
   Vec3 parameter;                 // as far as fields go
-  std::span<const double> modes;  // its functions that modes and near fields of positions have
+  std::span<const double> all;    // its functions
+  std::span<const double> modes;  // those that modes and near fields of positions have
 };
 
 /// @return false where the model has no answer
@@ -38,7 +35,8 @@ bool answer(const MetaModel& model, const FieldSource& source, Functions& values
   const auto size = static_cast<std::size_t>(model.functions().size());
   out.parameter =
       fieldFunctions(model, source.parameter, model.response().limit(out.mix), std::span(values).first(size));
-  out.modes = std::span<const double>(values).first(size).last(modeCoefficients(model.attributes(), size));
+  out.all = std::span<const double>(values).first(size);
+  out.modes = out.all.last(modeCoefficients(model.attributes(), size));
   return true;
 }
 
@@ -51,7 +49,7 @@ Vec3 loadOf(const MetaModel& model, const ContactPoint& s, const Vec3& d) noexce
 /// What the others add at a point: the modes, and near fields where they reach.
 Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, const ContactPoint& point,
               FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  const bool displaced = isDisplaced(model);
+  const bool displaced = model.isDisplacementDriven();
   const NodeMix at_point = model.surface().nodesAt(point);
   std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
   Vec3 u = Vec3::Zero();
@@ -63,12 +61,11 @@ Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, cons
     for (std::size_t b = 0; b < stencil.count; ++b)
       model.amplitudes().add(stencil.position[b], at.modes, source.gain * stencil.weight[b],
                              scratch.amplitudes);
-    forEachNear(model, source.s, stencil, at.modes,
-                [&](const NearField& field, std::int32_t from, std::span<const double> phi,
-                    double weight) noexcept PALPATE_NONBLOCKING {
-                  for (std::size_t k = 0; k < 3; ++k)
-                    u += source.gain * weight * at_point.weight[k] * field.at(from, phi, at_point.node[k]);
-                });
+    forEachNear(model, source.s, stencil, at.modes, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
+      for (std::size_t k = 0; k < 3; ++k)
+        u += source.gain * part.weight * at_point.weight[k] *
+             part.field.at(part.source, part.phi, at_point.node[k]);
+    });
     if (!displaced) continue;
     const Vec3 f = source.gain * loadOf(model, source.s, at.parameter);
     const TouchPatch& from = scratch.touchAt(model, source.s);
@@ -111,7 +108,7 @@ Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
                     std::span<double> values) noexcept PALPATE_NONBLOCKING {
   const Vec3 edge = clampToLength(parameter, limit);
   model.functions().evaluate(edge, values);
-  if (!isDisplaced(model)) return edge;
+  if (!model.isDisplacementDriven()) return edge;
   const double beyond = std::min(lengthOf(parameter) / limit, kShownRadii) - 1.0;
   if (!(beyond > 0.0)) return edge;
   const MonomialBasis& basis = model.functions().basis();
@@ -121,8 +118,27 @@ Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
   return (1.0 + beyond) * edge;
 }
 
+void fieldGradients(const MetaModel& model, const Vec3& d, double limit,
+                    std::span<Vec3> gradient) noexcept PALPATE_NONBLOCKING {
+  model.functions().gradient(clampToLength(d, limit), gradient);
+  const double length = lengthOf(d), past = limit > 0.0 ? length / limit - 1.0 : 0.0;
+  const double beyond = std::clamp(past, 0.0, kShownRadii - 1.0);
+  const Vec3 along = beyond > 0.0 ? Vec3(d / length) : Vec3::Zero();
+  const MonomialBasis& basis = model.functions().basis();
+  for (int degree = 1; degree <= basis.order(); ++degree) {
+    // of phi(d) = (1 + n beyond) phi(edge); past the end, phi(end) |d| / |end|
+    const double across = (1.0 + degree * beyond) / (1.0 + beyond);
+    const double radial = past > beyond ? across / degree : 1.0;
+    for (int k = basis.begin(degree); k < basis.begin(degree + 1); ++k) {
+      Vec3& g = gradient[index(k)];
+      g = (across * g + (radial - across) * along.dot(g) * along) / model.functions().reference();
+    }
+  }
+}
+
 Stencil fieldStencil(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
-  return isDisplaced(model) ? model.mixing().at(model.surface(), s) : linearStencil(model.surface().mix(s));
+  return model.isDisplacementDriven() ? model.mixing().at(model.surface(), s)
+                                      : linearStencil(model.surface().mix(s));
 }
 
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
@@ -136,7 +152,7 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
     for (std::size_t b = 0; b < stencil.count; ++b)
       model.amplitudes().add(stencil.position[b], at.modes, source.gain * stencil.weight[b],
                              scratch.amplitudes);
-    if (!isDisplaced(model)) continue;
+    if (!model.isDisplacementDriven()) continue;
     model.patches().at(source.s, false, scratch.patch);
     model.linearField().addAmplitudes(scratch.patch, source.gain * loadOf(model, source.s, at.parameter),
                                       scratch.amplitudes);
@@ -145,12 +161,10 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
   for (const FieldSource& source : sources) {
     if (!answer(model, source, values, at)) continue;
     const Stencil stencil = fieldStencil(model, source.s);
-    forEachNear(model, source.s, stencil, at.modes,
-                [&](const NearField& field, std::int32_t from, std::span<const double> phi,
-                    double weight) noexcept PALPATE_NONBLOCKING {
-                  field.add(from, phi, source.gain * weight, scratch.near_block, u);
-                });
-    if (!isDisplaced(model)) continue;
+    forEachNear(model, source.s, stencil, at.modes, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
+      part.field.add(part.source, part.phi, source.gain * part.weight, scratch.near_block, u);
+    });
+    if (!model.isDisplacementDriven()) continue;
     model.patches().at(source.s, false, scratch.patch);
     model.linearField().addNear(scratch.patch, source.gain * loadOf(model, source.s, at.parameter),
                                 scratch.near_block, u);
@@ -159,7 +173,7 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
 
 void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
-  const bool displaced = isDisplaced(model);
+  const bool displaced = model.isDisplacementDriven();
   for (std::size_t i = 0; i < points.size(); ++i) {
     u[i] = Vec3::Zero();
     if (points[i].triangle < 0) continue;
@@ -169,7 +183,7 @@ void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, Field
       Answered at;
       if (displaced && !(source.s == points[i])) others = true;
       if (!displaced || !(source.s == points[i]) || !answer(model, source, values, at)) continue;
-      u[i] += source.gain * model.dimple().at(model.places(), source.s, at.mix, at.parameter, at.modes);
+      u[i] += source.gain * model.dimple().at(model.places(), source.s, at.mix, at.all);
     }
     if (others) u[i] += othersAt(model, sources, points[i], scratch);
   }

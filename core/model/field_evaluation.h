@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/contact_point.h"
+#include "core/base/index.h"
 #include "core/base/max_tools.h"
 #include "core/base/types.h"
 #include "core/model/meta_model.h"
@@ -17,11 +18,16 @@ namespace palpate {
 /// Fields of a "displacement" model end at this many r_max.
 inline constexpr double kShownRadii = 2.0;
 
-/// The functions that fields are sums of. Beyond abs(d) = limit those of a "displacement" model go on along d by their tangent,
-/// up to kShownRadii limits; then they stay, as those of a load-driven model do at the limit. docs/design.md, Series
+/// The functions that fields are sums of. Beyond abs(d) = limit those of a "displacement" model are extrapolated linearly along
+/// d, up to kShownRadii limits; then they stay, as those of a load-driven model do at the limit. docs/design.md, Series
 /// @param limit  m, N or 1  @param[out] values  functions().size(). @return the parameter as far as fields go. Real-time: yes.
 Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
                     std::span<double> values) noexcept PALPATE_NONBLOCKING;
+
+/// Their gradients by d, 1/m, of a "displacement" model; beyond kShownRadii limits, where a tool's own part goes on in proportion
+/// (ownPart()), those of that. @param[out] gradient  functions().size(). Real-time: yes.
+void fieldGradients(const MetaModel& model, const Vec3& d, double limit,
+                    std::span<Vec3> gradient) noexcept PALPATE_NONBLOCKING;
 
 /// Scratch of the field evaluation; one per thread, allocated before the loop.
 struct FieldScratch {
@@ -56,21 +62,38 @@ struct FieldSource {
 [[nodiscard]] Stencil fieldStencil(const MetaModel& model,
                                    const ContactPoint& s) noexcept PALPATE_NONBLOCKING;
 
-/// Calls add(field, source, phi, weight) for the near fields that make up the one of a touch at s: of the stencil's positions,
-/// and of the edges round s with the weights 4 lambda_a lambda_b of their middles.           docs/design.md, Parts
+/// One of the near fields that make up that of a touch.
+struct NearPart {
+  const NearField& field;
+  std::int32_t source;          ///< of the field: a contact position, or an edge
+  std::span<const double> phi;  ///< its functions
+  double weight;
+  Vec3 centre;   ///< of the source, m
+  double reach;  ///< from there, at most, m
+};
+
+/// Calls add(NearPart) for the near fields that make up the one of a touch at s: of the stencil's positions, and of the edges
+/// round s with the weights 4 lambda_a lambda_b.                                              docs/design.md, Parts
 /// @param phi  [Cm] functions of near fields. Real-time: as add is.
 template <class Add>
 void forEachNear(const MetaModel& model, const ContactPoint& s, const Stencil& stencil,
                  std::span<const double> phi, const Add& add) noexcept PALPATE_NONBLOCKING {
-  for (std::size_t b = 0; b < stencil.count; ++b)
-    add(model.nearField(), stencil.position[b], phi, stencil.weight[b]);
+  const ModelView& view = model.view();
+  for (std::size_t b = 0; b < stencil.count; ++b) {
+    const std::int32_t position = stencil.position[b], node = view.contact_node[index(position)];
+    add(NearPart{model.nearField(), position, phi, stencil.weight[b],
+                 Eigen::Map<const Vec3>(view.surface_positions.data() + 3 * index(node)),
+                 model.reachOfNearFields()});
+  }
   if (model.edgeCoefficients() == 0 || stencil.count == 0) return;
   const std::array<std::int32_t, 6>& place = model.places().of(s.triangle);
-  const auto positions = static_cast<std::int32_t>(model.view().positions());
+  const auto positions = static_cast<std::int32_t>(view.positions());
+  const std::array<Vec3, 3> X = model.surface().corners(s.triangle);
   for (std::size_t k = 0; k < 3 && place[0] >= 0; ++k) {
     const double weight = 4.0 * s.barycentric[(k + 1) % 3] * s.barycentric[(k + 2) % 3];
     if (weight > 0.0)
-      add(model.edgeField(), place[3 + k] - positions, phi.first(model.edgeCoefficients()), weight);
+      add(NearPart{model.edgeField(), place[3 + k] - positions, phi.first(model.edgeCoefficients()), weight,
+                   0.5 * (X[(k + 1) % 3] + X[(k + 2) % 3]), model.reachOfEdges()});
   }
 }
 
@@ -79,8 +102,7 @@ void forEachNear(const MetaModel& model, const ContactPoint& s, const Stencil& s
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING;
 
-/// The field where tools are, m. A tool's own part comes from a table (ContactDimple), which follows the
-/// touch and not the drawn triangles. @param points  triangle -1: zero there  @param[out] u  [points]
+/// The field where tools are, m. A tool's own part comes from a table (ContactDimple). @param points  triangle -1: zero there  @param[out] u  [points]
 /// Cost O(points C), and with others beside O(points sources (C n + K)). Real-time: yes.
 void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING;

@@ -134,14 +134,19 @@ std::array<Mat3, 4> NearField::weighted(
   return out;
 }
 
-double NearField::reach(std::span<const std::int32_t> source, std::span<const double> positions) const {
-  const auto at = [&](std::int32_t node) {
-    return Vec3(Eigen::Map<const Vec3>(positions.data() + 3 * index(node)));
-  };
+std::vector<Vec3> pointsOf(std::span<const double> positions, std::span<const std::int32_t> nodes) {
+  std::vector<Vec3> points;
+  for (const std::int32_t node : nodes)
+    points.emplace_back(Eigen::Map<const Vec3>(positions.data() + 3 * index(node)));
+  return points;
+}
+
+double NearField::reach(std::span<const Vec3> source, std::span<const double> positions) const {
   double farthest = 0.0;
   for (std::size_t m = 0; m < source.size(); ++m)
     for (const std::int32_t node : nodes(static_cast<std::int32_t>(m)))
-      farthest = std::max(farthest, (at(node) - at(source[m])).norm());
+      farthest =
+          std::max(farthest, (Eigen::Map<const Vec3>(positions.data() + 3 * index(node)) - source[m]).norm());
   return farthest;
 }
 

@@ -52,6 +52,10 @@ class SeparatedField {
   std::vector<float> by_node_;  // [Ns][3][n] X, so that one node's numbers lie together
 };
 
+/// Where nodes are, m. @param positions  [nodes of the surface][3] m
+[[nodiscard]] std::vector<Vec3> pointsOf(std::span<const double> positions,
+                                         std::span<const std::int32_t> nodes);
+
 /// A near field: what the modes miss close to each source, already windowed to zero at the near radius (docs/design.md, Parts).
 /// Borrows.
 class NearField {
@@ -87,8 +91,8 @@ class NearField {
   /// Of three rows, column r: the sum over the block's nodes, weighted four times. @param weight  [Ns]. Real-time: yes.
   [[nodiscard]] std::array<Mat3, 4> weighted(
       std::int32_t source, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING;
-  /// The farthest of a block's nodes from its source, over all blocks, m. @param source  [sources] surface nodes
-  [[nodiscard]] double reach(std::span<const std::int32_t> source, std::span<const double> positions) const;
+  /// The farthest of a block's nodes from its source, over all blocks, m. @param source  [sources] m  @param positions  [Ns][3]
+  [[nodiscard]] double reach(std::span<const Vec3> source, std::span<const double> positions) const;
 
  private:
   Arrays arrays_;

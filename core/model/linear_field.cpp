@@ -29,7 +29,7 @@ LinearField::LinearField(const ModelView& view)
           kLoads) {
   for (std::size_t g = 0; g < view.green_node.size(); ++g)
     source_of_[index(view.green_node[g])] = static_cast<std::int32_t>(g);
-  reach_ = near_.reach(view.green_node, view.surface_positions);
+  reach_ = near_.reach(pointsOf(view.surface_positions, view.green_node), view.surface_positions);
 }
 
 void LinearField::addAmplitudes(const PatchNodes& patch, const Vec3& f,

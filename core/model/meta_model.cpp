@@ -37,9 +37,9 @@ std::uint64_t bytesOfTables(const ModelView& v) {
   const std::uint64_t entries =
       std::min<std::uint64_t>(ContactPatches::kMostTogether,
                               v.surfaceNodes() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));
-  // Six places a triangle are seen from it, twice as the lists are made; each place, four a node, has a dimple.
-  const std::uint64_t places =
-      2 * 6 * v.triangles() * sizeof(SmoothPlaces::View) + 4 * v.surfaceNodes() * sizeof(Eigen::Matrix3f);
+  // Six places a triangle are seen from it, twice as the lists are made; each place, four a node, has a dimple of degree one.
+  const std::uint64_t places = 2 * 6 * v.triangles() * sizeof(SmoothPlaces::View) +
+                               4 * v.surfaceNodes() * sizeof(Eigen::Matrix3f) + 3 * v.edge_scale.size_bytes();
   return places + 2 * v.modes_X.size_bytes() + v.triangles() * sizeof(SmoothCubic<6>) +
          v.contact_stiffness.size_bytes() + v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
          v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries +
@@ -87,16 +87,30 @@ void checkLoadedNodes(const ModelView& view, const ContactPatches& patches) {
 }
 
 /// Dimples are summed from the amplitudes of all patches: some seconds at this most, 50,000 nodes of 216 in a patch and 370
-/// modes.
+/// modes; and from those of all edges, 16 coefficients of 150,000 edges and 400 modes.
 void checkDimpleWork(const ModelView& view, const ModelAttributes& attributes,
                      const ContactPatches& patches) {
-  constexpr std::size_t kMost = 4'000'000'000;
+  constexpr std::size_t kMost = 4'000'000'000, kMostOfEdges = 1'000'000'000;
   if (view.modes() > 0 && patches.entries() > kMost / view.modes())
     throw std::invalid_argument("patch_radius is " + std::to_string(attributes.patch_radius) +
                                 " m, expected one of patches with at most " +
                                 std::to_string(kMost / view.modes()) + " nodes together for " +
                                 std::to_string(view.modes()) + " modes, found " +
                                 std::to_string(patches.entries()));
+  if (view.modes() > 0 && view.edge_scale.size() > kMostOfEdges / view.modes())
+    throw std::invalid_argument(dataset::kEdgeScale.name() + " has " +
+                                std::to_string(view.edge_scale.size()) + " numbers, expected at most " +
+                                std::to_string(kMostOfEdges / view.modes()) + " for " +
+                                std::to_string(view.modes()) + " modes");
+}
+
+/// By edge, of those that add something to fields; none where no edge does.
+std::vector<Vec3> edgeMidpoints(const SurfaceMesh& surface, const SmoothPlaces& places,
+                                const ModelView& view) {
+  std::vector<Vec3> points;
+  for (std::size_t place = view.positions(); !view.edge_offset.empty() && place < places.size(); ++place)
+    points.push_back(surface.position(places.views(place).front().s));
+  return points;
 }
 
 std::size_t modeRows(const ModelView& view) {
@@ -186,16 +200,19 @@ MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelV
       far_field_(view_),
       amplitudes_(view_.modes_Y, view_.modes_Y_scale, modeRows(view_), view_.modes()),
       near_field_({view_.near_offset, view_.near_node, view_.near_field, view_.near_scale}, modeRows(view_)),
-      near_reach_(near_field_.reach(view_.contact_node, view_.surface_positions)),
+      near_reach_(
+          near_field_.reach(pointsOf(view_.surface_positions, view_.contact_node), view_.surface_positions)),
       edge_coefficients_(edgeRows(view_)),
       edge_field_({view_.edge_offset, view_.edge_node, view_.edge_field, view_.edge_scale},
                   edge_coefficients_),
+      edge_reach_(edge_field_.reach(edgeMidpoints(surface_, places_, view_), view_.surface_positions)),
       linear_field_(view_) {
-  if (attributes_.parameters != Parameters::kDisplacement) return;
+  if (!isDisplacementDriven()) return;
   checkLoadedNodes(view_, patches_);
   checkDimpleWork(view_, attributes_, patches_);
-  dimple_ = ContactDimple(
-      {view_, patches_, stiffness_, surface_, far_field_, amplitudes_, near_field_, linear_field_}, places_);
+  dimple_ = ContactDimple({view_, surface_, places_, patches_, stiffness_, mixing_, far_field_, amplitudes_,
+                           near_field_, edge_field_, linear_field_, index(functions_.size()),
+                           edge_coefficients_, functions_.reference()});
 }
 
 }  // namespace palpate

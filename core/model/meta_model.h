@@ -34,6 +34,9 @@ class MetaModel {
   [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
 
   [[nodiscard]] const ModelAttributes& attributes() const noexcept { return attributes_; }
+  [[nodiscard]] bool isDisplacementDriven() const noexcept {
+    return attributes_.parameters == Parameters::kDisplacement;
+  }
   [[nodiscard]] const ModelView& view() const noexcept { return view_; }
   /// Of the content, computed at load: two models with the same one give the same answers.
   [[nodiscard]] const Digest& digest() const noexcept { return digest_; }
@@ -55,7 +58,7 @@ class MetaModel {
   /// Of contact positions, by functions; of a "displacement" model those of orders two and more.
   [[nodiscard]] const Amplitudes& amplitudes() const noexcept { return amplitudes_; }
   [[nodiscard]] const NearField& nearField() const noexcept { return near_field_; }
-  /// What middles of edges add, by edge in the order of places(), orders of two and more. docs/design.md, Parts
+  /// What edge midpoints add, by edge in the order of places(), orders of two and more. docs/design.md, Parts
   [[nodiscard]] const NearField& edgeField() const noexcept { return edge_field_; }
   /// Ce, how many of these coefficients edges have; 0 where they add nothing.
   [[nodiscard]] std::size_t edgeCoefficients() const noexcept { return edge_coefficients_; }
@@ -73,6 +76,8 @@ class MetaModel {
   [[nodiscard]] double reachOfPatches() const noexcept { return 3.0 * attributes_.patch_radius; }
   /// How far near fields of contact positions reach at most, m.
   [[nodiscard]] double reachOfNearFields() const noexcept { return near_reach_; }
+  /// How far what edges add reaches from their midpoints at most, m.
+  [[nodiscard]] double reachOfEdges() const noexcept { return edge_reach_; }
   /// Asks the cache for what a tick of a contact reads, so that it comes together and not piece by piece. @param s, fine  the
   /// anchor, of the rest surface and of the contact surface, in a triangle. Real-time: yes.
   void expect(const ContactPoint& s, const ContactPoint& fine) const noexcept PALPATE_NONBLOCKING;
@@ -104,6 +109,7 @@ class MetaModel {
   double near_reach_;
   std::size_t edge_coefficients_;
   NearField edge_field_;
+  double edge_reach_;
   LinearField linear_field_;
   ContactDimple dimple_;
 };

@@ -28,7 +28,7 @@ void TouchPatch::moveTo(const MetaModel& model, const ContactPoint& s) noexcept 
       model.farField().addNode(nodes_.node[j], static_cast<float>(slope[Eigen::Index(k)]),
                                all.subspan(3 * (k + 1) * modes_, 3 * modes_));
   }
-  if (model.attributes().parameters != Parameters::kDisplacement) return;
+  if (!model.isDisplacementDriven()) return;
   for (std::size_t axis = 0; axis < 3; ++axis)
     model.linearField().addAmplitudes(nodes_, Vec3::Unit(Eigen::Index(axis)),
                                       std::span(Z_).subspan(axis * modes_, modes_));

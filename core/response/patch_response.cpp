@@ -69,7 +69,8 @@ ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, 
   constexpr int kInside = 1, kContinued = 4;  // evaluations; second derivatives and eigenvalues cost more
   out.domain_radius = series.domainRadius();
   out.series_radius = series.limit();
-  out.displacement = clampToLength(d, kShownRadii * out.series_radius);
+  out.shown_radius = kShownRadii * out.series_radius;
+  out.displacement = clampToLength(d, out.shown_radius);
   out.parameter = out.displacement;
   const double length = lengthOf(d);
   if (length > out.series_radius) {
@@ -86,15 +87,14 @@ ResponseStatus answerToDisplacement(const ContactSeries& series, const Vec3& d, 
 ContactSeries seriesAt(const MetaModel& model, const ContactPoint& s, const Stencil& stencil,
                        const Mat3& stiffness) noexcept PALPATE_NONBLOCKING {
   const PositionMix mix = model.surface().mix(s);
-  if (model.attributes().parameters != Parameters::kDisplacement) return model.response().at(mix);
+  if (!model.isDisplacementDriven()) return model.response().at(mix);
   return model.response().at(stencil, stiffness, mix);
 }
 
 PatchStiffness::Value stiffnessAt(const MetaModel& model,
                                   const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
   PatchStiffness::Value value;
-  if (model.attributes().parameters == Parameters::kDisplacement)
-    model.stiffness().at(model.surface(), s, value);
+  if (model.isDisplacementDriven()) model.stiffness().at(model.surface(), s, value);
   return value;
 }
 
@@ -107,12 +107,12 @@ PatchResponse::PatchResponse(const MetaModel& model, const ContactPoint& s) noex
       series_(seriesAt(model, s, stencil_, stiffness_.K)) {}
 
 Vec3 PatchResponse::energySlope(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
-  if (model_.attributes().parameters != Parameters::kDisplacement) return Vec3::Zero();
+  if (!model_.isDisplacementDriven()) return Vec3::Zero();
   return model_.response().energySlope(stencil_, stiffness_.slope, d, series_.limit());
 }
 
 double PatchResponse::energy(const Vec3& d) const noexcept PALPATE_NONBLOCKING {
-  return model_.attributes().parameters == Parameters::kDisplacement ? series_.energy(d) : 0.0;
+  return model_.isDisplacementDriven() ? series_.energy(d) : 0.0;
 }
 
 ResponseStatus PatchResponse::at(const Vec3& d, Response& out) const noexcept PALPATE_NONBLOCKING {
@@ -131,7 +131,7 @@ ResponseStatus PatchResponse::at(const Vec3& d, Budget& budget,
   const ResponseStatus status = parameters == Parameters::kForce
                                     ? findForce(series_, d, budget, out)
                                     : findLevel(series_, model_.attributes(), d, out);
-  out.series_radius = out.domain_radius;
+  out.series_radius = out.shown_radius = out.domain_radius;
   return status;
 }
 
@@ -150,7 +150,7 @@ ResponseStatus respondToLoad(const MetaModel& model, const ContactPoint& s, cons
   const ResponseStatus status = parameters == Parameters::kForce
                                     ? answerToForce(series, load, out)
                                     : answerToLevel(series, model.attributes(), load.x(), out);
-  out.series_radius = out.domain_radius;
+  out.series_radius = out.shown_radius = out.domain_radius;
   return status;
 }
 

@@ -38,7 +38,8 @@ class PatchResponse {
 /// Reaction of the organ to a tool that displaced its contact patch at s by d   docs/design.md, Series, Contact
 /// |d| beyond d_max is kBeyond: force or field may be off by more than is promised. |d| beyond r_max is scaled to it,
 /// d_c = r_max d / |d|, and the force continues along the symmetrized, positive part of the stiffness there:
-/// f = f(s, d_c) + (df/dd)+ (d - d_c). It is continuous, and its stiffness, the derivative, is never negative.
+/// f = f(s, d_c) + (df/dd)+ (d - d_c). It is continuous, and its stiffness, the derivative, is never negative. The field is
+/// extrapolated along d, up to kShownRadii r_max.
 /// A "force" model is searched for the f with d(s, f) = d (bounded Newton), a "level" model for the t with
 /// e . d(s, t) = e . d, e the load's direction. Where no f gives d, kBeyond: beyond f_max the f_max in its
 /// direction; where the model turns back before that, the f at which |d(s, f) - d| is smallest, as found downhill

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "core/base/index.h"
-#include "core/model/clamp_to_length.h"
 #include "core/response/small_square.h"
 #include "core/surface/surface_mesh.h"
 
@@ -14,12 +13,9 @@ namespace palpate {
 
 namespace {
 
-/// Whether the near field of a position may reach a patch.
-bool meets(const MetaModel& model, std::int32_t position, const TouchPatch& to) noexcept PALPATE_NONBLOCKING {
-  const auto node = index(model.view().contact_node[index(position)]);
-  const Vec3 X = Eigen::Map<const Vec3>(model.view().surface_positions.data() + 3 * node);
-  const double apart = model.surface().distanceToNodes(to.s().triangle, X);
-  return apart <= model.reachOfPatches() + model.reachOfNearFields();
+/// Whether a near field may reach a patch.
+bool meets(const MetaModel& model, const NearPart& part, const TouchPatch& to) noexcept PALPATE_NONBLOCKING {
+  return model.surface().distanceToNodes(to.s().triangle, part.centre) <= model.reachOfPatches() + part.reach;
 }
 
 /// What modes and near fields of positions move a patch by, orders of two and more of a "displacement" model, everything of the
@@ -38,12 +34,11 @@ TouchPatch::Averages averaged(const MetaModel& model, const ContactPoint& s, std
   const auto weighs = [&](std::int32_t node) noexcept PALPATE_NONBLOCKING {
     return scratch.weight[index(node)][0] > 0.0F;
   };
-  const auto addBlock = [&](const NearField& field, std::int32_t source, std::span<const double> functions,
-                            double weight) noexcept PALPATE_NONBLOCKING {
-    if (&field == &model.nearField() && !meets(model, source, to)) return;
-    const std::span<const std::int32_t> list = field.nodes(source);
+  const auto addBlock = [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
+    if (!meets(model, part, to)) return;
+    const std::span<const std::int32_t> list = part.field.nodes(part.source);
     if (std::none_of(list.begin(), list.end(), weighs)) return;
-    const NearField::Block block = field.block(source, functions, weight, scratch.near_block);
+    const NearField::Block block = part.field.block(part.source, part.phi, part.weight, scratch.near_block);
     Eigen::Matrix<float, 3, 4> near = Eigen::Matrix<float, 3, 4>::Zero();
     for (std::size_t i = 0; i < list.size(); ++i)
       near += Eigen::Map<const Eigen::Vector3f>(block.u.data() + 3 * i) *
@@ -53,10 +48,6 @@ TouchPatch::Averages averaged(const MetaModel& model, const ContactPoint& s, std
   forEachNear(model, s, from, phi, addBlock);
   for (std::size_t j = 0; j < nodes.count; ++j) scratch.weight[index(nodes.node[j])].setZero();
   return sum;
-}
-
-bool isDisplaced(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
-  return model.attributes().parameters == Parameters::kDisplacement;
 }
 
 using Compliance = std::array<Mat3, 4>;
@@ -76,7 +67,7 @@ TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, 
       fieldFunctions(model, source.parameter, model.response().limit(from), std::span(all).first(size));
   moved = averaged(model, source.s,
                    std::span(all).first(size).last(modeCoefficients(model.attributes(), size)), to, scratch);
-  if (isDisplaced(model)) {
+  if (model.isDisplacementDriven()) {
     PatchStiffness::Value stiffness;
     model.stiffness().at(model.surface(), source.s, stiffness);
     for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += compliance[k] * (stiffness.K * p);
@@ -89,7 +80,7 @@ TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, 
 TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, const TouchPatch& to,
                              FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
   Compliance compliance;
-  if (isDisplaced(model))
+  if (model.isDisplacementDriven())
     compliance = complianceBetween(model, scratch.touchAt(model, source.s), to, scratch);
   return movedBy(model, source, to, compliance, scratch);
 }
@@ -98,14 +89,12 @@ TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, 
 class Influence {
  public:
   Influence(const MetaModel& model, const ContactPoint& s, const Vec3& d,
-            double h) noexcept PALPATE_NONBLOCKING
-      : model_(model),
-        s_(s),
-        d_(clampToLength(d, model.response().limit(model.surface().mix(s)))),
-        h_(h),
-        own_(ownPart(model, s, d)) {
-    if (isDisplaced(model)) differentiate();
-    for (std::size_t i = 0; !isDisplaced(model) && i < 3; ++i)
+            double h) noexcept PALPATE_NONBLOCKING : model_(model),
+                                                     s_(s),
+                                                     h_(h),
+                                                     own_(ownPart(model, s, d)) {
+    if (model.isDisplacementDriven()) differentiate(d);
+    for (std::size_t i = 0; !model.isDisplacementDriven() && i < 3; ++i)
       beside_[i] = ownPart(model, s, d + h * Vec3::Unit(static_cast<Eigen::Index>(i)));
   }
 
@@ -116,9 +105,10 @@ class Influence {
     slope.setZero();
     if (model_.surface().mix(s_).count == 0 || at.nodes().count == 0) return;
     Compliance compliance;
-    if (isDisplaced(model_)) compliance = complianceBetween(model_, scratch.touchAt(model_, s_), at, scratch);
+    if (model_.isDisplacementDriven())
+      compliance = complianceBetween(model_, scratch.touchAt(model_, s_), at, scratch);
     moved = movedBy(model_, own_, at, compliance, scratch)[0];
-    if (!isDisplaced(model_)) {
+    if (!model_.isDisplacementDriven()) {
       for (std::size_t i = 0; i < 3; ++i)
         slope.col(Eigen::Index(i)) = (movedBy(model_, beside_[i], at, scratch)[0] - moved) / h_;
       return;
@@ -129,21 +119,19 @@ class Influence {
   }
 
  private:
-  void differentiate() noexcept PALPATE_NONBLOCKING {
+  void differentiate(const Vec3& d) noexcept PALPATE_NONBLOCKING {
     std::array<Vec3, MonomialBasis::kMaxCoefficients> all;
     const std::span<Vec3> gradient(all.data(), index(model_.functions().size()));
-    model_.functions().gradient(d_, gradient);
+    fieldGradients(model_, d, model_.response().limit(model_.surface().mix(s_)), gradient);
     bends_ = gradient.size() - kLinearCoefficients;
     for (std::size_t k = 0; k < bends_; ++k)
       for (std::size_t i = 0; i < 3; ++i)
-        slope_[i][k] =
-            gradient[k + kLinearCoefficients][static_cast<Eigen::Index>(i)] / model_.functions().reference();
+        slope_[i][k] = gradient[k + kLinearCoefficients][static_cast<Eigen::Index>(i)];
     model_.stiffness().at(model_.surface(), s_, stiffness_);
   }
 
   const MetaModel& model_;
   const ContactPoint& s_;
-  Vec3 d_;  // no longer than r_max
   double h_;
   FieldSource own_;
   std::array<FieldSource, 3> beside_;  // at d + h e_i, of a load-driven model

@@ -14,7 +14,7 @@
 namespace palpate {
 
 /// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.   docs/design.md, Symbols, Parts
-/// @param source  the other tool's own part, no longer than r_max as in evaluateField()
+/// @param source  the other tool's own part; as far as evaluateField() goes
 /// @return m, W; zero where the model has no answer at `at` or at source.s
 /// Cost O(C n); docs/decisions/several_tools.md. Real-time: yes. Threads: one per scratch.
 [[nodiscard]] Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source,
@@ -27,8 +27,8 @@ namespace palpate {
                                           const ContactPoint& at,
                                           FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
 
-/// What a tool that imposes d by itself adds to the field: of evaluateField() and patchDisplacement(). Beyond the
-/// domain its gain is |d| over the |d| that the model answers, so that the field goes on in proportion (not of a
+/// What a tool that imposes d by itself adds to the field: of evaluateField() and patchDisplacement(). Beyond
+/// Response::shown_radius its gain is |d| over the |d| that the model answers, so that the field goes on in proportion (not of a
 /// model driven by level, which ends where its load does). @param d  m, finite. Cost respond(). Real-time: yes.
 [[nodiscard]] FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
                                   const Vec3& d) noexcept PALPATE_NONBLOCKING;

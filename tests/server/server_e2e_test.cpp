@@ -144,6 +144,7 @@ TEST_F(ServerEndToEnd, ClampsAndFlagsWhatLiesBeyondTheDomain) {
   const dds::ToolForce& force = settled_;
   EXPECT_NE(force.flags & dds::flag::kBeyondDomain, 0U);
   EXPECT_LE(sizeOf(force.displacement), 2.0 * force.domain_radius * (1.0 + 1e-9));  // here that is r_max
+  EXPECT_GT(sizeOf(force.displacement), force.domain_radius);
   EXPECT_GT(force.penetration, force.domain_radius);
   EXPECT_LE(sizeOf(force.force), 3.3 * (1.0 + 1e-9));
 }

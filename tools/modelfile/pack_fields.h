@@ -19,7 +19,8 @@ struct PackedNumbers {
 };
 
 /// The fields as the file has them (docs/model_file.md): X mode by mode, Y and the near field coefficient by
-/// coefficient of each position or edge, and the same by load of nodal Green's functions. Modes are scaled so that the largest amplitude of each is the same.
+/// coefficient of each position or edge, and the same by load of nodal Green's functions. Modes are scaled so that the largest
+/// amplitude of each is the same.
 struct PackedFields {
   PackedNumbers X, Y, near, green_Y, green_near, edges;
 };

@@ -31,6 +31,11 @@ ModelData certified(const std::string& text) {
   return data;
 }
 
+void copyThing(const std::filesystem::path& from, const std::filesystem::path& to, const char* name) {
+  const Hdf5Handle source = openForSpoiling(from), target = openForSpoiling(to);
+  ASSERT_GE(H5Ocopy(source.get(), name, target.get(), name, H5P_DEFAULT, H5P_DEFAULT), 0);
+}
+
 /// Writes `name` of one file into another.
 void copyText(const std::filesystem::path& from, const std::filesystem::path& to, const char* name) {
   const Hdf5Handle source = openForSpoiling(from), target = openForSpoiling(to);
@@ -126,6 +131,23 @@ TEST(LoadRegions, ComeWholeOrNot) {
     deleteThing(file.path(), nullptr, one);
     expectRefused(file.path(), std::string("/") + one + " is missing");
   }
+}
+
+TEST(LoadEdges, ComeWholeOrNot) {
+  for (const char* one : {"edges/offset", "edges/node", "edges/field", "edges/scale"}) {
+    const TemporaryFile file("some-edges.h5");
+    modelfile::writeModel(file.path(), goodData());
+    deleteThing(file.path(), nullptr, one);
+    expectRefused(file.path(), std::string("/") + one + " is missing");
+  }
+}
+
+TEST(LoadEdges, DoNotBelongToLoadDrivenModels) {
+  const TemporaryFile file("force.h5"), other("displacement.h5");
+  modelfile::writeModel(file.path(), goodData(Parameters::kForce));
+  modelfile::writeModel(other.path(), goodData());
+  copyThing(other.path(), file.path(), "edges");
+  expectRefused(file.path(), "has /edges, expected none in a model driven by force");
 }
 
 TEST(LoadCertificate, ComesBackAndIsNotInTheModelsId) {

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/response/tool_coupling.h"
 #include "random_touch.h"
 
 namespace palpate::testing {
@@ -69,7 +70,7 @@ TEST(Response, WhereThePolynomialsEndTheForceGoesOnAlongTheStiffnessThatPushesBa
   EXPECT_LT(largestDifference(field(s, d), field(s, far.displacement)), 1e-9);
 }
 
-TEST(Response, BeyondItsPolynomialsTheFieldGoesOnByItsTangentAndThenStays) {
+TEST(Response, BeyondItsPolynomialsTheFieldIsExtrapolatedLinearlyAndThenStays) {
   Random random;
   for (int sample = 0; sample < 10; ++sample) {
     const ContactPoint s = random.contactPoint();
@@ -90,6 +91,34 @@ TEST(Response, BeyondItsPolynomialsTheFieldGoesOnByItsTangentAndThenStays) {
     EXPECT_GT(bent, 5.0 * largest);
     EXPECT_EQ(field(s, 3.0 * edge), end);
   }
+}
+
+/// Inside, extrapolated, and where a tool's own part goes on in proportion.
+TEST(FieldGradients, AreTheDerivativeOfAToolsOwnPart) {
+  Random random;
+  const auto size = index(organ().functions().size());
+  std::vector<double> plus(size), minus(size);
+  std::vector<Vec3> gradient(size);
+  for (const double radii : {0.6, 1.5, 1.9, 2.6})
+    for (int sample = 0; sample < 10; ++sample) {
+      const ContactPoint s = random.contactPoint();
+      const double limit = options().series_radius, h = 1e-6 * limit;
+      const Vec3 d = radii * limit * random.vector(1.0).normalized();
+      fieldGradients(organ(), d, limit, gradient);
+      double largest = 0.0;
+      for (const Vec3& g : gradient) largest = std::max(largest, g.norm());
+      const auto part = [&](const Vec3& at, std::vector<double>& phi) {
+        const FieldSource own = ownPart(organ(), s, at);
+        fieldFunctions(organ(), own.parameter, limit, phi);
+        for (double& value : phi) value *= own.gain;
+      };
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        part(d + h * Vec3::Unit(i), plus);
+        part(d - h * Vec3::Unit(i), minus);
+        for (std::size_t k = 0; k < size; ++k)
+          EXPECT_NEAR(gradient[k][i], (plus[k] - minus[k]) / (2.0 * h), 1e-7 * largest) << radii << ' ' << k;
+      }
+    }
 }
 
 TEST(Response, ForceHasNoCliffAtTheDomainAndItsStiffnessIsItsSlope) {

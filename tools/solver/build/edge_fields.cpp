@@ -73,7 +73,7 @@ class EdgeFields {
   [[nodiscard]] const ContactPoint& middle(std::size_t edge) const {
     return places_.views(view_.positions() + edge).front().s;
   }
-  void takeMixture(const Stencil& stencil, const NearNodes& near, Eigen::MatrixXf& u) const;
+  void subtractMixture(const Stencil& stencil, const NearNodes& near, Eigen::MatrixXf& u) const;
 
   const SolverSetup& setup_;
   const ContactPatches& patches_;
@@ -102,7 +102,7 @@ Patch EdgeFields::patch(std::size_t edge, PatchNodes& room) const {
 }
 
 /// u -= the model's mixture. @param u  [3 near nodes][rows]
-void EdgeFields::takeMixture(const Stencil& stencil, const NearNodes& near, Eigen::MatrixXf& u) const {
+void EdgeFields::subtractMixture(const Stencil& stencil, const NearNodes& near, Eigen::MatrixXf& u) const {
   Eigen::MatrixXf Y = Eigen::MatrixXf::Zero(Eigen::Index(modes_), Eigen::Index(rows_));
   for (std::size_t b = 0; b < stencil.count; ++b) {
     const std::size_t position = index(stencil.position[b]);
@@ -144,7 +144,7 @@ Surplus EdgeFields::surplus(const SeriesSolver& series, int lane, std::size_t ed
            series.displacement(lane, alpha, setup_.surface.nodes[index(near.nodes[i])]))
               .cast<float>();
   }
-  takeMixture(mixing_.at(surface_, s), near, u);
+  subtractMixture(mixing_.at(surface_, s), near, u);
   Surplus out;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < near.nodes.size(); ++i) {
@@ -173,8 +173,9 @@ void storeEdgeFields(const SolverSetup& setup, const Cholesky& factor, const Con
   std::vector<std::size_t> chosen;
   for (std::size_t edge = 0; edge < edges.count(); ++edge)
     if (edges.isLong(edge)) chosen.push_back(edge);
+  if (chosen.empty()) return;
   std::vector<Surplus> surplus(edges.count());
-  Progress progress("series, middles of edges", chosen.size(), options.quiet);
+  Progress progress("series, edge midpoints", chosen.size(), options.quiet);
   std::vector<std::unique_ptr<SeriesSolver>> solvers(static_cast<std::size_t>(options.workers));
   parallelFor(options.workers, (chosen.size() + kLanes - 1) / kLanes, [&](int worker, std::size_t chunk) {
     auto& solver = solvers[static_cast<std::size_t>(worker)];
