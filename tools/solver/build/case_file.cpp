@@ -84,8 +84,8 @@ void readModel(const std::string& file, const toml::table& table, Case& c) {
   }
   c.patch_radius = section.number("patch_radius", 0.0, false, 1.0);
   c.order = section.integer("order", 1, 7);
-  c.force_order = section.integer("force_order", 1, 8);
-  c.travel = section.number("travel", 0.0, false, 1.0);
+  c.force_order = section.integer("force_order", 2, 8);
+  c.travel = section.number("travel", 0.0, false, kLargestRadius);
   c.modes = section.integer("modes", 1, 2000);
   c.near_radius = section.number("near_radius", 0.0, true, 1.0);
   c.field_error = section.number("field_error", 0.0, false, 0.999);

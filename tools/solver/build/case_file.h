@@ -83,8 +83,8 @@ struct Case {
   Method method{Method::kSeriesDisplacement};
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges, or 0.8
   std::optional<int> order;            ///< p, 1 to 7; absent: by travel, or 3
-  std::optional<int> force_order;      ///< p to 2p, at most 8; absent: by travel, or 2p up to 6
-  std::optional<double> travel;        ///< m, (0, 1]: how far a tool presses; chooses the orders
+  std::optional<int> force_order;      ///< p, at least 2, to 2p, at most 8; absent: by travel, or 2p up to 6
+  std::optional<double> travel;        ///< m, (0, 0.05]: how far a tool presses; chooses the orders
   std::optional<int> modes;            ///< n, 1 to 2000; absent: by field_error beside a near field, else 167
   std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a
   std::optional<double> field_error;   ///< largest error of the field over abs(d), (0, 1); absent: 0.01

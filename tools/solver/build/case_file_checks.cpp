@@ -105,11 +105,10 @@ void checkCase(const Case& c) {
                     " does not go with pgd.separation = \"hadamard\": such pairs are found one at a time");
   if (c.travel && (c.order || c.force_order))
     throw CaseError("model.travel does not go with model.order and model.force_order: it chooses both");
-  if (!c.orders().areKnown())
-    throw CaseError("model.force_order = " + std::to_string(c.orders().answer) +
-                    " does not go with fields of order " + std::to_string(c.orders().fields) + ": expected " +
-                    std::to_string(c.orders().fields) + " to " +
-                    std::to_string(std::min(2 * c.orders().fields, kMostForceOrder)));
+  if (const SeriesOrders orders = c.orders(); !orders.areValid() || orders.answer < orders.leastAnswer())
+    throw CaseError("model.force_order = " + std::to_string(orders.answer) +
+                    " does not go with fields of order " + std::to_string(orders.fields) + ": expected " +
+                    std::to_string(orders.leastAnswer()) + " to " + std::to_string(orders.mostAnswer()));
   if (c.modes && c.field_error)
     throw CaseError("model.field_error does not go with model.modes: it chooses their number");
   if (c.nodalLoad() && c.patch_radius)

@@ -2,7 +2,6 @@
 #include "tools/solver/build/travel_orders.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -14,9 +13,6 @@
 namespace palpate::solver {
 
 namespace {
-
-/// What is tried, by cost.
-constexpr std::array<SeriesOrders, 5> kOrders{{{3, 6}, {4, 6}, {5, 6}, {5, 8}, {6, 8}}};
 
 /// Patches of accessible positions, spread over their list.
 std::vector<Patch> somePatches(const ContactPositions& positions) {
@@ -48,11 +44,11 @@ int reaching(double travel, const SeriesOrders& orders, const std::vector<Patch>
 }  // namespace
 
 TravelOrders ordersFor(double travel, const SolverSetup& setup, const Cholesky& factor,
-                       const BuildOptions& options) {
+                       const BuildOptions& options, std::span<const SeriesOrders> tried) {
   const std::vector<Patch> patches = somePatches(setup.positions);
-  Progress progress("orders that reach the travel", kOrders.size(), options.quiet);
-  TravelOrders best{travel, kOrders.front(), -1, static_cast<int>(patches.size())};
-  for (const SeriesOrders& orders : kOrders) {
+  Progress progress("orders that reach the travel", tried.size(), options.quiet);
+  TravelOrders best{travel, tried.front(), -1, static_cast<int>(patches.size())};
+  for (const SeriesOrders& orders : tried) {
     const int count = reaching(travel, orders, patches, setup, factor, options.workers);
     progress.advance();
     if (count > best.reaching) {

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "tools/solver/build/build_options.h"
 #include "tools/solver/build/solver_setup.h"
 #include "tools/solver/fem/cholesky.h"
 
 namespace palpate::solver {
 
+/// The orders that a travel chooses from, by cost.
+inline constexpr std::array<SeriesOrders, 5> kTravelOrders{{{3, 6}, {4, 6}, {5, 6}, {5, 8}, {6, 8}}};
+
 /// The least orders of fields and force with which half of 16 places reach a travel; where none are enough, those with which
 /// most do. A place reaches it when d_max of the contact position itself is at least that.    docs/decisions/travel.md
-/// @param factor  of K_T(0)  @param travel  m. Seconds to a minute.
+/// @param factor  of K_T(0)  @param travel  m  @param tried  by cost. Seconds to a minute.
 [[nodiscard]] TravelOrders ordersFor(double travel, const SolverSetup& setup, const Cholesky& factor,
-                                     const BuildOptions& options);
+                                     const BuildOptions& options,
+                                     std::span<const SeriesOrders> tried = kTravelOrders);
 
 }  // namespace palpate::solver

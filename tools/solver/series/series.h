@@ -33,8 +33,8 @@ struct DomainCriteria {
   double field_error{
       0.01};              ///< largest error of the fields near the patch, of |d|; driven by displacement only
   double min_det_f{0.3};  ///< over all integration points
-  double series_error{0.2};  ///< of the force where the polynomials end; driven by displacement only
-  double cap{0.05};          ///< m, largest radius; driven by force: of the linear answer
+  double series_error{0.2};    ///< of the force where the polynomials end; driven by displacement only
+  double cap{kLargestRadius};  ///< m, largest radius; driven by force: of the linear answer
 };
 
 /// The series of up to kLanes contact positions at once.                               docs/design.md, Series
@@ -47,7 +47,7 @@ struct DomainCriteria {
 /// thread; the factor is shared.
 class SeriesSolver {
  public:
-  /// @param factor  of K_T(0)  @throw std::invalid_argument on orders that are not known
+  /// @param factor  of K_T(0)  @throw std::invalid_argument unless the orders are valid
   SeriesSolver(const FeModel& model, const Cholesky& factor, const SeriesOrders& orders,
                SeriesKind kind = SeriesKind::kDisplacement);
   /// The same with the usual degree of the answer.

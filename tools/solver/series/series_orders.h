@@ -9,6 +9,9 @@
 
 namespace palpate::solver {
 
+/// No domain radius is larger, m: nor is a travel that asks for one.
+inline constexpr double kLargestRadius = 0.05;
+
 /// Degrees of a series: of the fields, p, and of the answer (the force, where d is prescribed).
 struct SeriesOrders {
   int fields;
@@ -18,13 +21,15 @@ struct SeriesOrders {
   [[nodiscard]] static constexpr SeriesOrders of(int fields) noexcept {
     return {fields, std::max(fields, std::min(2 * fields, 6))};
   }
-  [[nodiscard]] constexpr bool areKnown() const noexcept {
-    return fields >= 1 && fields <= kMostOrder && answer >= fields &&
-           answer <= std::min(2 * fields, kMostForceOrder);
+  /// Degrees of an answer from which radii can be judged: a linear one leaves no remainder to judge by.
+  [[nodiscard]] constexpr int leastAnswer() const noexcept { return std::max(2, fields); }
+  [[nodiscard]] constexpr int mostAnswer() const noexcept { return std::min(2 * fields, kMostForceOrder); }
+  [[nodiscard]] constexpr bool areValid() const noexcept {
+    return fields >= 1 && fields <= kMostOrder && answer >= fields && answer <= mostAnswer();
   }
-  /// @throw std::invalid_argument unless they are known
+  /// @throw std::invalid_argument unless they are valid
   [[nodiscard]] const SeriesOrders& checked() const {
-    if (!areKnown())
+    if (!areValid())
       throw std::invalid_argument("a series with fields of degree " + std::to_string(fields) +
                                   " and an answer of degree " + std::to_string(answer));
     return *this;

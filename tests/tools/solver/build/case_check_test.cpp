@@ -47,9 +47,21 @@ TEST_F(CaseCheck, TheOrdersFitEachOtherAndATravelChoosesBoth) {
   expectRefused("series-force", "model.travel = 0.01", "model.travel", "it is for series-displacement");
   expectRefused("series-force", "model.force_order = 3", "model.force_order",
                 "it is for series-displacement");
-  const Case c = readCase(write("mesh = \"a\"\n[model]\norder = 4\nforce_order = 8\ntravel = 0.01\n"));
-  EXPECT_EQ(c.orders().answer, 8);
-  EXPECT_EQ(c.travel, 0.01);
+  expectRefused(method, "model.travel = 0.01\nmodel.force_order = 6", "model.travel", "it chooses both");
+  const Case orders = readCase(write("mesh = \"a\"\n[model]\norder = 4\nforce_order = 8\n"));
+  const Case travel = readCase(write("mesh = \"a\"\nmodel.travel = 0.05\n"));
+  EXPECT_EQ(orders.orders().answer, 8);
+  EXPECT_EQ(travel.travel, 0.05);
+  for (const Case& c : {orders, travel}) EXPECT_NO_THROW(checkCase(c));
+}
+TEST_F(CaseCheck, ALinearForceWouldLeaveNothingToJudgeItsDomainBy) {
+  expectRefused("series-displacement", "model.order = 1\nmodel.force_order = 3", "model.force_order = 3",
+                "expected 2 to 2");
+  Case c = defaultCase("a");
+  c.order = 1;
+  EXPECT_NO_THROW(checkCase(c));
+  c.force_order = 1;
+  EXPECT_THROW(checkCase(c), CaseError);
 }
 TEST_F(CaseCheck, OnlyTheThreePartModelHasANearField) {
   for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"}) {

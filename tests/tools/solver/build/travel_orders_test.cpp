@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
+
 #include "tools/mesh/box_mesh.h"
 
 namespace palpate::solver {
@@ -30,8 +33,9 @@ class Travel : public ::testing::Test {
  protected:
   Travel() { factor_.factorize(Eigen::VectorXd::Zero(3 * setup_.model.nodeCount())); }
 
-  [[nodiscard]] TravelOrders ordersOf(double travel) const {
-    return ordersFor(travel, setup_, factor_, {.workers = 2, .scratch = ".", .quiet = true});
+  [[nodiscard]] TravelOrders ordersOf(double travel,
+                                      std::span<const SeriesOrders> tried = kTravelOrders) const {
+    return ordersFor(travel, setup_, factor_, {.workers = 2, .scratch = ".", .quiet = true}, tried);
   }
 
   const SolverSetup setup_{softCase(), heldBlock()};
@@ -46,10 +50,15 @@ TEST_F(Travel, TakesTheLeastOrdersWithWhichHalfOfThePlacesReachIt) {
   EXPECT_EQ(far.travel, 0.0055);
   EXPECT_GT(far.orders.fields, 3);
   for (const TravelOrders& found : {near, far}) EXPECT_GE(2 * found.reaching, found.places);
+  const auto chosen = std::find_if(kTravelOrders.begin(), kTravelOrders.end(), [&](const SeriesOrders& o) {
+    return o.fields == far.orders.fields && o.answer == far.orders.answer;
+  });
+  const TravelOrders less = ordersOf(0.0055, {kTravelOrders.begin(), chosen});
+  EXPECT_LT(2 * less.reaching, less.places) << "the entries before it are not enough";
 }
 
 TEST_F(Travel, WhereNoneAreEnoughTakesThoseWithWhichMostDo) {
-  const TravelOrders most = ordersOf(0.010), none = ordersOf(0.5);
+  const TravelOrders most = ordersOf(0.010), none = ordersOf(kLargestRadius);
   EXPECT_GT(most.reaching, 0);
   EXPECT_LT(2 * most.reaching, most.places);
   EXPECT_EQ(most.orders.answer, 8);
