@@ -24,9 +24,10 @@ void expectTuples(const std::string& dataset, std::size_t found, std::size_t wid
                          std::to_string(width));
 }
 
-std::size_t coefficients(int order, int most) {
+std::size_t coefficients(const char* name, int order, int most) {
   if (order < 1 || order > most)
-    throw ModelFileError("order is " + std::to_string(order) + ", expected 1 to " + std::to_string(most));
+    throw ModelFileError(std::string(name) + " is " + std::to_string(order) + ", expected 1 to " +
+                         std::to_string(most));
   return static_cast<std::size_t>(MonomialBasis::size(order));
 }
 
@@ -40,7 +41,8 @@ void checkSurface(const ModelData& d, std::size_t Ns) {
 void checkContact(const ModelData& d, std::size_t M, std::size_t C) {
   expectSize(dataset::kContactAccessible.name(), d.contact_accessible.size(), M);
   const bool load_driven = d.attributes.parameters != Parameters::kDisplacement;
-  const std::size_t Cf = load_driven ? 0 : coefficients(forceOrder(d.attributes), kMostForceOrder);
+  const std::size_t Cf =
+      load_driven ? 0 : coefficients("force_order", forceOrder(d.attributes), kMostForceOrder);
   expectSize(dataset::kContactForce.name(), d.contact_force.size(), M * Cf * 3);
   expectSize(dataset::kContactDisplacement.name(), d.contact_displacement.size(),
              load_driven ? M * C * 3 : 0);
@@ -95,7 +97,7 @@ void checkMesh(const ModelData& d) {
 
 std::size_t fieldCoefficients(const ModelData& data) {
   if (data.attributes.parameters != Parameters::kLevel)
-    return coefficients(data.attributes.order, kMostOrder);
+    return coefficients("order", data.attributes.order, kMostOrder);
   const std::size_t width = 3 * data.contact_node.size();
   if (width == 0)
     throw ModelFileError(dataset::kContactNode.name() + " is empty, expected contact positions");

@@ -2,14 +2,17 @@
 #include "tools/modelfile/reach.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/base/types.h"
+#include "tools/modelfile/quantile.h"
 
 namespace palpate::modelfile {
 
-double reachingPart(const Positions& positions, std::span<const double> radius, double travel) {
+double reachingShare(const Positions& positions, std::span<const double> radius, double travel) {
   const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
   double all = 0.0, reaching = 0.0;
   for (std::size_t t = 0; t < positions.contact_triangles.size(); t += 3) {
@@ -31,9 +34,29 @@ double reachingPart(const Positions& positions, std::span<const double> radius, 
 std::array<Reach, 3> reachOf(const Positions& positions, std::span<const double> domain,
                              std::span<const double> series) {
   const auto at = [&](double travel) {
-    return Reach{travel, reachingPart(positions, domain, travel), reachingPart(positions, series, travel)};
+    return Reach{travel, reachingShare(positions, domain, travel), reachingShare(positions, series, travel)};
   };
   return {at(0.007), at(0.010), at(0.015)};
+}
+
+program::Json reachJson(const Positions& positions, std::span<const double> domain,
+                        std::span<const double> series) {
+  program::Json list = program::Json::array();
+  for (const Reach& r : reachOf(positions, domain, series))
+    list.push_back({{"travel", r.travel}, {"by_domain_radius", r.domain}, {"by_series_radius", r.series}});
+  return list;
+}
+
+program::Json radiusJson(std::span<const std::uint8_t> accessible, std::span<const double> radius) {
+  std::vector<double> values;
+  for (std::size_t m = 0; m < radius.size(); ++m)
+    if (accessible[m] != 0) values.push_back(radius[m]);
+  if (values.empty()) return nullptr;
+  std::sort(values.begin(), values.end());
+  return {{"min", values.front()},
+          {"p05", quantile(values, 0.05)},
+          {"median", quantile(values, 0.5)},
+          {"max", values.back()}};
 }
 
 }  // namespace palpate::modelfile

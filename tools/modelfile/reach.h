@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "tools/program/json.h"
+
 namespace palpate::modelfile {
 
 /// The contact positions of a model, as its file holds them.
@@ -15,18 +17,27 @@ struct Positions {
   std::span<const std::uint8_t> accessible;         ///< [M]
 };
 
-/// The part of the accessible surface from which a tool may go at least so far: of the area of positions, a third of each of
+/// Share of the accessible surface from which a tool may go at least so far: of the area of positions, a third of each of
 /// their triangles.
 /// @param radius  [M] m, such as d_max  @param travel  m  @return 0 to 1; 0 where nothing is accessible
-[[nodiscard]] double reachingPart(const Positions& positions, std::span<const double> radius, double travel);
+[[nodiscard]] double reachingShare(const Positions& positions, std::span<const double> radius, double travel);
 
-/// Travels that people press by, and the parts that reach them.
+/// A travel that people press by, and the shares that reach it.
 struct Reach {
   double travel;          ///< m
-  double domain, series;  ///< parts by d_max and by r_max, 0 to 1
+  double domain, series;  ///< shares by d_max and by r_max, 0 to 1
 };
 /// 7, 10 and 15 mm. @param domain, series  [M] d_max and r_max, m
 [[nodiscard]] std::array<Reach, 3> reachOf(const Positions& positions, std::span<const double> domain,
                                            std::span<const double> series);
+
+/// The same for --json: a list of {"travel", "by_domain_radius", "by_series_radius"}.                        docs/json.md
+[[nodiscard]] program::Json reachJson(const Positions& positions, std::span<const double> domain,
+                                      std::span<const double> series);
+
+/// {"min", "p05", "median", "max"} of a radius over the accessible positions; null where there are none.
+/// @param accessible, radius  [M]
+[[nodiscard]] program::Json radiusJson(std::span<const std::uint8_t> accessible,
+                                       std::span<const double> radius);
 
 }  // namespace palpate::modelfile

@@ -45,6 +45,7 @@ const SyntheticOptions& small() {
 TEST(WriteModel, RefusesSizesThatDoNotFit) {
   const std::vector<std::pair<std::string, std::function<void(ModelData&)>>> cases{
       {"order is 0, expected 1 to 7", [](ModelData& d) { d.attributes.order = 0; }},
+      {"force_order is 9, expected 1 to 8", [](ModelData& d) { d.attributes.force_order = 9; }},
       {"/surface/mesh_tag is empty", [](ModelData& d) { d.surface_mesh_tag.clear(); }},
       {"/contact/node is empty", [](ModelData& d) { d.contact_node.clear(); }},
       {"/surface/positions has 125 numbers, expected 126",

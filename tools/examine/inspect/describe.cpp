@@ -5,11 +5,10 @@
 #include <iomanip>
 #include <numeric>
 #include <sstream>
-#include <vector>
 
 #include "core/data/model_view.h"
-#include "tools/modelfile/quantile.h"
 #include "tools/modelfile/reach.h"
+#include "tools/program/printed.h"
 
 namespace palpate::inspect {
 
@@ -41,17 +40,9 @@ Json bytesOfParts(const ModelView& v) {
   return bytes;
 }
 
-/// Quantiles over the accessible positions: m, N, or a level.
+/// Of the accessible positions: m, N, or a level.
 Json radii(const ModelView& v, std::span<const double> radius) {
-  std::vector<double> values;
-  for (std::size_t m = 0; m < v.positions(); ++m)
-    if (v.contact_accessible[m] != 0) values.push_back(radius[m]);
-  if (values.empty()) return nullptr;
-  std::sort(values.begin(), values.end());
-  return {{"min", values.front()},
-          {"p05", modelfile::quantile(values, 0.05)},
-          {"median", modelfile::quantile(values, 0.5)},
-          {"max", values.back()}};
+  return modelfile::radiusJson(v.contact_accessible, radius);
 }
 
 /// What the model is trusted for, and the load of the load-driven kinds.
@@ -61,14 +52,10 @@ void describeDomain(const MetaModel& model, Json& out) {
   const bool displaced = a.parameters == Parameters::kDisplacement;
   out["domain_radius"] = displaced ? radii(v, v.contact_domain_radius) : Json(nullptr);
   out["series_radius"] = displaced ? radii(v, v.contact_series_radius) : Json(nullptr);
-  if (displaced) {
-    const modelfile::Positions positions{v.surface_positions, v.contact_triangles, v.position_of_node,
-                                         v.contact_accessible};
-    Json& list = out["reach"] = Json::array();
-    for (const modelfile::Reach& r :
-         modelfile::reachOf(positions, v.contact_domain_radius, v.contact_series_radius))
-      list.push_back({{"travel", r.travel}, {"domain", r.domain}, {"series", r.series}});
-  }
+  if (displaced)
+    out["reach"] = modelfile::reachJson(
+        {v.surface_positions, v.contact_triangles, v.position_of_node, v.contact_accessible},
+        v.contact_domain_radius, v.contact_series_radius);
   if (a.parameters == Parameters::kForce) {
     out["reference_force"] = a.reference_force;
     out["force_radius"] = radii(v, v.contact_domain_radius);
@@ -108,6 +95,12 @@ std::string valueText(const Json& value) {
   return value.isString() ? value.text() : value.dump(-1, program::Keys::kAsWritten);
 }
 
+std::string reachText(const Json& r) {
+  return program::printed("%.1f %% of the surface by domain_radius, %.1f %% by series_radius",
+                          100.0 * r["by_domain_radius"].get<double>(),
+                          100.0 * r["by_series_radius"].get<double>());
+}
+
 }  // namespace
 
 Json describe(const MetaModel& model) {
@@ -145,13 +138,18 @@ Json describe(const MetaModel& model) {
 
 std::string table(const Json& description) {
   std::ostringstream out;
+  const auto line = [&](const std::string& key, const std::string& value) {
+    out << std::left << std::setw(26) << key << value << '\n';
+  };
   for (const auto& [key, value] : description.members()) {
-    if (!value.isObject()) {
-      out << std::left << std::setw(26) << key << valueText(value) << '\n';
-      continue;
+    if (key == "reach") {
+      for (const Json& r : value.entries())
+        line("reach." + program::printed("%.0f_mm", 1e3 * r["travel"].get<double>()), reachText(r));
+    } else if (value.isObject()) {
+      for (const auto& [inner, number] : value.members()) line(key + "." + inner, valueText(number));
+    } else {
+      line(key, valueText(value));
     }
-    for (const auto& [inner, number] : value.members())
-      out << std::left << std::setw(26) << (key + "." + inner) << valueText(number) << '\n';
   }
   return out.str();
 }

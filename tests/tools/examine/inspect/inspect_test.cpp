@@ -48,8 +48,8 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   EXPECT_EQ(json["provenance"]["program"], "synthetic");
   EXPECT_DOUBLE_EQ(json["domain_radius"]["p05"], 0.008);
   EXPECT_EQ(json["reach"][0]["travel"], 0.007);
-  EXPECT_EQ(json["reach"][0]["domain"], 1.0);
-  EXPECT_EQ(json["reach"][1]["domain"], 0.0);
+  EXPECT_EQ(json["reach"][0]["by_domain_radius"], 1.0);
+  EXPECT_EQ(json["reach"][1]["by_domain_radius"], 0.0);
   EXPECT_EQ(json["element_order"], 1);
   const unsigned rows = json["contact_positions"].get<unsigned>() * (19U - 3U);
   EXPECT_EQ(json["bytes"]["far_field"], 2U * (4U * 3U * 162U + rows * 4U) + 4U * (4U + rows));
@@ -129,6 +129,9 @@ TEST(Inspect, TableIsForPeople) {
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, HasSubstr("surface_nodes             42\n"));
   EXPECT_THAT(run.out, HasSubstr("material.law              stvk\n"));
+  EXPECT_THAT(run.out,
+              HasSubstr("reach.7_mm                100.0 % of the surface by domain_radius, 100.0 % by "
+                        "series_radius\n"));
 }
 
 TEST(Inspect, TruncatedModelGivesOneClearLineAndFails) {
