@@ -80,10 +80,13 @@ void describe(program::Options line, Options& options) {
   line.add("--modes", &options.modes,
            "modes of the model (default: 167; series-displacement: as many as its field_error of 1 % wants)")
       .range(1, 2000);
-  line.add("--order", &options.order, "degree of the series (default: 3)").range(1, 7);
+  line.add("--order", &options.order,
+           "degree of the series (default: 3); a force_order or travel of the case no longer holds")
+      .range(1, 7);
   line.add("--travel", &options.travel,
-           "series-displacement: how far tools press, m; chooses the degrees of fields and force")
-      .range(1e-9, 1.0);
+           "series-displacement: how far tools press, m; chooses the degrees of fields and force, for those "
+           "of the case")
+      .range(1e-9, solver::kLargestRadius);
   line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
   line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);

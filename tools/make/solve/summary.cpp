@@ -3,12 +3,9 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <string>
-#include <vector>
 
-#include "tools/modelfile/quantile.h"
 #include "tools/modelfile/reach.h"
 
 namespace palpate::solve_program {
@@ -40,22 +37,21 @@ const char* radiusKey(Parameters parameters) {
   }
 }
 
-/// Of what a tool may touch, helpers left out.
-Json radii(const modelfile::ModelData& data, std::span<const double> radius) {
-  std::vector<double> list;
-  for (std::size_t i = 0; i < radius.size(); ++i)
-    if (data.contact_accessible[i] != 0) list.push_back(radius[i]);
-  std::sort(list.begin(), list.end());
-  return {{"min", list.front()},
-          {"p05", modelfile::quantile(list, 0.05)},
-          {"median", modelfile::quantile(list, 0.5)}};
+modelfile::Positions positionsOf(const modelfile::ModelData& data) {
+  return {data.surface_positions, data.contact_triangles, data.position_of_node, data.contact_accessible};
 }
 
 void printTimes(const Json& seconds) {
   std::string line = "time:";
-  const std::pair<const char*, const char*> names[] = {
-      {"factor", "factor"}, {"mesh_error", "the mesh's error"}, {"series", "series"}, {"fit", "fit"},
-      {"pgd", "PGD"},       {"recompression", "recompression"}, {"write", "writing"}, {"total", "together"}};
+  const std::pair<const char*, const char*> names[] = {{"factor", "factor"},
+                                                       {"mesh_error", "the mesh's error"},
+                                                       {"orders", "orders"},
+                                                       {"series", "series"},
+                                                       {"fit", "fit"},
+                                                       {"pgd", "PGD"},
+                                                       {"recompression", "recompression"},
+                                                       {"write", "writing"},
+                                                       {"total", "together"}};
   for (const auto& [key, name] : names) {
     if (!seconds.contains(key)) continue;
     char part[64];
@@ -122,11 +118,13 @@ void printMesh(const Json& s) {
 
 void printRadius(const Json& s) {
   const auto line = [](const Json& radius, const char* name, double scale, const char* unit) {
+    if (radius.isNull()) return;
     std::fprintf(stderr, "%s: 5 %% quantile %.4g %s, median %.4g %s; ", name,
                  scale * radius["p05"].get<double>(), unit, scale * radius["median"].get<double>(), unit);
   };
   if (s.contains("domain_radius")) line(s["domain_radius"], "domain radius", 1e3, "mm");
-  if (s.contains("series_radius")) line(s["series_radius"], "of the force alone", 1e3, "mm");
+  if (s.contains("series_radius"))
+    line(s["series_radius"], "polynomials run to, flagged beyond the domain radius", 1e3, "mm");
   if (s.contains("force_radius")) line(s["force_radius"], "largest force", 1.0, "N");
   if (s.contains("level_radius")) line(s["level_radius"], "largest load level", 1.0, "of the load");
   if (s.contains("fit_error"))
@@ -143,22 +141,33 @@ void printRadius(const Json& s) {
   std::fputc('\n', stderr);
 }
 
-/// How far tools may press, and what a travel asked for.
+/// What a travel chose, and how much of the file reaches it.
+void printTravel(const Json& s) {
+  const Json* const travel = s.find("travel");
+  if (travel == nullptr) return;
+  const double mm = 1e3 * travel->at("travel").get<double>(), share = travel->at("share").get<double>();
+  std::fprintf(stderr,
+               "travel of %.4g mm: fields of degree %d, force of %d; %d of %d trial positions reach it by "
+               "their own radius\n",
+               mm, s["order"].get<int>(), s["force_order"].get<int>(), travel->at("reaching").get<int>(),
+               travel->at("places").get<int>());
+  if (share < 0.5)
+    std::fprintf(stderr,
+                 "warning: the domain radius reaches %.4g mm on %.0f %% of the accessible surface (it is the "
+                 "least within two rings of triangles); elsewhere the model answers too, and flags what is "
+                 "beyond it\n",
+                 mm, 100.0 * share);
+}
+
+/// How far tools may press.
 void printReach(const Json& s) {
   if (!s.contains("reach")) return;
-  if (const Json* const travel = s.find("travel"); travel != nullptr) {
-    const int reaching = travel->at("reaching").get<int>(), places = travel->at("places").get<int>();
-    std::fprintf(
-        stderr, "%s%d of %d places reach the travel of %.4g mm with fields of degree %d, force of %d\n",
-        2 * reaching < places ? "warning: " : "", reaching, places, 1e3 * travel->at("travel").get<double>(),
-        s["order"].get<int>(), s["force_order"].get<int>());
-  }
-  std::fprintf(stderr, "part of the accessible surface that reaches");
+  std::fprintf(stderr, "accessible surface whose domain radius reaches");
   for (std::size_t i = 0; i < s["reach"].size(); ++i) {
     const Json& r = s["reach"][i];
-    std::fprintf(stderr, "%s %.0f mm: %.0f %% (force alone %.0f %%)", i == 0 ? "" : ",",
-                 1e3 * r.at("travel").get<double>(), 100.0 * r.at("domain").get<double>(),
-                 100.0 * r.at("series").get<double>());
+    std::fprintf(stderr, "%s %.0f mm: %.0f %% (polynomials run to it: %.0f %%)", i == 0 ? "" : ",",
+                 1e3 * r.at("travel").get<double>(), 100.0 * r.at("by_domain_radius").get<double>(),
+                 100.0 * r.at("by_series_radius").get<double>());
   }
   std::fputc('\n', stderr);
 }
@@ -179,6 +188,7 @@ Json stages(Method method, const solver::BuildReport& report) {
     Json seconds{
         {"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}};
     if (report.mesh_error) seconds["mesh_error"] = report.mesh_error_seconds;
+    if (report.travel) seconds["orders"] = report.orders_seconds;
     return seconds;
   }
   Json seconds{{"factor", report.factor_seconds}, {"pgd", report.pgd_seconds}};
@@ -216,17 +226,14 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
          {"contact_positions", data.contact_node.size()},
          {"patch_radius", data.attributes.patch_radius},
          {"modes", data.modes_X.size() / (3 * data.surface_mesh_tag.size())},
-         {radiusKey(parameters), radii(data, data.contact_domain_radius)},
+         {radiusKey(parameters), modelfile::radiusJson(data.contact_accessible, data.contact_domain_radius)},
          {"seconds", seconds},
          {"file_bytes", std::filesystem::file_size(output)},
          {"peak_memory_MiB", peakMemoryMiB()}};
   if (parameters == Parameters::kDisplacement) {
-    s["series_radius"] = radii(data, data.contact_series_radius);
-    s["reach"] = Json::array();
-    for (const modelfile::Reach& r : modelfile::reachOf(
-             {data.surface_positions, data.contact_triangles, data.position_of_node, data.contact_accessible},
-             data.contact_domain_radius, data.contact_series_radius))
-      s["reach"].push_back({{"travel", r.travel}, {"domain", r.domain}, {"series", r.series}});
+    s["series_radius"] = modelfile::radiusJson(data.contact_accessible, data.contact_series_radius);
+    s["reach"] =
+        modelfile::reachJson(positionsOf(data), data.contact_domain_radius, data.contact_series_radius);
   }
   if (parameters != Parameters::kLevel) s["order"] = data.attributes.order;
   if (parameters == Parameters::kDisplacement) s["force_order"] = data.attributes.force_order;
@@ -236,10 +243,12 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
   }
   if (report.median_edge > 0.0) s["median_surface_edge"] = report.median_edge;
   if (report.mesh_error) s["mesh_error"] = meshErrorOf(report);
-  if (report.travel)
-    s["travel"] = {{"travel", report.travel->travel},
-                   {"reaching", report.travel->reaching},
-                   {"places", report.travel->places}};
+  if (const auto& travel = report.travel)
+    s["travel"] = {
+        {"travel", travel->travel},
+        {"reaching", travel->reaching},
+        {"places", travel->places},
+        {"share", modelfile::reachingShare(positionsOf(data), data.contact_domain_radius, travel->travel)}};
   if (isSeries(c.method)) {
     s["fit_error"] = report.fit_errors.back();
     if (parameters == Parameters::kDisplacement) {
@@ -270,6 +279,7 @@ void print(const Json& s) {
   printTimes(s["seconds"]);
   printFit(s);
   printRadius(s);
+  printTravel(s);
   printReach(s);
   std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
                1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());

@@ -25,7 +25,7 @@ namespace palpate::solve_program {
                                       const modelfile::ModelData& data, const solver::BuildReport& report,
                                       double write_seconds, double total_seconds);
 
-/// The same in four lines on standard error.
+/// The same for people, on standard error.
 void print(const program::Json& summary);
 
 }  // namespace palpate::solve_program

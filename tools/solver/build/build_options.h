@@ -34,7 +34,7 @@ struct TravelOrders {
 /// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
 struct BuildReport {
   double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
-  double mesh_error_seconds{0};
+  double mesh_error_seconds{0}, orders_seconds{0};
   double pgd_seconds{0}, recompression_seconds{0};
   std::vector<double> fit_errors;         ///< series methods: after each sweep, see FarField::errors
   double fit_p95{0}, fit_max{0};          ///< series-displacement: FarField::largest over the positions

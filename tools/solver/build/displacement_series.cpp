@@ -243,10 +243,12 @@ modelfile::ModelData buildDisplacementSeries(const Case& c, const mesh::TetMesh&
     report.mesh_error_seconds = mesh_watch.seconds();
   }
   Case chosen = c;
-  if (c.travel && !c.order && !c.force_order) {
+  if (c.travel) {
+    const Stopwatch orders_watch;
     report.travel = ordersFor(*c.travel, setup, factor, options);
     chosen.order = report.travel->orders.fields;
     chosen.force_order = report.travel->orders.answer;
+    report.orders_seconds = orders_watch.seconds();
   }
   return Builder(chosen, mesh, setup, factor, options, report).run();
 }

@@ -139,6 +139,54 @@ TEST_F(SolveProgram, SaysHowStiffTheMeshIs) {
                 "mesh.error has no effect");
 }
 
+TEST_F(SolveProgram, SaysHowMuchOfTheSurfaceReachesATravel) {
+  const auto solved = [&](const std::string& travel, bool warned) {
+    const ProgramResult result = solve({path("block.msh"), "--travel", travel, "--modes", "20",
+                                        "--element-order", "1", "-o", path("out.h5"), "-q", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("trial positions reach it by their own radius"), std::string::npos)
+        << result.err;
+    EXPECT_EQ(result.err.find("warning: the domain radius reaches") != std::string::npos, warned)
+        << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const auto summary = solved("0.007", true), near = solved("0.0005", false);
+  EXPECT_EQ(summary.at("travel").at("travel"), 0.007);
+  EXPECT_EQ(summary.at("travel").at("places"), 16);
+  EXPECT_EQ(summary.at("travel").at("share"), summary.at("reach").at(0).at("by_domain_radius"));
+  EXPECT_LT(summary.at("travel").at("share"), 0.5);
+  EXPECT_GE(near.at("travel").at("share"), 0.5);
+  EXPECT_LT(near.at("order"), summary.at("order"));
+  EXPECT_GT(summary.at("seconds").at("orders"), 0.0);
+  const auto file = nlohmann::json::parse(runProgram("palpate-inspect", {path("out.h5"), "--json"}).out);
+  for (const char* key : {"reach", "domain_radius", "series_radius", "order", "force_order"})
+    EXPECT_EQ(file.at(key), near.at(key)) << key;
+  EXPECT_EQ(file.at("provenance").at("travel"), 0.0005);
+}
+
+TEST_F(SolveProgram, RefusesATravelBeyondEveryDomainRadius) {
+  expectRefusal(solve({path("block.msh"), "--travel", "0.06", "-o", path("out.h5")}), "0.05");
+  expectRefusal(solve({path("block.msh"), "--travel", "0.01", "--order", "3", "-o", path("out.h5")}),
+                "--travel does not go with --order");
+}
+
+TEST_F(SolveProgram, ATravelOrAnOrderReplacesWhatTheCaseSaysOfBoth) {
+  const auto summary = [&](const std::string& keys, const std::string& option, const std::string& value) {
+    const ProgramResult result = solve({writeCase("[model]\nmodes = 20\n" + keys), "--element-order", "1",
+                                        option, value, "-o", path("out.h5"), "-q", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const auto travelled = summary("order = 4\nforce_order = 8\n", "--travel", "0.0005");
+  EXPECT_EQ(travelled.at("order"), 3);
+  EXPECT_EQ(travelled.at("force_order"), 6);
+  EXPECT_TRUE(travelled.contains("travel"));
+  EXPECT_EQ(summary("order = 4\nforce_order = 8\n", "--order", "2").at("force_order"), 4);
+  const auto ordered = summary("travel = 0.0005\n", "--order", "2");
+  EXPECT_EQ(ordered.at("order"), 2);
+  EXPECT_FALSE(ordered.contains("travel"));
+}
+
 TEST_F(SolveProgram, WarnsOfPatchesThatAreNarrowForTheMesh) {
   const std::string radius = "patch_radius = ";
   for (const auto& [key, order, narrow] : {std::tuple(radius + "0.008\n", "2", true),
