@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { FLAG_FORCE_LIMITED, FLAG_FORCE_RATE_LIMITED, FLAG_RAMPING } from './flag_list';
-import { STATE_FREE, type Frame, type Tool } from './protocol';
+import { STATE_FREE, type Answer, type Frame, type Tool } from './protocol';
 import type { Surface } from './surface';
 import { norm, pointOf, sub, type Vec3 } from './vec';
 
+const AS_NEAR = 0.1; // of the reach: touches are as near if their distances differ by no more, since a pressed anchor creeps
 const NOT_THE_ORGANS = FLAG_RAMPING | FLAG_FORCE_LIMITED | FLAG_FORCE_RATE_LIMITED;
 
 /** The stiffness felt at each spot: a map that the palpating finger draws. */
 export class FeltMap {
   readonly value: Float32Array; // N/m
   readonly weight: Float32Array; // 0: never felt .. 1: right under a tool
+  private readonly distance: Float32Array; // m, of the nearest touch
+  private readonly depth: Float32Array; // m, of the touch whose stiffness the node has
   low = Infinity;
   high = -Infinity;
 
@@ -19,6 +22,8 @@ export class FeltMap {
   ) {
     this.value = new Float32Array(surface.mesh.nodes);
     this.weight = new Float32Array(surface.mesh.nodes);
+    this.distance = new Float32Array(surface.mesh.nodes).fill(Infinity);
+    this.depth = new Float32Array(surface.mesh.nodes);
   }
 
   /** Stiffness at the node nearest to a point of the rest surface, N/m; NaN where nothing was felt. */
@@ -39,7 +44,7 @@ export class FeltMap {
       if (tool.state === STATE_FREE || tool.flags & NOT_THE_ORGANS) continue;
       const answer = frame.answers.findLast((a) => a.toolId === tool.id);
       if (!answer || !(answer.stiffness > 0) || answer.flags & NOT_THE_ORGANS) continue;
-      this.mark(tool, answer.stiffness);
+      this.mark(tool, answer);
       learnt = true;
     }
     if (learnt) this.measure();
@@ -61,18 +66,24 @@ export class FeltMap {
   clear(): void {
     this.value.fill(0);
     this.weight.fill(0);
+    this.distance.fill(Infinity);
+    this.depth.fill(0);
     [this.low, this.high] = [Infinity, -Infinity];
   }
 
-  private mark(tool: Tool, stiffness: number): void {
+  /** The nearest touch counts, however long another lasts, and of those as near the deepest: not the last before the tool left. */
+  private mark(tool: Tool, { stiffness, penetration }: Answer): void {
     const { rest, mesh } = this.surface;
+    const depth = Math.fround(penetration);
     for (let n = 0; n < mesh.nodes; ++n) {
       const r = Math.hypot(rest[3 * n] - tool.anchor[0], rest[3 * n + 1] - tool.anchor[1], rest[3 * n + 2] - tool.anchor[2]);
       if (r >= this.reach) continue;
-      const w = Math.fround((1 - (r / this.reach) ** 2) ** 2);
-      if (w < this.weight[n]) continue; // the nearest touch counts, however long another lasts
+      const nearer = (this.distance[n] - r) / this.reach;
+      if (nearer < -AS_NEAR || (nearer <= AS_NEAR && depth < this.depth[n])) continue;
       this.value[n] = stiffness;
-      this.weight[n] = w;
+      this.depth[n] = depth;
+      this.distance[n] = Math.min(r, this.distance[n]); // never more: creeping must not lead away step by step
+      this.weight[n] = (1 - (this.distance[n] / this.reach) ** 2) ** 2;
     }
   }
 

@@ -134,6 +134,40 @@ test('a node keeps what the nearest touch felt there, however long one beside it
   assert.ok(Number.isNaN(felt.at([0, 0, -R])));
 });
 
+test('of a press and its release a node keeps what was felt deepest, though the anchor creeps and ends nearer', () => {
+  const surface = ball();
+  const felt = new FeltMap(surface, 0.01);
+  const press = (depth: number, creep: number): boolean =>
+    felt.learn({
+      ...frameOf(surface.mesh, () => [0, 0, 0]),
+      tools: [{ ...tool, anchor: [0.0006 - creep, 0, R] as Vec3 }],
+      answers: [{ ...answer, penetration: depth, stiffness: 400 + 1e5 * depth }],
+    });
+  const depths = [0.0001, 0.001, 0.003, 0.005];
+  depths.forEach((depth, i) => press(depth, 1e-4 * i));
+  assert.equal(felt.at(top), 900);
+  [...depths].reverse().forEach((depth, i) => press(depth, 3e-4 + 1e-4 * i));
+  assert.equal(felt.at(top), 900);
+  assert.ok(felt.low > 800, `${felt.low}: what the last touch felt is left nowhere`);
+  felt.clear();
+  press(0.001, 0);
+  assert.equal(felt.at(top), 500);
+});
+
+test('a touch that is nearer counts though another was deeper', () => {
+  const surface = ball();
+  const felt = new FeltMap(surface, 0.01);
+  const touch = (x: number, depth: number, stiffness: number): boolean =>
+    felt.learn({
+      ...frameOf(surface.mesh, () => [0, 0, 0]),
+      tools: [{ ...tool, anchor: [x, 0, R] as Vec3 }],
+      answers: [{ ...answer, penetration: depth, stiffness }],
+    });
+  touch(0.004, 0.005, 900);
+  touch(0, 0.001, 400);
+  assert.equal(felt.at(top), 400);
+});
+
 test('another tip paints another width, and what the first one felt goes', () => {
   const surface = ball();
   const felt = new FeltMap(surface, 0.01);
