@@ -42,6 +42,12 @@ TEST(Surface, IsCopiedUnchanged) {
   EXPECT_EQ(surface.regions[1].triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
 }
 
+TEST(Surface, OfAnOlderServerThatDoesNotSayWhatIsClampedNothingIs) {
+  SmallSurface source;
+  source.clamped.clear();
+  EXPECT_EQ(checkedSurface(source.message()).clamped, std::vector<std::uint8_t>(5, 0));
+}
+
 TEST(Surface, RejectsWhatAServerMustNotSend) {
   SmallSurface index;
   index.triangles[4] = 5;
@@ -62,8 +68,8 @@ TEST(Surface, RejectsWhatAServerMustNotSend) {
   tags.mesh_tags.push_back(1);
   EXPECT_EQ(refusal(tags), "surface from the server: mesh_tags has 6 entries, expected 5");
   SmallSurface clamp;
-  clamp.clamped.clear();
-  EXPECT_EQ(refusal(clamp), "surface from the server: clamped has 0 entries, expected 5");
+  clamp.clamped.pop_back();
+  EXPECT_EQ(refusal(clamp), "surface from the server: clamped has 4 entries, expected 5");
   SmallSurface id;
   id.model_id = "a\nb";
   EXPECT_EQ(refusal(id), "surface from the server: model_id holds an unprintable character");

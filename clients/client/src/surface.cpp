@@ -116,11 +116,13 @@ Surface checkedSurface(const dds::SurfaceMesh& message) {
   if (surface.triangles.empty()) Refusal{}("triangles has 0 entries, expected 3 for each triangle");
   expectSize("accessible", message.accessible._length, surface.positions.size());
   expectSize("mesh_tags", message.mesh_tags._length, surface.positions.size());
-  expectSize("clamped", message.clamped._length, surface.positions.size());
+  // Of an older server, which does not say it: zeros.
+  if (message.clamped._length != 0) expectSize("clamped", message.clamped._length, surface.positions.size());
   surface.accessible.assign(message.accessible._buffer,
                             message.accessible._buffer + message.accessible._length);
   surface.mesh_tags.assign(message.mesh_tags._buffer, message.mesh_tags._buffer + message.mesh_tags._length);
   surface.clamped.assign(message.clamped._buffer, message.clamped._buffer + message.clamped._length);
+  surface.clamped.resize(surface.positions.size());
   copyRegions(message, surface);
   return surface;
 }
