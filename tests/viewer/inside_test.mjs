@@ -31,22 +31,22 @@ test('the inside shows through the organ, in its own colour, while the box is ch
 });
 
 test('names and stiffness stand in the legend, follow the live one, and it is said that the inside does not move', async () => {
-  assert.deepEqual(await lines(), ['held', 'elsewhere 160 kPa', 'nodule 1600 kPa']);
+  assert.deepEqual(await lines(), ['clamped', 'elsewhere 160 kPa', 'nodule 1600 kPa']);
   assert.equal(await seen.page.getByText('(drawn at rest)').count(), 1);
   await seen.page.locator('#stiffness').fill('1');
   await seen.until('twice as stiff', (f) => f.inForce.youngsFactor === 2);
-  assert.deepEqual(await lines(), ['held', 'elsewhere 320 kPa', 'nodule 3200 kPa']);
+  assert.deepEqual(await lines(), ['clamped', 'elsewhere 320 kPa', 'nodule 3200 kPa']);
   await seen.page.locator('#stiffness').fill('0');
   await seen.until('as before', (f) => f.inForce.youngsFactor === 1);
 });
 
-test('what is held is dark and grey in all colours of the rest, and in the legend', async () => {
+test('what is clamped is dark and grey in all colours of the rest, and in the legend', async () => {
   await look('ArrowUp', 40); // from below
   for (const choice of ['displacement', 'stiffness', 'plain']) {
     await seen.page.locator(`input[value=${choice}]`).check({ force: true });
     await seen.settled();
-    const held = await middle();
-    assert.ok(Math.max(...held) < 130 && Math.max(...held) - Math.min(...held) < 20, `${choice}: ${held}`);
+    const clamped = await middle();
+    assert.ok(Math.max(...clamped) < 130 && Math.max(...clamped) - Math.min(...clamped) < 20, `${choice}: ${clamped}`);
   }
-  await seen.shot('held');
+  await seen.shot('clamped');
 });

@@ -111,7 +111,7 @@ TEST(ViewerFrame, MeshHasPositionsTrianglesAccessAndRegions) {
   EXPECT_EQ(at<std::uint32_t>(out, 84), 2U);
   EXPECT_EQ(at<std::uint8_t>(out, 152), 0U) << "node 0 is not accessible";
   EXPECT_EQ(at<std::uint8_t>(out, 156), 1U);
-  EXPECT_EQ(at<std::uint8_t>(out, 157), 1U) << "node 0 is held";
+  EXPECT_EQ(at<std::uint8_t>(out, 157), 1U) << "node 0 is clamped";
   EXPECT_EQ(at<std::uint8_t>(out, 158), 0U);
   EXPECT_EQ(at<std::uint32_t>(out, 164), 0U) << "nodes of the first region, which has no surface";
   EXPECT_EQ(at<std::uint32_t>(out, 172), 3U);

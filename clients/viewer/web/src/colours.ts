@@ -101,7 +101,7 @@ export const STIFFNESS = new ColourMap([
 export const TISSUE = rgbOf('#c26a5c');
 export const NOT_FELT = rgbOf('#cfcac3');
 /** Where the organ is clamped: darker than what is not felt, and without the colour of any scale. */
-export const HELD = '#6f6a66';
+export const CLAMPED = '#6f6a66';
 
 /** Of regions, in turn: M. Okabe and K. Ito, "Color Universal Design" (2008), which colour-blind people tell apart. */
 export const REGIONS = ['#d55e00', '#009e73', '#cc79a7', '#0072b2', '#f0e442', '#56b4e9'];

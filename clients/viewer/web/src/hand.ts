@@ -44,7 +44,7 @@ export class Hand implements Toucher {
     const press = Press.begin(organ.surface, ray, organ.tipRadius, performance.now());
     if (!press) {
       if (!organ.surface.hit(ray.origin, ray.direction)) return false;
-      this.notice('The organ is held here: no answer was computed at this spot.');
+      this.notice('The organ is clamped here: no answer was computed at this spot.');
       return true;
     }
     this.press_ = press;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshPhongMaterial, Sphere, Vector3, type Scene } from 'three';
-import { DISPLACEMENT, HELD, NOT_FELT, niceCeiling, rgbOf, STIFFNESS, TISSUE } from './colours';
+import { CLAMPED, DISPLACEMENT, NOT_FELT, niceCeiling, rgbOf, STIFFNESS, TISSUE } from './colours';
 import type { FeltMap } from './felt';
 import type { Surface } from './surface';
 
@@ -9,7 +9,7 @@ export type Colouring = 'displacement' | 'stiffness' | 'plain';
 const LEAST_TOP = 0.002; // m
 const AT_REST = 1e-4; // m
 const SHOWS_INSIDE = 0.4; // opacity
-const HELD_RGB = rgbOf(HELD);
+const CLAMPED_RGB = rgbOf(CLAMPED);
 
 /** The drawn organ: lit, shaded, coloured. */
 export class OrganMesh {
@@ -67,7 +67,7 @@ export class OrganMesh {
   colour(how: Colouring): void {
     const { displaced, mesh } = this.surface;
     for (let n = 0; n < mesh.nodes; ++n) {
-      if (mesh.held[n]) this.colours.set(HELD_RGB, 3 * n);
+      if (mesh.clamped[n]) this.colours.set(CLAMPED_RGB, 3 * n);
       else if (how === 'displacement') DISPLACEMENT.write(displaced[n] / this.top, this.colours, 3 * n);
       else if (how === 'plain') this.colours.set(TISSUE, 3 * n);
       else if (this.felt.weight[n] < 0.02) this.colours.set(NOT_FELT, 3 * n);

@@ -20,7 +20,7 @@ export interface Shape {
 export interface Mesh extends Shape {
   readonly revision: number;
   readonly accessible: Uint8Array; // nodes; 1: a tool may touch it
-  readonly held: Uint8Array; // nodes; 1: clamped, does not move
+  readonly clamped: Uint8Array; // nodes; 1: does not move
   readonly regions: readonly Shape[]; // where each ends inside the organ; without triangles: the one round the others
 }
 
@@ -110,7 +110,7 @@ export function decodeMesh(data: ArrayBuffer): Mesh {
   const [, nodes, count, revision, regions] = parts.whole(5);
   const shape = parts.shape(nodes, count);
   const accessible = parts.bytes(nodes);
-  const held = parts.bytes(nodes);
+  const clamped = parts.bytes(nodes);
   parts.bytes(-parts.at & 3);
   const inside: Shape[] = [];
   for (let r = 0; r < regions; ++r) {
@@ -118,7 +118,7 @@ export function decodeMesh(data: ArrayBuffer): Mesh {
     inside.push(parts.shape(n, t));
   }
   expect(parts.at === data.byteLength, `mesh of ${data.byteLength} bytes, expected ${parts.at}`);
-  return { ...shape, revision, accessible, held, regions: inside };
+  return { ...shape, revision, accessible, clamped, regions: inside };
 }
 
 function vectorAt(view: DataView, at: number): Vec3 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { HELD } from './colours';
+import { CLAMPED } from './colours';
 import type { Said } from './connection';
 import { coloursOf } from './inside';
 import { brief, element, numberIn, setText } from './page';
@@ -10,7 +10,7 @@ interface Region {
   readonly youngs: number; // E of the model, Pa
 }
 
-/** The legend's lines of what is held and what is inside. Nothing is there of an organ that has neither. */
+/** The legend's lines of what is clamped and what is inside. Nothing is there of an organ that has neither. */
 export class RegionList {
   private readonly box = element('parts', HTMLDivElement);
   private readonly texts: { region: Region; text: HTMLElement }[] = [];
@@ -30,7 +30,7 @@ export class RegionList {
   show(mesh: Mesh): boolean {
     this.texts.length = 0;
     this.box.replaceChildren();
-    if (mesh.held.some((held) => held !== 0)) this.line(HELD, 'held');
+    if (mesh.clamped.some((clamped) => clamped !== 0)) this.line(CLAMPED, 'clamped');
     const colours = coloursOf(mesh.regions);
     if (!colours.some(Boolean)) return false;
     this.box.append(this.checkbox());

@@ -42,7 +42,7 @@ test('a mesh is read as it was written', () => {
   const mesh = decodeMesh(meshMessage());
   assert.equal(kindOf(meshMessage()), 1);
   assert.deepEqual([mesh.revision, mesh.nodes, [...mesh.triangles]], [7, 3, [0, 1, 2]]);
-  assert.deepEqual([[...mesh.accessible], [...mesh.held]], [[1, 0, 1], [0, 1, 0]]);
+  assert.deepEqual([[...mesh.accessible], [...mesh.clamped]], [[1, 0, 1], [0, 1, 0]]);
   assert.deepEqual([...mesh.positions], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
   assert.deepEqual(mesh.regions.map(({ nodes, triangles }) => [nodes, ...triangles]), [[0], [3, 2, 1, 0]]);
   assert.deepEqual([...mesh.regions[1].positions], [0, 0, 5, 1, 0, 5, 0, 1, 5]);

@@ -28,7 +28,7 @@ export function ballMesh(levels: number, radius: number): Mesh {
     positions: Float32Array.from(points.flat().map((x) => radius * x)),
     triangles: Uint32Array.from(triangles.flat()),
     accessible: new Uint8Array(points.length).fill(1),
-    held: new Uint8Array(points.length),
+    clamped: new Uint8Array(points.length),
     regions: [],
   };
 }

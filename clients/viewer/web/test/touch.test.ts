@@ -97,7 +97,7 @@ test('pulling stays in the plane of the touch', () => {
   near(press?.target(0, 0) ?? [0, 0, 0], [0.02, 0.01, R + TIP + 0.001], 3e-4);
 });
 
-test('where the organ is held nothing is pressed', () => {
+test('where the organ is clamped nothing is pressed', () => {
   const mesh = ballMesh(3, R);
   const surface = new Surface({ ...mesh, accessible: mesh.accessible.map((_, n) => (mesh.positions[3 * n + 2] > 0.02 ? 0 : 1)) });
   assert.equal(Press.begin(surface, down(), TIP, 0), undefined);
