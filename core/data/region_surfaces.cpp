@@ -69,15 +69,21 @@ std::vector<Face> facesBetween(const ModelView& v) {
   return faces;
 }
 
-std::vector<double> volumesOf(const ModelView& v) {
-  std::vector<double> volume(v.region_name.size(), 0.0);
+/// @return six times the volumes, m^3. @param surfaces  get their centres
+std::vector<double> measure(const ModelView& v, std::vector<RegionSurface>& surfaces) {
+  std::vector<double> volumes(surfaces.size(), 0.0);
   for (std::size_t t = 0; t < v.mesh_element_region.size(); ++t) {
     const auto X = [&](std::size_t k) {
       return Eigen::Map<const Vec3>(v.mesh_nodes.data() + 3 * index(v.mesh_tetrahedra[4 * t + k]));
     };
-    volume[index(v.mesh_element_region[t])] += std::abs((X(1) - X(0)).cross(X(2) - X(0)).dot(X(3) - X(0)));
+    const std::size_t region = index(v.mesh_element_region[t]);
+    const double volume = std::abs((X(1) - X(0)).cross(X(2) - X(0)).dot(X(3) - X(0)));
+    volumes[region] += volume;
+    surfaces[region].centre += 0.25 * volume * (X(0) + X(1) + X(2) + X(3));
   }
-  return volume;
+  for (std::size_t r = 0; r < surfaces.size(); ++r)
+    if (volumes[r] > 0.0) surfaces[r].centre /= volumes[r];
+  return volumes;
 }
 
 /// @param number_of  volume node: its number in this surface, in the order in which faces name them
@@ -98,7 +104,7 @@ std::vector<RegionSurface> regionSurfaces(const ModelView& v) {
   std::vector<RegionSurface> surfaces(v.region_name.size());
   for (const std::int32_t region : v.mesh_element_region) ++surfaces[index(region)].tetrahedra;
   if (surfaces.empty()) return surfaces;
-  const std::vector<double> volume = volumesOf(v);
+  const std::vector<double> volume = measure(v, surfaces);
   const auto sizeOf = [&](const Face& face) {
     const std::size_t region = index(regionOf(v, face));
     return std::pair(volume[region], region);

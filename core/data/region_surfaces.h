@@ -5,13 +5,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/types.h"
 #include "core/data/model_view.h"
 
 namespace palpate {
 
-/// Where a region of the volume mesh ends inside the organ, at rest.
+/// Where a region of the volume mesh lies and where it ends inside the organ, at rest.
 struct RegionSurface {
   std::size_t tetrahedra{0};             ///< of the region
+  Vec3 centre = Vec3::Zero();            ///< of its volume, m; the origin where it has none
   std::vector<double> positions;         ///< [n][3] m
   std::vector<std::uint32_t> triangles;  ///< [t][3] of these nodes, counter-clockwise from outside the region
 };

@@ -83,12 +83,5 @@ TEST(Svg, RejectsNumbersItCannotShow) {
   EXPECT_THROW((void)plot.render(), std::invalid_argument);
 }
 
-TEST(Ticks, AreRoundAndCoverTheRange) {
-  const auto ticks = niceTicks(0.0, 0.87, 6);
-  EXPECT_LE(ticks.front(), 0.0);
-  EXPECT_GE(ticks.back(), 0.87);
-  EXPECT_NEAR(ticks[1] - ticks[0], 0.2, 1e-12);
-}
-
 }  // namespace
 }  // namespace palpate::report

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace palpate::program {
 
@@ -20,5 +21,8 @@ class ValueError : public std::runtime_error {
 
 /// The same. @param[in] option  for the message  @throw ValueError
 [[nodiscard]] std::array<double, 3> parseVector(const std::string& option, const std::string& text);
+
+/// Round numbers (1, 2 or 5 times a power of ten) that cover [low, high] with about `count` steps.
+[[nodiscard]] std::vector<double> niceTicks(double low, double high, int count);
 
 }  // namespace palpate::program

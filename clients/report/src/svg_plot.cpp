@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tools/program/numbers.h"
 #include "tools/program/printed.h"
 #include "tools/program/xml.h"
 
@@ -62,7 +63,7 @@ Axis makeAxis(double low, double high, double at_low, double at_high, bool log) 
     return makeAxis(low - room / 2.0, low + room / 2.0, at_low, at_high, log);
   }
   if (log) return {low, high, at_low, at_high, true, logTicks(low, high)};
-  std::vector<double> ticks = niceTicks(low, high, 6);
+  std::vector<double> ticks = program::niceTicks(low, high, 6);
   const double from = std::min(low, ticks.front());
   const double upto = std::max(high, ticks.back());
   return {from, upto, at_low, at_high, false, std::move(ticks)};
@@ -184,22 +185,6 @@ void checkSizes(const SvgPlot& plot) {
 }
 
 }  // namespace
-
-std::vector<double> niceTicks(double low, double high, int count) {
-  const double rough = (high - low) / std::max(count, 1);
-  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10.0 * decade;
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * decade >= rough * (1.0 - 1e-9)) {
-      step = factor * decade;
-      break;
-    }
-  std::vector<double> ticks;
-  const auto first = static_cast<long>(std::floor(low / step + 1e-9));
-  const auto last = static_cast<long>(std::ceil(high / step - 1e-9));
-  for (long i = first; i <= last; ++i) ticks.push_back(static_cast<double>(i) * step);
-  return ticks;
-}
 
 std::string SvgPlot::render() const {
   checkSizes(*this);

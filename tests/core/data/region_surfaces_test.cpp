@@ -68,6 +68,14 @@ TEST(RegionSurfaces, ANoduleHasAllItsFacesOutwardAndWhatItLiesInHasNone) {
   EXPECT_EQ(surfaces[2].tetrahedra, 0U);
 }
 
+TEST(RegionSurfaces, CentreIsThatOfTheVolume) {
+  const auto surfaces = regionSurfaces(Cluster({1, 0, 2, 2, 2}).view());
+  EXPECT_LT((surfaces[1].centre - Vec3::Constant(0.25)).norm(), 1e-12);
+  EXPECT_LT((surfaces[0].centre - Vec3::Constant(0.5)).norm(), 1e-12);
+  EXPECT_LT((surfaces[2].centre - Vec3::Zero()).norm(), 1e-12);
+  EXPECT_EQ(surfaces[3].centre, Vec3::Zero().eval()) << "without tetrahedra";
+}
+
 TEST(RegionSurfaces, AFaceBetweenTwoSmallOnesIsThereOnceWithTheSmaller) {
   const Cluster cluster({1, 0, 0, 0, 2});  // 2 has twice the volume of 1
   const auto surfaces = regionSurfaces(cluster.view());

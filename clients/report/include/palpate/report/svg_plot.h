@@ -28,7 +28,4 @@ struct SvgPlot {
   [[nodiscard]] std::string render() const;
 };
 
-/// Round numbers (1, 2 or 5 times a power of ten) that cover [low, high] with about `count` steps.
-[[nodiscard]] std::vector<double> niceTicks(double low, double high, int count);
-
 }  // namespace palpate::report
