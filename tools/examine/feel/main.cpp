@@ -9,14 +9,13 @@ namespace {
 
 void addModel(program::Options& command, Study& study) {
   command.add("model", &study.model, "model file (.h5)").required();
-  command.add("--seed", &study.seed, "of the random places and paths");
   command.flag("--json", &study.json, "print one JSON object on standard output");
 }
 
 int body(int argc, char** argv) {
   program::CommandLine line("palpate-feel",
-                            "Computes what a hand feels of a model: closed loops, slides, and a device in "
-                            "closed loop, through step().");
+                            "Computes what a hand feels of a model: closed loops, slides, a device in closed "
+                            "loop, and the contrast of what lies in it.");
   Study study;
   program::Options loops = line.options().subcommand(
       "loops", "closed paths: does the organ ever return more energy than it received?");
@@ -24,7 +23,11 @@ int body(int argc, char** argv) {
       line.options().subcommand("slides", "random smooth slides: does the force click?");
   program::Options coupling =
       line.options().subcommand("coupling", "a device in a hand presses: up to which coupling is it stable?");
-  for (program::Options* command : {&loops, &slides, &coupling}) addModel(*command, study);
+  program::Options contrast = line.options().subcommand(
+      "contrast", "presses everywhere: how much larger is the force than without what lies in the organ?");
+  for (program::Options* command : {&loops, &slides, &coupling, &contrast}) addModel(*command, study);
+  for (program::Options* command : {&loops, &slides, &coupling})
+    command->add("--seed", &study.seed, "of the random places and paths");
   loops.add("--loops", &study.count, "number of loops of each kind").range(1, 100000);
   slides.add("--paths", &study.paths, "number of slides").range(1, 100000);
   for (program::Options* command : {&loops, &slides})
@@ -32,9 +35,17 @@ int body(int argc, char** argv) {
   slides.add("--speed", &study.speed, "m/s");
   coupling.flag("--no-device-friction", &study.frictionless,
                 "without the device's Coulomb friction, which hides small instabilities");
+  contrast
+      .add("without", &study.without,
+           "model of the same organ without what lies in it: its case file without [[region]] tables, solved")
+      .required();
+  contrast.add("--depth", &study.press_depth, "of the presses, along the normal, m").range(1e-6, 1.0);
+  contrast.add("--map", &study.map,
+               "write the contrast over the surface: a picture (.svg) or a VTK file (.vtu)");
   if (!line.read(argc, argv)) return 0;
   if (loops.chosen()) return runLoops(study);
   if (slides.chosen()) return runSlides(study);
+  if (contrast.chosen()) return runContrast(study);
   return runCoupling(study);
 }
 
