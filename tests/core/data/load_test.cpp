@@ -17,6 +17,17 @@ namespace palpate::testing {
 
 using modelfile::ModelData;
 
+TEST(Load, GivesBackAForceOfTheHighestDegree) {
+  const TemporaryFile file("degree-8.h5");
+  const ModelData d = syntheticModel({.subdivisions = 1, .order = 4, .force_order = 8, .modes = 2});
+  modelfile::writeModel(file.path(), d);
+  const MetaModel model = MetaModel::load(file.path());
+  EXPECT_EQ(model.attributes().order, 4);
+  EXPECT_EQ(model.attributes().force_order, 8);
+  EXPECT_EQ(model.view().contact_force.size(), 3 * 164 * d.contact_node.size());
+  EXPECT_TRUE(sameBits(d.contact_force, model.view().contact_force));
+}
+
 TEST(Load, GivesBackEveryBitThatWasWritten) {
   const TemporaryFile file("round-trip.h5");
   const ModelData& d = goodData();

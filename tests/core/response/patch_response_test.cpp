@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -13,23 +14,36 @@ namespace palpate::testing {
 
 namespace {
 
+struct Organ {
+  const MetaModel& model;
+  const SyntheticOptions& options;
+};
+
+/// The organ of all tests, and one with the force of the highest degree. They have one surface.
+std::array<Organ, 2> organs() {
+  static const SyntheticOptions steep{
+      .subdivisions = 2, .order = 4, .force_order = kMostForceOrder, .series_radius = 0.01};
+  static const MetaModel model = loadSynthetic(steep);
+  return {{{organ(), options()}, {model, steep}}};
+}
+
 /// What degree 2 of W is at X, J.
-double linear(const Vec3& X, const Vec3& d) {
+double linear(const SyntheticOptions& o, const Vec3& X, const Vec3& d) {
   const double along = X.normalized().dot(d);
-  return 0.5 * options().stiffness * (d.squaredNorm() + 0.5 * along * along);
+  return 0.5 * o.stiffness * (d.squaredNorm() + 0.5 * along * along);
 }
 
 /// W of the organ's closed form: the patch's own stiffness, and what is beyond degree 2 mixed as the model mixes it.
-double mixedEnergy(const ContactPoint& s, const Vec3& d) {
-  const Stencil mix = organ().mixing().at(organ().surface(), s);
+double mixedEnergy(const Organ& of, const ContactPoint& s, const Vec3& d) {
+  const Stencil mix = of.model.mixing().at(of.model.surface(), s);
+  const ModelView& v = of.model.view();
   PatchStiffness::Value stiffness;
-  organ().stiffness().at(organ().surface(), s, stiffness);
+  of.model.stiffness().at(of.model.surface(), s, stiffness);
   double energy = 0.5 * d.dot(stiffness.K * d);
   for (std::size_t b = 0; b < mix.count; ++b) {
-    const auto node =
-        static_cast<std::size_t>(organ().view().contact_node[static_cast<std::size_t>(mix.position[b])]);
-    const Vec3 X = Eigen::Map<const Vec3>(organ().view().surface_positions.data() + 3 * node);
-    energy += mix.weight[b] * (syntheticEnergy(options(), X, d) - linear(X, d));
+    const auto node = static_cast<std::size_t>(v.contact_node[static_cast<std::size_t>(mix.position[b])]);
+    const Vec3 X = Eigen::Map<const Vec3>(v.surface_positions.data() + 3 * node);
+    energy += mix.weight[b] * (syntheticEnergy(of.options, X, d) - linear(of.options, X, d));
   }
   return energy;
 }
@@ -60,19 +74,39 @@ TEST(Response, StiffnessAtANodeIsTheSumOverDRefToTheLastBit) {
 
 TEST(Response, ForceIsGradientOfEnergy) {
   Random random;
-  for (int trial = 0; trial < 50; ++trial) {
-    const ContactPoint s = random.contactPoint();
-    const Vec3 d = random.vector(0.004);
-    Response out;
-    ASSERT_EQ(respond(organ(), s, d, out), ResponseStatus::kOk);
-    const double h = 1e-6;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const double slope =
-          (mixedEnergy(s, d + h * Vec3::Unit(i)) - mixedEnergy(s, d - h * Vec3::Unit(i))) / (2.0 * h);
-      EXPECT_NEAR(out.force[i], slope, 1e-6);
+  for (const Organ& of : organs())
+    for (int trial = 0; trial < 50; ++trial) {
+      const ContactPoint s = random.contactPoint();
+      const Vec3 d = random.vector(0.004);
+      Response out;
+      ASSERT_EQ(respond(of.model, s, d, out), ResponseStatus::kOk);
+      const double h = 1e-6;
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const double slope =
+            (mixedEnergy(of, s, d + h * Vec3::Unit(i)) - mixedEnergy(of, s, d - h * Vec3::Unit(i))) /
+            (2.0 * h);
+        EXPECT_NEAR(out.force[i], slope, 1e-6) << of.options.force_order;
+      }
+      EXPECT_NEAR(PatchResponse(of.model, s).energy(d), mixedEnergy(of, s, d), 1e-12);
     }
-    EXPECT_NEAR(PatchResponse(organ(), s).energy(d), mixedEnergy(s, d), 1e-12);
-  }
+}
+
+TEST(Response, StiffnessIsTheDerivativeOfTheForceOfAnyDegree) {
+  Random random;
+  for (const Organ& of : organs())
+    for (int trial = 0; trial < 50; ++trial) {
+      const PatchResponse patch(of.model, random.contactPoint());
+      const Vec3 d = random.vector(0.004);
+      Response out, plus, minus;
+      ASSERT_EQ(patch.at(d, out), ResponseStatus::kOk);
+      const double h = 1e-6;
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        ASSERT_EQ(patch.at(d + h * Vec3::Unit(i), plus), ResponseStatus::kOk);
+        ASSERT_EQ(patch.at(d - h * Vec3::Unit(i), minus), ResponseStatus::kOk);
+        const Vec3 slope = (plus.force - minus.force) / (2.0 * h);
+        EXPECT_LT((out.stiffness.col(i) - slope).norm(), 1e-6 * out.stiffness.norm());
+      }
+    }
 }
 
 TEST(Response, ForceIsGradientOfTheEnergyThatIsReported) {

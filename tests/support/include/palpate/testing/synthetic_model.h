@@ -15,7 +15,7 @@ struct SyntheticOptions {
   int subdivisions{3};                   ///< of the icosahedron: 10 * 4^n + 2 surface nodes
   double radius{0.05};                   ///< m
   int order{3};                          ///< p, of the fields
-  int force_order{0};                    ///< of the force, up to 6; 0: as the fields
+  int force_order{0};                    ///< of the force, up to 8; 0: as the fields
   int modes{6};                          ///< n
   double near_radius{0.02};              ///< m
   double reference_displacement{0.005};  ///< m
