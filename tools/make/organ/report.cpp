@@ -110,9 +110,9 @@ void print(std::ostream& out, const Report& report) {
   out << "tetrahedra       " << s.tetrahedra << (report.element_order == 2 ? " of ten nodes, " : ", ")
       << s.surface_triangles << " boundary triangles\n";
   for (const auto& [name, region] : report.regions)
-    out << "region           " << name << ": " << region.tetrahedra << " tetrahedra round "
+    out << "region           " << name << ": " << region.tetrahedra << " tetrahedra, centre "
         << inWords(region.centre) << " m, " << inMillimetres((region.centre - region.surface).norm())
-        << " mm under " << inWords(region.surface) << " m\n";
+        << " mm from the surface at " << inWords(region.surface) << " m\n";
   out << "bounding box     " << inWords(s.box_min) << " to " << inWords(s.box_max) << " m, size "
       << inWords(s.box_max - s.box_min) << " m\n";
   std::snprintf(line, sizeof line, "volume           %.6g m^3\n", s.volume);
