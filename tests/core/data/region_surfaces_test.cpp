@@ -89,7 +89,7 @@ TEST(RegionSurfaces, OneMaterialHasNone) {
   EXPECT_TRUE(regionSurfaces(ModelView{}).empty());
 }
 
-TEST(RegionSurfaces, MeshesThatAreNoneAreSurvived) {
+TEST(RegionSurfaces, DegenerateMeshesAreSurvived) {
   Cluster thrice({1, 0, 0, 0, 0});
   for (std::size_t k = 0; k < 4; ++k)
     thrice.tetrahedra[4 + k] = thrice.tetrahedra[8 + k] = thrice.tetrahedra[k];

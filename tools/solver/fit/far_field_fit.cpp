@@ -29,8 +29,8 @@ MatrixXd FarFieldFit::sumOfRhs() const {
   return sum;
 }
 
-/// One sweep over the active sources. All but plain sweeps measure the errors that are seen, which the next sweep's weights
-/// may follow; the last has no X-step, nor has that for amplitudes, which measures nothing.
+/// One sweep over the active sources. kLast and kAmplitudes skip the X-step; kAmplitudes measures no errors, and all but plain
+/// sweeps those that are seen, which the next sweep's weights may follow.
 void FarFieldFit::sweep(Step step) {
   for (Worker& worker : workers_) {
     worker.row_rhs = MatrixXd::Zero(rows_, modes_);
