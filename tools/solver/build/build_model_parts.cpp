@@ -29,7 +29,7 @@ void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::Tet
     if (setup.model.isFree(node) && setup.model.dof(node) == *unknown - *unknown % 3)
       throw std::runtime_error(c.mesh.string() + ": node " + std::to_string(mesh.node_tags[at(node)]) +
                                ": the stiffness is not positive definite; is the organ held by \"" + c.fixed +
-                               "\"?");
+                               "\" or by springs?");
 }
 
 void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,

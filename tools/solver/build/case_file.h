@@ -73,7 +73,7 @@ struct Case {
   std::filesystem::path mesh;        ///< volume mesh in metres; relative paths start at the case file
   std::optional<int> element_order;  ///< 1 or 2; absent: see raised()
   bool mesh_error{false};            ///< whether to say how stiff the mesh makes the organ, see meshError()
-  std::string fixed{"fixed"};        ///< physical group of the clamped nodes
+  std::string fixed{"fixed"};  ///< physical group of the clamped nodes; where springs hold it none is needed
   std::optional<std::string> accessible;  ///< physical group that a tool may touch; absent: all free nodes
   std::string law{"stvk"};                ///< lawOf() knows it
   double E{160e3};                        ///< Pa, (0, 1e12]

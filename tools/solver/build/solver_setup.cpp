@@ -28,6 +28,12 @@ const std::vector<std::int32_t>& groupOf(const Case& c, const mesh::TetMesh& mes
                   "\" (there are: " + (list.empty() ? "none" : list) + ")");
 }
 
+/// The clamped nodes. Springs may hold the organ instead, where the case names no group of its own.
+std::vector<std::int32_t> fixedOf(const Case& c, const mesh::TetMesh& mesh) {
+  if (!c.springs.empty() && c.fixed == Case{}.fixed && mesh.groups.count(c.fixed) == 0) return {};
+  return groupOf(c, mesh, c.fixed);
+}
+
 std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, const FeModel& model,
                                   const PatchSurface& surface) {
   std::vector<bool> by_volume_node(mesh.nodes.size(), !c.accessible.has_value());
@@ -168,7 +174,7 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
 }
 
 SolverSetup::SolverSetup(const Case& c, const mesh::TetMesh& mesh)
-    : model(mesh.nodes, {mesh.tetrahedra, mesh.midsides}, groupOf(c, mesh, c.fixed), materialOf(c, mesh),
+    : model(mesh.nodes, {mesh.tetrahedra, mesh.midsides}, fixedOf(c, mesh), materialOf(c, mesh),
             springsOf(c, mesh)),
       surface(surfaceOf(model, mesh)),
       patch_radius(patchRadius(c, surface)),

@@ -240,6 +240,31 @@ TEST_F(SolveProgram, RefusesAnUnknownGroupAndListsThoseThereAre) {
   expectRefusal(result, "no group \"rib\"");
   EXPECT_NE(result.err.find("accessible, fixed"), std::string::npos) << result.err;
 }
+TEST_F(SolveProgram, SpringsHoldAnOrganWithoutAClamp) {
+  mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(block.nodes.size()); ++node)
+    block.groups[block.nodes[static_cast<std::size_t>(node)].x() < 1e-9 ? "bed" : "accessible"].push_back(
+        node);
+  writeBlock("block.msh", block);
+  expectRefusal(solve({path("block.msh"), "-o", path("out.h5")}), "no group \"fixed\"");
+  const std::string springs = "[[spring]]\ngroup = \"bed\"\nstiffness = ";
+  expectRefusal(solve({writeCase("[boundary]\nfixed = \"rib\"\n" + springs + "1e7\n"), "-o", path("out.h5")}),
+                "no group \"rib\"");
+  expectRefusal(solve({writeCase(springs + "1e-12\n"), "-o", path("out.h5"), "-q"}), "or by springs?");
+  const ProgramResult result =
+      solve({writeCase("[boundary]\naccessible = \"accessible\"\n" + springs + "1e7\n"), "-o", path("out.h5"),
+             "-q", "--json", "--mesh-error"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto file = nlohmann::json::parse(runProgram("palpate-inspect", {path("out.h5"), "--json"}).out);
+  EXPECT_NEAR(file.at("springs").at("stiffness"), 1e7 * 0.05 * 0.04, 1e-6);
+  const ProgramResult query = runProgram(
+      "palpate-query",
+      {path("out.h5"), "--at", "0.06,0.025,0.02", "--displacement", "-0.001,0,0.0005", "--newton", "--json"});
+  ASSERT_EQ(query.exit_code, 0) << query.err;
+  const auto newton = nlohmann::json::parse(query.out).at("newton");
+  EXPECT_LT(newton.at("force_error"), 0.01);
+  EXPECT_LT(newton.at("field_error_max"), 0.02);
+}
 TEST_F(SolveProgram, RefusesAClampThatDoesNotHold) {
   mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
   block.groups["fixed"] = {0, 1};
