@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install` installs two components: the library for drivers (component haptic) and the programs (component
-# programs).
+# `cmake --install` installs components, from which cmake/packages.cmake makes packages: the programs (programs), those of
+# them that link GPL libraries (solver), the library for drivers (library) and what building a driver takes (haptic).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+set(PALPATE_PACKAGE_programs palpate)
+set(PALPATE_PACKAGE_solver palpate-solver)
+set(PALPATE_PACKAGE_library libpalpate-haptic${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(PALPATE_PACKAGE_haptic libpalpate-haptic-dev)
 
-install(TARGETS palpate_haptic EXPORT palpateTargets COMPONENT haptic
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT haptic NAMELINK_COMPONENT haptic
+# --- The library for drivers
+install(TARGETS palpate_haptic EXPORT palpateTargets COMPONENT library
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT haptic
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY clients/haptic/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT haptic)
 install(FILES ${PALPATE_LISTS_DIR}/palpate_haptic_flags.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT haptic)
@@ -18,26 +23,65 @@ configure_package_config_file(cmake/palpateConfig.cmake.in ${CMAKE_CURRENT_BINAR
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/palpateConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/palpateConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/palpateConfigVersion.cmake
   DESTINATION ${PALPATE_CMAKE_DIR} COMPONENT haptic)
+# For pkg-config; the prefix follows from where the file is, as in the CMake package.
+string(REGEX REPLACE "[^/]+" ".." PALPATE_PREFIX_FROM_PC ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+configure_file(cmake/palpate-haptic.pc.in ${CMAKE_CURRENT_BINARY_DIR}/palpate-haptic.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/palpate-haptic.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT haptic)
 
 # The description of the wire, for clients in other languages, and the driver template.
 install(FILES idl/palpate.idl DESTINATION ${PALPATE_DATA_DIR} COMPONENT haptic)
-install(FILES clients/driver_template/driver.cpp clients/driver_template/README.md
+install(FILES clients/driver_template/CMakeLists.txt clients/driver_template/driver.cpp clients/driver_template/README.md
   DESTINATION ${PALPATE_DATA_DIR}/driver_template COMPONENT haptic)
 
 install(FILES clients/examples/CMakeLists.txt clients/examples/README.md clients/examples/touch.c clients/examples/touch.py
   clients/examples/palpate_qos.xml DESTINATION ${PALPATE_DATA_DIR}/examples COMPONENT haptic)
 
-set(PALPATE_PROGRAMS palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
-  palpate-viewer
-  palpate-organ palpate-solve palpate-inspect palpate-query palpate-reproduce palpate-replay)
-foreach(program IN LISTS PALPATE_PROGRAMS)
-  if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+# --- The programs, each with its man pages and completion
+find_program(PALPATE_HELP2MAN help2man)
+if(NOT PALPATE_HELP2MAN)
+  message(STATUS "no man pages are made: help2man is absent (tools/install_packages installs it)")
+endif()
+
+# palpate_install_programs(COMPONENT PROGRAM...)
+function(palpate_install_programs COMPONENT)
+  set(man ${CMAKE_CURRENT_BINARY_DIR}/man/${COMPONENT})
+  foreach(program IN LISTS ARGN)
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${COMPONENT})
+    install(FILES tools/packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+      RENAME ${program} COMPONENT ${COMPONENT})
+    add_custom_command(OUTPUT ${man}/${program}.1.gz
+      COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tools/packaging/man_pages $<TARGET_FILE:${program}> ${man}
+      DEPENDS ${program} tools/packaging/man_pages VERBATIM)
+    list(APPEND pages ${man}/${program}.1.gz)
+  endforeach()
+  # A sanitizer's programs are slow to start, and are not installed.
+  if(PALPATE_HELP2MAN AND NOT PALPATE_SANITIZE)
+    add_custom_target(man_pages_${COMPONENT} ALL DEPENDS ${pages})
   endif()
-endforeach()
+  install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${COMPONENT} OPTIONAL)
+endfunction()
+palpate_install_programs(programs palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
+  palpate-viewer palpate-inspect palpate-feel palpate-replay)
+# What links Gmsh or CHOLMOD: README.md, Licence.
+palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpate-reproduce)
+
 # The page, if it was built (clients/viewer/web).
 install(DIRECTORY clients/viewer/web/dist/ DESTINATION ${PALPATE_DATA_DIR}/viewer COMPONENT programs OPTIONAL)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+
+# --- The server as a service
 configure_file(server/palpate-server.service.in ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service @ONLY)
-install(FILES server/server.toml server/palpate-limits.conf server/palpate-cpu-latency.rules
-  ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service DESTINATION ${PALPATE_DATA_DIR} COMPONENT programs)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service DESTINATION lib/systemd/system COMPONENT programs)
+install(FILES server/palpate-cpu-latency.rules DESTINATION lib/udev/rules.d
+  RENAME 60-palpate-cpu-latency.rules COMPONENT programs)
+install(FILES server/server.toml DESTINATION ${CMAKE_INSTALL_SYSCONFDIR}/palpate COMPONENT programs)
+install(FILES server/palpate-limits.conf DESTINATION ${CMAKE_INSTALL_SYSCONFDIR}/security/limits.d
+  RENAME palpate.conf COMPONENT programs)
+
+# --- Licences, and what tools/package makes: change log and bill of materials
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)  # Debian has its own copy
+foreach(component IN ITEMS programs solver library haptic)
+  set(doc ${CMAKE_INSTALL_DATADIR}/doc/${PALPATE_PACKAGE_${component}})
+  install(FILES tools/packaging/copyright DESTINATION ${doc} COMPONENT ${component})
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz ${CMAKE_CURRENT_BINARY_DIR}/palpate.spdx.json
+    DESTINATION ${doc} COMPONENT ${component} OPTIONAL)
+endforeach()

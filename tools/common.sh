@@ -53,3 +53,9 @@ free_domain() {
   done
   fail "no free DDS domain among 1 to 100"
 }
+
+# The sample command lines of a README: the sh block after the line "<!-- samples: tools/check runs them -->".
+samples_of() {
+  awk '/^<!-- samples: tools\/check runs them -->/ { armed = 1 } armed && /^```sh/ { inside = 1; next }
+       /^```/ { if (inside) armed = 0; inside = 0 } inside' "$1"
+}

@@ -10,14 +10,27 @@ set(ENV{CYCLONEDDS_URI} "<CycloneDDS><Domain><General><Interfaces><NetworkInterf
 </Interfaces><AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>\
 <MaxAutoParticipantIndex>30</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>")
 set(prefix ${SCRATCH}/prefix)
-run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component haptic)
+foreach(component IN ITEMS library haptic)
+  run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component ${component})
+endforeach()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${SCRATCH}/build -G ${GENERATOR}
   -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_BUILD_TYPE=Release
-  -DCMAKE_PREFIX_PATH=${prefix} -DPALPATE_DRIVER_TEMPLATE=${prefix}/share/palpate/driver_template/driver.cpp)
+  -DCMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 run(${SCRATCH}/build/consumer_c)
 run(${SCRATCH}/build/consumer_cpp)
-run(${SCRATCH}/build/driver --help)
+
+# The driver template is a project of its own, and builds by pkg-config too.
+set(template ${prefix}/share/palpate/driver_template)
+run(${CMAKE_COMMAND} -S ${template} -B ${SCRATCH}/template -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_PREFIX_PATH=${prefix})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/template)
+run(${SCRATCH}/template/palpate-driver-template --help)
+file(GLOB pc ${prefix}/lib*/pkgconfig ${prefix}/lib/*/pkgconfig)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc} pkg-config --cflags --libs palpate-haptic
+  OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(flags)
+run(${CXX_COMPILER} -std=c++17 ${template}/driver.cpp ${flags} -Wl,-rpath,${pc}/.. -o ${SCRATCH}/by_pkg_config)
+run(${SCRATCH}/by_pkg_config --help)
 
 # A newer palpate than there is must not be found.
 file(WRITE ${SCRATCH}/newer/CMakeLists.txt

@@ -74,12 +74,10 @@ std::optional<PageFile> PageFiles::find(std::string_view uri) const {
 
 fs::path defaultPageFolder() {
   std::error_code failure;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failure);
-  if (!failure) {
-    const fs::path installed = program.parent_path() / PALPATE_PAGE_FROM_BIN;
-    if (fs::is_regular_file(installed / "index.html", failure)) return installed.lexically_normal();
-  }
-  return PALPATE_PAGE_SOURCE;
+  const fs::path bin = fs::read_symlink("/proc/self/exe", failure).parent_path();
+  const fs::path installed = (bin / PALPATE_PAGE_FROM_BIN).lexically_normal();
+  if (fs::is_regular_file(installed / "index.html", failure)) return installed;
+  return (bin / PALPATE_PAGE_FROM_BUILD).lexically_normal();
 }
 
 }  // namespace palpate::viewer

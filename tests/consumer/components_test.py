@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What each component installs. The build's folder is in PALPATE_BUILD."""
+import collections
+import gzip
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ["PALPATE_BUILD"])
+PACKAGES = {"programs": "palpate", "solver": "palpate-solver", "library": "libpalpate-haptic0.1", "haptic": "libpalpate-haptic-dev"}
+
+
+def run(*command):
+    return subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout
+
+
+def options_of(help_text):
+    """The long options of --help: lines of two spaces, then all names of one option."""
+    names = re.findall(r"^  (-\S+)", help_text, re.M)
+    return {option for name in names for option in re.findall(r"--[a-z0-9-]+", name)}
+
+
+def subcommands_of(help_text):
+    part = re.search(r"^Subcommands:\n(.*?)(\n\n|\Z)", help_text, re.M | re.S)
+    return re.findall(r"^  ([a-z][a-z-]*) ", part.group(1), re.M) if part else []
+
+
+class Components(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.stage = pathlib.Path(cls.scratch.name)
+        for component, package in PACKAGES.items():  # DESTDIR: below the stage whatever the build was configured for
+            run("env", f"DESTDIR={cls.stage / package}", "cmake", "--install", BUILD, "--component", component)
+        cls.programs = sorted(cls.stage.rglob("bin/*"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def files(self, package):
+        """Their paths on the machine that they would be installed on."""
+        return {"/" + str(path.relative_to(self.stage / package)) for path in (self.stage / package).rglob("*") if not path.is_dir()}
+
+    def file(self, package, ending):
+        found = [file for file in self.files(package) if file.endswith(ending)]
+        self.assertEqual(len(found), 1, f"{ending}: {found}")
+        return found[0]
+
+    def commands(self):
+        """(program, words after it, --help) of each program and subcommand."""
+        for program in self.programs:
+            text = run(program, "--help")
+            yield program, [], text
+            for subcommand in subcommands_of(text):
+                yield program, [subcommand], run(program, subcommand, "--help")
+
+    def test_programs_of_the_readme_are_installed(self):
+        table = (ROOT / "README.md").read_text().split("## The programs")[1].split("<!-- samples")[0]
+        named = set(re.findall(r"`(palpate-[a-z]+)`", table)) - {"palpate-bench"}  # built for developers only
+        self.assertEqual({path.name for path in self.programs}, named)
+
+    def test_no_file_is_in_two_components(self):
+        count = collections.Counter(file for package in PACKAGES.values() for file in self.files(package))
+        self.assertEqual([file for file, n in count.items() if n > 1], [])
+
+    def test_the_solver_is_what_links_gpl_libraries(self):
+        for program in self.programs:
+            with self.subTest(program=program.name):
+                gpl = re.search("gmsh|cholmod|umfpack", run("ldd", program)) is not None
+                self.assertEqual(gpl, program.is_relative_to(self.stage / "palpate-solver"))
+
+    def test_library_is_apart_from_its_headers(self):
+        self.file("libpalpate-haptic0.1", "/libpalpate_haptic.so.0.1.0")
+        self.assertFalse(any(file.endswith(".h") for file in self.files("libpalpate-haptic0.1")))
+        for ending in ("/palpate_haptic.h", "/haptic_tool.h", "/palpate_haptic_flags.h", "/libpalpate_haptic.so", "/palpate-haptic.pc",
+                       "/palpateConfig.cmake", "/driver_template/CMakeLists.txt", "/driver_template/driver.cpp", "/palpate.idl"):
+            self.file("libpalpate-haptic-dev", ending)
+
+    def test_unit_starts_what_is_installed_as_its_own_user(self):
+        self.file("palpate", "/lib/udev/rules.d/60-palpate-cpu-latency.rules")
+        unit = (self.stage / "palpate" / self.file("palpate", "/lib/systemd/system/palpate-server.service")[1:]).read_text()
+        command = re.search(r"^ExecStart=(\S+) --config (\S+)", unit, re.M)
+        self.assertEqual(command.group(1), self.file("palpate", "/bin/palpate-server"))
+        self.assertEqual(command.group(2), self.file("palpate", "/palpate/server.toml"))
+        for line in ("User=palpate", "LimitRTPRIO=90", "LimitMEMLOCK=infinity", "ProtectSystem=strict", "NoNewPrivileges=yes"):
+            self.assertRegex(unit, f"(?m)^{line}$")
+        for settings in (ROOT / "tools/packaging/palpate/conffiles").read_text().split():
+            self.file("palpate", settings)
+
+    @unittest.skipUnless(shutil.which("help2man"), "no man pages without help2man")
+    def test_man_pages_hold_every_option(self):
+        for program, words, text in self.commands():
+            with self.subTest(program=program.name, words=words):
+                page = program.parents[1] / "share/man/man1" / ("-".join([program.name] + words) + ".1.gz")
+                page = gzip.decompress(page.read_bytes()).decode().replace("\\-", "-")
+                self.assertRegex(page, r"(?m)^\.SH NAME\n" + "-".join([program.name] + words) + " - .{20}")
+                self.assertLessEqual(options_of(text), set(re.findall(r"--[a-z0-9-]+", page)))
+
+    def test_completion_lists_every_option(self):
+        for program, words, text in self.commands():
+            with self.subTest(program=program.name, words=words):
+                script = program.parents[1] / "share/bash-completion/completions" / program.name
+                offered = self.completed(script, program, [*words, "--"])
+                self.assertEqual(offered, options_of(text))
+                self.assertIn("--help", offered)
+                if not words and subcommands_of(text):
+                    self.assertEqual(self.completed(script, program, [""]), set(subcommands_of(text)))
+                self.assertRegex(run("bash", "-c", f"source {script}; complete -p {program.name}"), "_palpate")
+
+    def completed(self, script, program, words):
+        return set(run("bash", "-c", 'source "$1"; COMP_WORDS=("${@:2}"); COMP_CWORD=$(($# - 2)); _palpate "$2"; '
+                       'printf "%s\\n" "${COMPREPLY[@]}"', "-", script, program, *words).split())
+
+    @unittest.skipUnless(shutil.which("dpkg-query") and (BUILD / "build.ninja").exists(), "needs Debian and Ninja")
+    def test_bill_of_materials_names_what_is_linked(self):
+        bill = json.loads(run(sys.executable, ROOT / "tools/packaging/sbom.py", self.stage, BUILD, "1.2.3"))
+        self.assertEqual(bill["spdxVersion"], "SPDX-2.3")
+        things = bill["packages"] + bill["files"]
+        names = {thing["SPDXID"]: thing.get("fileName", thing.get("name")) for thing in things} | {"SPDXRef-DOCUMENT": "document"}
+        self.assertEqual(len(names), len(things) + 1)
+        linked = collections.defaultdict(set)
+        for relation in bill["relationships"]:
+            one, other = names[relation["spdxElementId"]], names[relation["relatedSpdxElement"]]
+            if relation["relationshipType"] == "DYNAMIC_LINK":
+                linked[one].add(other)
+        of = {path.name: linked["./" + str(path.relative_to(self.stage / package))]
+              for package in PACKAGES.values() for path in self.programs if path.is_relative_to(self.stage / package)}
+        self.assertEqual(len(of), len(self.programs))
+        self.assertLessEqual({"libddsc0debian", "libhdf5-103-1", "libc6"}, of["palpate-server"])
+        self.assertFalse(any("gmsh" in name or "cholmod" in name for name in of["palpate-server"]))
+        self.assertIn("libcholmod3", of["palpate-solve"])
+        self.assertLessEqual({"libcli11-dev", "libeigen3-dev", "three", *PACKAGES.values()}, set(names.values()))
+        sums = {entry["checksumValue"] for file in bill["files"] for entry in file["checksums"]}
+        for program in self.programs:
+            self.assertIn(hashlib.sha256(program.read_bytes()).hexdigest(), sums)
+
+
+if __name__ == "__main__":
+    unittest.main()
