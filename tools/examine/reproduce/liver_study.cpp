@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/index.h"
 #include "tools/examine/reproduce/figures.h"
 #include "tools/examine/reproduce/liver_linear.h"
 #include "tools/examine/reproduce/liver_nonlinear.h"
@@ -35,7 +36,7 @@ mesh::TetMesh readOrgan(const std::filesystem::path& path) {
 }
 
 Json problemOf(const LiverOptions& options, const solver::SolverSetup& setup, double load) {
-  const std::string mesh = options.mesh.empty() ? "The default organ" : options.mesh.filename().string();
+  const std::string mesh = options.mesh.empty() ? "The paper's liver" : options.mesh.filename().string();
   return {{"mesh", mesh},
           {"nodes", setup.model.nodeCount()},
           {"tetrahedra", setup.model.elementCount()},
@@ -78,6 +79,15 @@ std::vector<std::vector<double>> functionRows(const std::vector<SurfacePanel>& X
   return rows;
 }
 
+/// Linear between contact positions: nodes in the middle of edges get the mean of the ends.
+void fillMidsides(const solver::PatchSurface& surface, std::vector<double>& values) {
+  if (surface.faces.size() == surface.triangles.size()) return;
+  for (std::size_t t = 0; t < surface.faces.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)  // the fourth of a face's triangles has them
+      values[index(surface.triangles[4 * t + 3][k])] =
+          0.5 * (values[index(surface.faces[t][(k + 1) % 3])] + values[index(surface.faces[t][(k + 2) % 3])]);
+}
+
 /// Third component of the first six X_k on the boundary, and the first six Y_k.
 void writeFunctions(const solver::SolverSetup& setup, const solver::ScalarPairs& pairs, Output& out) {
   std::vector<SurfacePanel> X, Y;
@@ -87,7 +97,8 @@ void writeFunctions(const solver::SolverSetup& setup, const solver::ScalarPairs&
       if (setup.model.isFree(setup.surface.nodes[i]))
         x[i] = pairs.X(setup.model.dof(setup.surface.nodes[i]) + 2, k);
     for (std::size_t p = 0; p < setup.positions.nodes.size(); ++p)
-      y[static_cast<std::size_t>(setup.positions.nodes[p])] = pairs.Y(k, static_cast<Eigen::Index>(p));
+      y[index(setup.positions.nodes[p])] = pairs.Y(k, static_cast<Eigen::Index>(p));
+    fillMidsides(setup.surface, y);
     X.push_back(panelOf(setup, "X_{3}^{" + std::to_string(k + 1) + "}(x)", std::move(x)));
     Y.push_back(panelOf(setup, "Y^{" + std::to_string(k + 1) + "}(s)", std::move(y)));
   }

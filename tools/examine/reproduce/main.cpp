@@ -67,8 +67,8 @@ void describe(program::Options line, Options& options) {
       .list(',')
       .range(2, 200);
   line.add("--mesh", &options.liver.mesh,
-           "organ for the liver, in metres, with a group `fixed` (default: the default organ)");
-  line.add("--element-size", &options.liver.element_size, "of the default organ, m").range(0.003, 0.02);
+           "organ for the liver, in metres, with a group `fixed` (default: palpate-organ paper-liver)");
+  line.add("--element-size", &options.liver.element_size, "of the paper's liver, m").range(0.003, 0.02);
   line.add("--coarse-element-size", &options.liver.coarse_element_size,
            "of the liver-like organ for the ten terms, m; 0 leaves them out")
       .rangeOr(0.008, 0.02, {"0"});

@@ -74,7 +74,7 @@ a load-driven model, which interpolates compliance, can be better.
 
 constexpr const char* kTenTerms = R"(### The ten-term scheme on a liver-like organ
 
-The default organ at {ten_term_element_size_mm:g} mm elements, to keep the run short: {ten_term_nodes:.0f} nodes, {ten_term_tetrahedra:.0f}
+A liver at {ten_term_element_size_mm:g} mm elements, to keep the run short: {ten_term_nodes:.0f} nodes, {ten_term_tetrahedra:.0f}
 tetrahedra, {ten_term_positions:.0f} load positions, {ten_term_load_N:.2f} N downward in {ten_term_steps:.0f} load steps; residual of a step
 at most {pct_ten_term_residual:.1f} % (tolerance: {pct_ten_term_tolerance:.1f} %). {ten_term_pairs:.0f} pairs in {ten_term_seconds:.0f} s.
 Against full Newton at {ten_term_samples:.0f} positions: field {pct_ten_term_field_error_p95:.2f} % (95 %), contact
