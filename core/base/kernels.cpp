@@ -2,8 +2,9 @@
 #include "core/base/kernels.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 // Compiled once for each instruction set; the first call finds the best that the processor has.
 #undef HWY_TARGET_INCLUDE
@@ -17,6 +18,10 @@ namespace palpate {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Whether the processor has vectors of T: WebAssembly has none of doubles here, and loops go number by number.
+template <typename T>
+constexpr bool kHasVectors = HWY_HAVE_FLOAT64 != 0 || !std::is_same_v<T, double>;
+
 /// A vector of a row: as it lies, or whole numbers made floats.
 template <class D, typename Number>
 HWY_INLINE hn::Vec<D> load(D d, const Number* from) {
@@ -29,15 +34,17 @@ HWY_INLINE hn::Vec<D> load(D d, const Number* from) {
 /// y = base + sum over four rows of weight * row; base is y or zero.
 template <bool kOntoY, typename Number, typename T>
 HWY_INLINE void mixFour(const Number* const (&a)[4], const T (&w)[4], std::size_t length, T* y) {
-  const hn::ScalableTag<T> d;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto w0 = hn::Set(d, w[0]), w1 = hn::Set(d, w[1]), w2 = hn::Set(d, w[2]), w3 = hn::Set(d, w[3]);
   std::size_t i = 0;
-  for (; i + lanes <= length; i += lanes) {
-    const auto base = kOntoY ? hn::LoadU(d, y + i) : hn::Zero(d);
-    const auto even = hn::MulAdd(w0, load(d, a[0] + i), hn::Mul(w2, load(d, a[2] + i)));
-    const auto odd = hn::MulAdd(w1, load(d, a[1] + i), hn::MulAdd(w3, load(d, a[3] + i), base));
-    hn::StoreU(hn::Add(even, odd), d, y + i);
+  if constexpr (kHasVectors<T>) {
+    const hn::ScalableTag<T> d;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto w0 = hn::Set(d, w[0]), w1 = hn::Set(d, w[1]), w2 = hn::Set(d, w[2]), w3 = hn::Set(d, w[3]);
+    for (; i + lanes <= length; i += lanes) {
+      const auto base = kOntoY ? hn::LoadU(d, y + i) : hn::Zero(d);
+      const auto even = hn::MulAdd(w0, load(d, a[0] + i), hn::Mul(w2, load(d, a[2] + i)));
+      const auto odd = hn::MulAdd(w1, load(d, a[1] + i), hn::MulAdd(w3, load(d, a[3] + i), base));
+      hn::StoreU(hn::Add(even, odd), d, y + i);
+    }
   }
   for (; i < length; ++i)
     y[i] = (kOntoY ? y[i] : T{0}) + ((w[0] * a[0][i] + w[2] * a[2][i]) + (w[1] * a[1][i] + w[3] * a[3][i]));
@@ -63,26 +70,29 @@ HWY_INLINE void mixAll(RowAt rowAt, WeightOf weightOf, std::size_t rows, std::si
 /// Four dot products at a time, each in two partial sums, so that the additions need not wait for each other.
 template <typename T>
 HWY_INLINE void dotFour(const T* const (&a)[4], const T* y, std::size_t length, T (&out)[4]) {
-  const hn::ScalableTag<T> d;
-  const std::size_t lanes = hn::Lanes(d);
-  auto s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
-  auto t0 = hn::Zero(d), t1 = hn::Zero(d), t2 = hn::Zero(d), t3 = hn::Zero(d);
   std::size_t i = 0;
-  for (; i + 2 * lanes <= length; i += 2 * lanes) {
-    const auto near = hn::LoadU(d, y + i), far = hn::LoadU(d, y + i + lanes);
-    s0 = hn::MulAdd(hn::LoadU(d, a[0] + i), near, s0);
-    s1 = hn::MulAdd(hn::LoadU(d, a[1] + i), near, s1);
-    s2 = hn::MulAdd(hn::LoadU(d, a[2] + i), near, s2);
-    s3 = hn::MulAdd(hn::LoadU(d, a[3] + i), near, s3);
-    t0 = hn::MulAdd(hn::LoadU(d, a[0] + i + lanes), far, t0);
-    t1 = hn::MulAdd(hn::LoadU(d, a[1] + i + lanes), far, t1);
-    t2 = hn::MulAdd(hn::LoadU(d, a[2] + i + lanes), far, t2);
-    t3 = hn::MulAdd(hn::LoadU(d, a[3] + i + lanes), far, t3);
+  for (T& sum : out) sum = T{0};
+  if constexpr (kHasVectors<T>) {
+    const hn::ScalableTag<T> d;
+    const std::size_t lanes = hn::Lanes(d);
+    auto s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
+    auto t0 = hn::Zero(d), t1 = hn::Zero(d), t2 = hn::Zero(d), t3 = hn::Zero(d);
+    for (; i + 2 * lanes <= length; i += 2 * lanes) {
+      const auto near = hn::LoadU(d, y + i), far = hn::LoadU(d, y + i + lanes);
+      s0 = hn::MulAdd(hn::LoadU(d, a[0] + i), near, s0);
+      s1 = hn::MulAdd(hn::LoadU(d, a[1] + i), near, s1);
+      s2 = hn::MulAdd(hn::LoadU(d, a[2] + i), near, s2);
+      s3 = hn::MulAdd(hn::LoadU(d, a[3] + i), near, s3);
+      t0 = hn::MulAdd(hn::LoadU(d, a[0] + i + lanes), far, t0);
+      t1 = hn::MulAdd(hn::LoadU(d, a[1] + i + lanes), far, t1);
+      t2 = hn::MulAdd(hn::LoadU(d, a[2] + i + lanes), far, t2);
+      t3 = hn::MulAdd(hn::LoadU(d, a[3] + i + lanes), far, t3);
+    }
+    out[0] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s0, t0)));
+    out[1] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s1, t1)));
+    out[2] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s2, t2)));
+    out[3] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s3, t3)));
   }
-  out[0] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s0, t0)));
-  out[1] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s1, t1)));
-  out[2] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s2, t2)));
-  out[3] = hn::GetLane(hn::SumOfLanes(d, hn::Add(s3, t3)));
   for (; i < length; ++i)
     for (std::size_t k = 0; k < 4; ++k) out[k] += a[k][i] * y[i];
 }
@@ -117,7 +127,11 @@ bool AllFinite(const float* x, std::size_t length) {
     others = hn::Max(others, bitsAt(i + lanes));
   }
   std::uint32_t largest = hn::GetLane(hn::MaxOfLanes(du, hn::Max(most, others)));
-  for (; i < length; ++i) largest = std::max(largest, std::bit_cast<std::uint32_t>(x[i]) & 0x7FFFFFFFU);
+  for (; i < length; ++i) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, x + i, sizeof bits);
+    largest = std::max(largest, bits & 0x7FFFFFFFU);
+  }
   return largest < 0x7F800000U;
 }
 
@@ -169,7 +183,9 @@ HWY_EXPORT(MixPlacedRows);
 HWY_EXPORT(DotPlacedRows);
 
 void chooseKernels() noexcept {
+#if !HWY_ARCH_WASM  // which has one instruction set
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+#endif
 }
 
 void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING {

@@ -4,10 +4,10 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -23,9 +23,6 @@ static_assert(std::endian::native == std::endian::little,
               "the model file is mapped as it is: little-endian only");
 
 constexpr std::uint64_t kAlignment = 4096;
-constexpr std::uint64_t kMaxLength =
-    std::numeric_limits<std::int32_t>::max() / 4;  // int arithmetic on 3 n is safe
-
 /// What HDF5 says about its last error, at the place where it met it.
 std::string lastError() {
   std::string reason = "unknown reason";
@@ -54,22 +51,29 @@ H5FD_file_image_callbacks_t inPlace(const SealedImage& image) {
   return callbacks;
 }
 
-/// HDF5's type for T as a model file holds it.
-template <typename T>
-Hdf5Handle fileType() {
-  const auto of = [](hid_t type) { return Hdf5Handle(H5Tcopy(type), H5Tclose); };
-  if constexpr (std::is_same_v<T, double>) return of(H5T_IEEE_F64LE);
-  if constexpr (std::is_same_v<T, float>) return of(H5T_IEEE_F32LE);
-  if constexpr (std::is_same_v<T, std::int16_t>) return of(H5T_STD_I16LE);
-  if constexpr (std::is_same_v<T, std::int32_t>) return of(H5T_STD_I32LE);
-  if constexpr (std::is_same_v<T, std::int64_t>) return of(H5T_STD_I64LE);
-  if constexpr (std::is_same_v<T, std::uint8_t>) return of(H5T_STD_U8LE);
-  if constexpr (std::is_same_v<T, RegionName>) {
-    Hdf5Handle text = of(H5T_C_S1);
-    H5Tset_size(text.get(), sizeof(T));
-    H5Tset_strpad(text.get(), H5T_STR_NULLPAD);
-    return text;
+/// HDF5's type for numbers as a model file holds them.
+Hdf5Handle fileType(NumberType type) {
+  const auto of = [](hid_t known) { return Hdf5Handle(H5Tcopy(known), H5Tclose); };
+  switch (type) {
+    case NumberType::kF64:
+      return of(H5T_IEEE_F64LE);
+    case NumberType::kF32:
+      return of(H5T_IEEE_F32LE);
+    case NumberType::kI16:
+      return of(H5T_STD_I16LE);
+    case NumberType::kI32:
+      return of(H5T_STD_I32LE);
+    case NumberType::kI64:
+      return of(H5T_STD_I64LE);
+    case NumberType::kU8:
+      return of(H5T_STD_U8LE);
+    case NumberType::kRegionName:
+      break;
   }
+  Hdf5Handle text = of(H5T_C_S1);
+  H5Tset_size(text.get(), sizeof(RegionName));
+  H5Tset_strpad(text.get(), H5T_STR_NULLPAD);
+  return text;
 }
 
 std::string describeType(hid_t type) {
@@ -94,11 +98,7 @@ Hdf5Silence::~Hdf5Silence() {
 }
 
 Hdf5Reader::Hdf5Reader(const SealedImage& image, std::string name)
-    : image_(image), name_(std::move(name)), file_(openImage()) {}
-
-void Hdf5Reader::fail(const std::string& what) const {
-  throw LoadError(name_ + ": " + what);
-}
+    : ModelSource(std::move(name)), image_(image), file_(openImage()) {}
 
 Hdf5Handle Hdf5Reader::openImage() const {
   static constexpr std::array<unsigned char, 8> kSignature{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
@@ -146,12 +146,6 @@ void Hdf5Reader::numbers(const char* attribute, std::span<double> values) const 
     fail(std::string("attribute ") + attribute + " is " + describeType(type.get()) + ", expected a float");
 }
 
-double Hdf5Reader::number(const char* attribute) const {
-  double value = 0.0;
-  numbers(attribute, {&value, 1});
-  return value;
-}
-
 int Hdf5Reader::integer(const char* attribute) const {
   const Hdf5Handle handle = openAttribute(attribute, 1);
   const Hdf5Handle type(H5Aget_type(handle.get()), H5Tclose);
@@ -197,28 +191,16 @@ Hdf5Handle Hdf5Reader::openDataset(const std::string& path) const {
   return handle;
 }
 
-void Hdf5Reader::checkShape(const std::string& path, hid_t dataset, std::span<Length* const> wanted) const {
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+std::vector<std::uint64_t> Hdf5Reader::shape(const std::string& path, NumberType type) const {
+  const Hdf5Handle dataset = openDataset(path);
+  const Hdf5Handle found(H5Dget_type(dataset.get()), H5Tclose), wanted = fileType(type);
+  if (!found.valid() || H5Tequal(found.get(), wanted.get()) <= 0)
+    fail("/" + path + " is " + describeType(found.get()) + ", expected " + describeType(wanted.get()));
+  const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.get());
-  std::array<hsize_t, H5S_MAX_RANK> found{};
-  if (rank > 0) H5Sget_simple_extent_dims(space.get(), found.data(), nullptr);
-  bool good = rank == static_cast<int>(wanted.size());
-  for (std::size_t i = 0; good && i < wanted.size(); ++i) {
-    if (wanted[i]->value == Length::kUnknown && found[i] <= kMaxLength) wanted[i]->value = found[i];
-    good = wanted[i]->value == found[i];
-  }
-  if (good) return;
-  std::string is, should;
-  for (int i = 0; i < rank; ++i)
-    is += (i > 0 ? " x " : "") + std::to_string(found[static_cast<std::size_t>(i)]);
-  for (const Length* length : wanted) should += (should.empty() ? "" : " x ") + length->text();
-  fail("/" + path + " has shape " + (rank > 0 ? is : "of no array") + ", expected " + should);
-}
-
-void Hdf5Reader::checkType(const std::string& path, hid_t dataset, hid_t wanted) const {
-  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  if (!type.valid() || H5Tequal(type.get(), wanted) <= 0)
-    fail("/" + path + " is " + describeType(type.get()) + ", expected " + describeType(wanted));
+  std::array<hsize_t, H5S_MAX_RANK> lengths{};
+  if (rank > 0) H5Sget_simple_extent_dims(space.get(), lengths.data(), nullptr);
+  return {lengths.begin(), lengths.begin() + std::max(rank, 0)};
 }
 
 void Hdf5Reader::checkLayout(const std::string& path, hid_t dataset) const {
@@ -238,63 +220,23 @@ void Hdf5Reader::checkLayout(const std::string& path, hid_t dataset) const {
     fail("/" + path + " lies in another file, expected the data in this file");
 }
 
-const std::byte* Hdf5Reader::place(const std::string& path, hid_t dataset, std::uint64_t bytes) const {
+const std::byte* Hdf5Reader::place(const std::string& path, std::uint64_t bytes) const {
+  const Hdf5Handle dataset = openDataset(path);
+  checkLayout(path, dataset.get());
+  if (bytes == 0) return nullptr;
   const std::uint64_t size = image_.bytes().size();
-  const haddr_t offset = H5Dget_offset(dataset);
+  const haddr_t offset = H5Dget_offset(dataset.get());
   if (offset == HADDR_UNDEF)
     fail("/" + path + " has no place in the file (late allocation), expected early allocation");
   if (offset > size || bytes > size - offset)
     fail("/" + path + " lies at bytes " + std::to_string(offset) + " + " + std::to_string(bytes) +
          ", expected within the file's " + std::to_string(size));
-  if (H5Dget_storage_size(dataset) != bytes)
-    fail("/" + path + " stores " + std::to_string(H5Dget_storage_size(dataset)) + " bytes, expected " +
-         std::to_string(bytes));
+  if (const std::uint64_t stored = H5Dget_storage_size(dataset.get()); stored != bytes)
+    fail("/" + path + " stores " + std::to_string(stored) + " bytes, expected " + std::to_string(bytes));
   if (offset % kAlignment != 0)
     fail("/" + path + " begins at byte " + std::to_string(offset) + ", expected a multiple of " +
          std::to_string(kAlignment));
   return image_.bytes().data() + offset;
-}
-
-template <typename T>
-std::span<const T> Hdf5Reader::dataset(const Dataset<T>& what, Lengths& lengths) const {
-  const std::string path = what.path;
-  const Hdf5Handle handle = openDataset(path);
-  std::vector<Length*> shape;
-  for (const char* symbol : what.shape)
-    if (symbol != nullptr) shape.push_back(&lengths[symbol]);
-  checkType(path, handle.get(), fileType<T>().get());
-  checkShape(path, handle.get(), shape);
-  checkLayout(path, handle.get());
-  const std::uint64_t limit = image_.bytes().size() / sizeof(T);
-  std::uint64_t count = 1;
-  for (const Length* length : shape) {
-    if (length->value != 0 && count > limit / length->value)
-      fail("/" + path + " has more numbers than the file's " + std::to_string(image_.bytes().size()) +
-           " bytes can hold");
-    count *= length->value;
-  }
-  if (count == 0) return {};
-  return {static_cast<const T*>(static_cast<const void*>(place(path, handle.get(), count * sizeof(T)))),
-          static_cast<std::size_t>(count)};
-}
-
-template std::span<const double> Hdf5Reader::dataset(const Dataset<double>&, Lengths&) const;
-template std::span<const float> Hdf5Reader::dataset(const Dataset<float>&, Lengths&) const;
-template std::span<const std::int16_t> Hdf5Reader::dataset(const Dataset<std::int16_t>&, Lengths&) const;
-template std::span<const std::int32_t> Hdf5Reader::dataset(const Dataset<std::int32_t>&, Lengths&) const;
-template std::span<const std::int64_t> Hdf5Reader::dataset(const Dataset<std::int64_t>&, Lengths&) const;
-template std::span<const std::uint8_t> Hdf5Reader::dataset(const Dataset<std::uint8_t>&, Lengths&) const;
-template std::span<const RegionName> Hdf5Reader::dataset(const Dataset<RegionName>&, Lengths&) const;
-
-Length& Lengths::operator[](const char* symbol) {
-  const bool number = std::string_view(symbol).find_first_not_of("0123456789") == std::string_view::npos;
-  const auto [entry, added] =
-      lengths_.try_emplace(symbol, number ? Length(std::stoull(symbol)) : Length(symbol));
-  return entry->second;
-}
-
-void Lengths::define(const char* symbol, std::uint64_t value) {
-  lengths_.insert_or_assign(symbol, Length(value));
 }
 
 }  // namespace palpate

@@ -6,7 +6,6 @@
 
 #include "core/base/multi_index.h"
 #include "core/data/datasets.h"
-#include "core/data/hdf5_reader.h"
 #include "core/data/model_checks.h"
 #include "core/data/model_content.h"
 
@@ -14,7 +13,7 @@ namespace palpate {
 
 namespace {
 
-Parameters readParameters(const Hdf5Reader& file) {
+Parameters readParameters(const ModelSource& file) {
   if (const std::string format = file.text("format"); format != "palpate-model")
     file.fail("attribute format is \"" + format.substr(0, 40) + "\", expected \"palpate-model\"");
   if (const int version = file.integer("version"); version != kModelVersion)
@@ -28,7 +27,7 @@ Parameters readParameters(const Hdf5Reader& file) {
 }
 
 /// What differs between the kinds.
-void readKind(const Hdf5Reader& file, ModelAttributes& a) {
+void readKind(const ModelSource& file, ModelAttributes& a) {
   if (a.parameters == Parameters::kLevel) {
     file.numbers("load_direction", a.load_direction);
     a.load = file.number("load");
@@ -39,7 +38,7 @@ void readKind(const Hdf5Reader& file, ModelAttributes& a) {
   if (a.parameters == Parameters::kForce) a.reference_force = file.number("reference_force");
 }
 
-ModelAttributes readAttributes(const Hdf5Reader& file) {
+ModelAttributes readAttributes(const ModelSource& file) {
   ModelAttributes a;
   a.parameters = readParameters(file);
   a.law = file.text("law");
@@ -54,7 +53,7 @@ ModelAttributes readAttributes(const Hdf5Reader& file) {
   return a;
 }
 
-StoredDigests readDigests(const Hdf5Reader& file) {
+StoredDigests readDigests(const ModelSource& file) {
   StoredDigests stored{file.text("digest"), file.text("provenance_digest"), {}, {}};
   if (!file.hasAttribute("certificate")) return stored;
   stored.certificate = file.text("certificate_digest");
@@ -66,14 +65,14 @@ std::uint64_t sizeOf(int order) {
   return static_cast<std::uint64_t>(MonomialBasis::size(order));
 }
 
-void readSurface(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readSurface(const ModelSource& file, Lengths& size, ModelView& v) {
   v.surface_positions = file.dataset(dataset::kSurfacePositions, size);
   v.surface_triangles = file.dataset(dataset::kSurfaceTriangles, size);
   v.surface_mesh_tag = file.dataset(dataset::kSurfaceMeshTag, size);
   v.position_of_node = file.dataset(dataset::kPositionOfNode, size);
 }
 
-void readLevels(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readLevels(const ModelSource& file, Lengths& size, ModelView& v) {
   constexpr std::uint64_t kMaxSteps = 100'000;
   v.levels_Z = file.dataset(dataset::kLevelsZ, size);
   v.level_functions = static_cast<std::size_t>(size.value("C"));
@@ -86,7 +85,7 @@ void readLevels(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   require(" levels", size.value("L + 1"), 2, kMaxSteps + 1);
 }
 
-void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size, ModelView& v) {
+void readContact(const ModelSource& file, const ModelAttributes& a, Lengths& size, ModelView& v) {
   v.contact_node = file.dataset(dataset::kContactNode, size);
   v.contact_accessible = file.dataset(dataset::kContactAccessible, size);
   if (a.parameters == Parameters::kDisplacement) {
@@ -101,7 +100,7 @@ void readContact(const Hdf5Reader& file, const ModelAttributes& a, Lengths& size
   v.contact_domain_radius = file.dataset(dataset::kContactDomainRadius, size);
 }
 
-void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readFields(const ModelSource& file, Lengths& size, ModelView& v) {
   size.define("3 Ns", 3 * size.value("Ns"));
   v.modes_X = file.dataset(dataset::kModesX, size);
   v.modes_X_scale = file.dataset(dataset::kModesXScale, size);
@@ -115,7 +114,7 @@ void readFields(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.near_scale = file.dataset(dataset::kNearScale, size);
 }
 
-void readGreens(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readGreens(const ModelSource& file, Lengths& size, ModelView& v) {
   v.green_node = file.dataset(dataset::kGreenNode, size);
   v.green_Y = file.dataset(dataset::kGreenY, size);
   v.green_Y_scale = file.dataset(dataset::kGreenYScale, size);
@@ -127,13 +126,13 @@ void readGreens(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.green_near_scale = file.dataset(dataset::kGreenNearScale, size);
 }
 
-bool hasEdges(const Hdf5Reader& file) {
+bool hasEdges(const ModelSource& file) {
   const std::array<const char*, 4> paths{dataset::kEdgeOffset.path, dataset::kEdgeNode.path,
                                          dataset::kEdgeField.path, dataset::kEdgeScale.path};
   return std::any_of(paths.begin(), paths.end(), [&](const char* path) { return file.hasDataset(path); });
 }
 
-void readEdges(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readEdges(const ModelSource& file, Lengths& size, ModelView& v) {
   v.edge_scale = file.dataset(dataset::kEdgeScale, size);
   size.define("E + 1", size.value("E") + 1);
   v.edge_offset = file.dataset(dataset::kEdgeOffset, size);
@@ -142,7 +141,7 @@ void readEdges(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.edge_field = file.dataset(dataset::kEdgeField, size);
 }
 
-void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readMesh(const ModelSource& file, Lengths& size, ModelView& v) {
   v.mesh_nodes = file.dataset(dataset::kMeshNodes, size);
   v.mesh_tetrahedra = file.dataset(dataset::kMeshTetrahedra, size);
   if (file.hasDataset(dataset::kMeshMidsides.path))
@@ -153,7 +152,7 @@ void readMesh(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   v.mesh_surface_node = file.dataset(dataset::kMeshSurfaceNode, size);
 }
 
-void readRegions(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readRegions(const ModelSource& file, Lengths& size, ModelView& v) {
   if (!file.hasDataset(dataset::kElementRegion.path) && !file.hasDataset(dataset::kRegionName.path)) return;
   v.mesh_element_region = file.dataset(dataset::kElementRegion, size);
   v.region_name = file.dataset(dataset::kRegionName, size);
@@ -163,7 +162,7 @@ void readRegions(const Hdf5Reader& file, Lengths& size, ModelView& v) {
   if (v.region_name.empty()) file.fail(dataset::kRegionName.name() + " is empty, expected regions");
 }
 
-void readSprings(const Hdf5Reader& file, Lengths& size, ModelView& v) {
+void readSprings(const ModelSource& file, Lengths& size, ModelView& v) {
   if (!file.hasDataset(dataset::kSpringNode.path) && !file.hasDataset(dataset::kSpringStiffness.path)) return;
   v.spring_node = file.dataset(dataset::kSpringNode, size);
   v.spring_stiffness = file.dataset(dataset::kSpringStiffness, size);
@@ -172,8 +171,7 @@ void readSprings(const Hdf5Reader& file, Lengths& size, ModelView& v) {
 
 }  // namespace
 
-ModelContents readModel(const SealedImage& image, const std::string& name) {
-  const Hdf5Reader file(image, name);
+ModelContents readModel(const ModelSource& file, const std::string& name) {
   ModelContents contents;
   ModelAttributes& a = contents.attributes;
   a = readAttributes(file);

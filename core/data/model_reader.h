@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "core/data/model_source.h"
 #include "core/data/model_view.h"
-#include "core/data/sealed_image.h"
 
 namespace palpate {
 
@@ -16,17 +16,17 @@ struct StoredDigests {
   std::string certified;    ///< of the content that it belongs to
 };
 
-/// What HDF5 says about a model: its attributes, and where its arrays lie in the image.
+/// What HDF5 says about a model: its attributes, and where its arrays lie in memory.
 struct ModelContents {
   ModelAttributes attributes;
   StoredDigests stored;
   ModelView view;
 };
 
-/// Asks HDF5 for format, attributes and each array's type, shape, layout and place, checks all of them, and
-/// closes HDF5 again. The numbers in the arrays are not looked at: see checkContents().
+/// Format, attributes and each array's type, shape and place, all of them checked. The numbers in the arrays are not looked at:
+/// see checkContents().
 /// @param name  how the file is called in messages
 /// @throw LoadError file, dataset, found, expected
-[[nodiscard]] ModelContents readModel(const SealedImage& image, const std::string& name);
+[[nodiscard]] ModelContents readModel(const ModelSource& file, const std::string& name);
 
 }  // namespace palpate

@@ -20,24 +20,6 @@ void require(int good) {
 
 }  // namespace
 
-std::string Digest::hex() const {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : bytes) (text += kDigits[byte >> 4U]) += kDigits[byte & 15U];
-  return text;
-}
-
-std::string Digest::id() const {
-  constexpr std::size_t kDigits = 40;  // 160 bits
-  return hex().substr(0, kDigits);
-}
-
-std::uint64_t Digest::leading64() const noexcept {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < sizeof value; ++i) value = value << 8U | bytes[i];
-  return value;
-}
-
 void Sha256::Free::operator()(void* context) const noexcept {
   EVP_MD_CTX_free(contextOf(context));
 }
@@ -54,12 +36,6 @@ Digest Sha256::finish() {
   Digest digest;
   require(EVP_DigestFinal_ex(contextOf(context_.get()), digest.bytes.data(), nullptr));
   return digest;
-}
-
-Digest sha256(std::span<const std::byte> bytes) {
-  Sha256 hash;
-  hash.add(bytes);
-  return hash.finish();
 }
 
 }  // namespace palpate

@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "core/base/index.h"
-#include "core/data/available_memory.h"
 #include "core/data/datasets.h"
 #include "core/data/model_checks.h"
 #include "core/data/model_content.h"
-#include "core/data/model_reader.h"
-#include "core/data/region_surfaces.h"
-#include "core/data/try_in_child.h"
 #include "core/surface/surface_distance.h"
 
 namespace palpate {
@@ -24,26 +20,6 @@ void compare(const std::string& name, const char* what, const std::string& store
   if (stored != computed.hex())
     throw LoadError(name + ": the " + what + " of its content is " + computed.hex() + ", the file says " +
                     stored.substr(0, 64) + ": it was damaged or changed after it was written");
-}
-
-/// At most about what the model's tables take beside the copy: modes node by node, what is near the nodes that patches are
-/// centred at, the stiffness of patches over triangles, the contact's answer in rows, dimples, and the refined surface with
-/// its search tree; and what the server makes of regions.
-std::uint64_t bytesOfTables(const ModelView& v) {
-  constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have
-  constexpr std::uint64_t kPerNode =
-      2200;  // of a surface that has more after one refinement, while it is made
-  constexpr std::uint64_t kPerEntry = 2 * 16;  // of a patch, twice as its list grows
-  const std::uint64_t entries =
-      std::min<std::uint64_t>(ContactPatches::kMostTogether,
-                              v.surfaceNodes() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));
-  // Six places a triangle are seen from it, twice as the lists are made; each place, four a node, has a dimple of degree one.
-  const std::uint64_t places = 2 * 6 * v.triangles() * sizeof(SmoothPlaces::View) +
-                               4 * v.surfaceNodes() * sizeof(Eigen::Matrix3f) + 3 * v.edge_scale.size_bytes();
-  return places + 2 * v.modes_X.size_bytes() + v.triangles() * sizeof(SmoothCubic<6>) +
-         v.contact_stiffness.size_bytes() + v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
-         v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries +
-         kRegionSurfaceBytes * v.mesh_element_region.size();
 }
 
 /// By surface node: whether it may carry load.
@@ -140,18 +116,13 @@ Digest verified(const ModelContents& contents, const std::string& name) {
 
 }  // namespace
 
-MetaModel MetaModel::load(const std::filesystem::path& path) {
-  SealedImage image(path);  // first: later changes of the file do not reach the copy that was checked
-  const auto read = [&] { return readModel(image, path.string()); };
-  tryInChild(path.string(), image.bytes().size(), [&] { (void)read(); });  // HDF5 trusts what it reads
-  ModelContents contents = read();
-  requireMemory(path, "what is computed from it", bytesOfTables(contents.view));
-  const Digest digest = verified(contents, path.string());
-  checkContents(contents.attributes, contents.view, path.string());
+MetaModel MetaModel::of(ModelImage image, ModelContents contents, const std::string& name) {
+  const Digest digest = verified(contents, name);
+  checkContents(contents.attributes, contents.view, name);
   try {
     return MetaModel(std::move(image), std::move(contents.attributes), contents.view, digest);
   } catch (const std::invalid_argument& error) {
-    throw LoadError(path.string() + ": " + error.what());
+    throw LoadError(name + ": " + error.what());
   }
 }
 
@@ -183,7 +154,7 @@ std::vector<std::uint8_t> MetaModel::clampedNodes() const {
   return clamped;
 }
 
-MetaModel::MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view,
+MetaModel::MetaModel(ModelImage image, ModelAttributes attributes, const ModelView& view,
                      const Digest& digest)
     : image_(std::move(image)),
       attributes_(std::move(attributes)),

@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "core/data/load_error.h"
+#include "core/data/model_reader.h"
 #include "core/data/model_view.h"
 #include "core/data/parameter_functions.h"
-#include "core/data/sealed_image.h"
 #include "core/data/sha256.h"
 #include "core/model/contact_dimple.h"
 #include "core/model/contact_response.h"
@@ -24,6 +25,13 @@
 
 namespace palpate {
 
+/// The memory that a model's arrays lie in.
+struct ModelImage {
+  std::shared_ptr<const void> memory;
+  std::size_t bytes{0};
+  bool locked{false};  ///< so that the loop meets no page fault
+};
+
 /// A model file in memory: immutable, checked, mapped, and ready to be evaluated by any number of threads.
 class MetaModel {
  public:
@@ -32,6 +40,9 @@ class MetaModel {
   /// (docs/model_file.md).
   /// @throw LoadError one sentence: file, dataset, found, expected. Real-time: no (reads, allocates).
   [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
+  /// A model whose arrays lie in memory already. @param name  how it is called in messages
+  /// @throw LoadError  as load(), for numbers and digest. Real-time: no.
+  [[nodiscard]] static MetaModel of(ModelImage image, ModelContents contents, const std::string& name);
 
   [[nodiscard]] const ModelAttributes& attributes() const noexcept { return attributes_; }
   [[nodiscard]] bool isDisplacementDriven() const noexcept {
@@ -84,14 +95,14 @@ class MetaModel {
   /// Where smooth functions of the contact position are known.
   [[nodiscard]] const SmoothPlaces& places() const noexcept { return places_; }
   /// Size of the file and of its copy in memory, bytes.
-  [[nodiscard]] std::size_t bytes() const noexcept { return image_.bytes().size(); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return image_.bytes; }
   /// True when the copy is locked into memory, so that the loop meets no page fault.
-  [[nodiscard]] bool locked() const noexcept { return image_.locked(); }
+  [[nodiscard]] bool locked() const noexcept { return image_.locked; }
 
  private:
-  MetaModel(SealedImage image, ModelAttributes attributes, const ModelView& view, const Digest& digest);
+  MetaModel(ModelImage image, ModelAttributes attributes, const ModelView& view, const Digest& digest);
 
-  SealedImage image_;
+  ModelImage image_;
   ModelAttributes attributes_;
   ModelView view_;
   Digest digest_;

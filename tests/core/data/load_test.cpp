@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "../load_case.h"
+#include "core/data/sealed_image.h"
 #include "core/model/meta_model.h"
 #include "tools/modelfile/pack_fields.h"
 

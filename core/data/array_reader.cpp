@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/data/array_reader.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palpate {
+
+std::byte* ArrayReader::addArray(const std::string& path, NumberType type, std::vector<std::uint64_t> shape,
+                                 std::size_t bytes) {
+  Array& array = (*arrays_)[path];
+  bytes_ += bytes - array.bytes;
+  array = {type, std::move(shape), std::vector<double>((bytes + sizeof(double) - 1) / sizeof(double)), bytes};
+  return static_cast<std::byte*>(static_cast<void*>(array.numbers.data()));
+}
+
+bool ArrayReader::hasAttribute(const char* attribute) const {
+  return attributes_.count(attribute) > 0;
+}
+
+bool ArrayReader::hasDataset(const std::string& path) const {
+  return arrays_->count(path) > 0;
+}
+
+template <typename T>
+const T& ArrayReader::attribute(const char* name, const char* expected) const {
+  const auto found = attributes_.find(name);
+  if (found == attributes_.end()) fail(std::string("attribute ") + name + " is missing");
+  const T* const value = std::get_if<T>(&found->second);
+  if (value == nullptr) fail(std::string("attribute ") + name + " is not " + expected);
+  return *value;
+}
+
+void ArrayReader::numbers(const char* attribute, std::span<double> values) const {
+  const std::vector<double>& found = this->attribute<std::vector<double>>(attribute, "a float");
+  if (found.size() != values.size())
+    fail(std::string("attribute ") + attribute + " is " + std::to_string(found.size()) +
+         " values, expected " + std::to_string(values.size()));
+  std::copy(found.begin(), found.end(), values.begin());
+}
+
+int ArrayReader::integer(const char* attribute) const {
+  return this->attribute<int>(attribute, "an integer");
+}
+
+std::string ArrayReader::text(const char* attribute) const {
+  return this->attribute<std::string>(attribute, "readable text");
+}
+
+const ArrayReader::Array& ArrayReader::array(const std::string& path) const {
+  const auto found = arrays_->find(path);
+  if (found == arrays_->end()) fail("/" + path + " is missing");
+  return found->second;
+}
+
+std::vector<std::uint64_t> ArrayReader::shape(const std::string& path, NumberType type) const {
+  if (array(path).type != type) fail("/" + path + " has numbers of another type than expected");
+  return array(path).shape;
+}
+
+const std::byte* ArrayReader::place(const std::string& path, std::uint64_t bytes) const {
+  const Array& found = array(path);
+  if (found.bytes != bytes)
+    fail("/" + path + " has " + std::to_string(found.bytes) + " bytes, expected " + std::to_string(bytes));
+  return static_cast<const std::byte*>(static_cast<const void*>(found.numbers.data()));
+}
+
+}  // namespace palpate

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/data/model_source.h"
+
+namespace palpate {
+
+/// A model that somebody else has read, array by array: a page, by a library of its own. Attributes are texts, whole numbers
+/// or floats.
+class ArrayReader final : public ModelSource {
+ public:
+  using Attribute = std::variant<std::string, int, std::vector<double>>;
+
+  /// @param name  how the model is called in messages
+  explicit ArrayReader(std::string name) : ModelSource(std::move(name)) {}
+
+  void addAttribute(const std::string& name, Attribute value) { attributes_[name] = std::move(value); }
+  /// Room for an array's numbers, to be filled in. @param path  "contact/force"  @param bytes  its size
+  [[nodiscard]] std::byte* addArray(const std::string& path, NumberType type,
+                                    std::vector<std::uint64_t> shape, std::size_t bytes);
+  /// What keeps the arrays; they live as long as any copy of it.
+  [[nodiscard]] std::shared_ptr<const void> memory() const { return arrays_; }
+
+  [[nodiscard]] bool hasAttribute(const char* attribute) const override;
+  [[nodiscard]] bool hasDataset(const std::string& path) const override;
+  void numbers(const char* attribute, std::span<double> values) const override;
+  [[nodiscard]] int integer(const char* attribute) const override;
+  [[nodiscard]] std::string text(const char* attribute) const override;
+  [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
+
+ private:
+  struct Array {
+    NumberType type{};
+    std::vector<std::uint64_t> shape;
+    std::vector<double> numbers;  ///< room of `bytes`, aligned for any of them
+    std::size_t bytes{0};
+  };
+
+  [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& path, NumberType type) const override;
+  [[nodiscard]] const std::byte* place(const std::string& path, std::uint64_t bytes) const override;
+  [[nodiscard]] const Array& array(const std::string& path) const;
+  template <typename T>
+  [[nodiscard]] const T& attribute(const char* name, const char* expected) const;
+
+  std::map<std::string, Attribute> attributes_;
+  std::shared_ptr<std::map<std::string, Array>> arrays_{std::make_shared<std::map<std::string, Array>>()};
+  std::uint64_t bytes_{0};
+};
+
+}  // namespace palpate

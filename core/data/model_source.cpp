@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/data/model_source.h"
+
+#include <string_view>
+#include <type_traits>
+
+#include "core/data/load_error.h"
+
+namespace palpate {
+
+namespace {
+
+constexpr std::uint64_t kMaxLength =
+    std::numeric_limits<std::int32_t>::max() / 4;  // int arithmetic on 3 n is safe
+
+template <typename T>
+constexpr NumberType typeOf() {
+  if constexpr (std::is_same_v<T, double>) return NumberType::kF64;
+  if constexpr (std::is_same_v<T, float>) return NumberType::kF32;
+  if constexpr (std::is_same_v<T, std::int16_t>) return NumberType::kI16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return NumberType::kI32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return NumberType::kI64;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return NumberType::kU8;
+  if constexpr (std::is_same_v<T, RegionName>) return NumberType::kRegionName;
+}
+
+}  // namespace
+
+void ModelSource::fail(const std::string& what) const {
+  throw LoadError(name_ + ": " + what);
+}
+
+double ModelSource::number(const char* attribute) const {
+  double value = 0.0;
+  numbers(attribute, {&value, 1});
+  return value;
+}
+
+std::vector<Length*> ModelSource::shapeOf(const std::string& path, NumberType type,
+                                          std::span<const char* const> symbols, Lengths& lengths) const {
+  const std::vector<std::uint64_t> found = shape(path, type);
+  std::vector<Length*> wanted;
+  for (const char* symbol : symbols)
+    if (symbol != nullptr) wanted.push_back(&lengths[symbol]);
+  bool good = found.size() == wanted.size();
+  for (std::size_t i = 0; good && i < wanted.size(); ++i) {
+    if (wanted[i]->value == Length::kUnknown && found[i] <= kMaxLength) wanted[i]->value = found[i];
+    good = wanted[i]->value == found[i];
+  }
+  if (good) return wanted;
+  std::string is, should;
+  for (const std::uint64_t length : found) is += (is.empty() ? "" : " x ") + std::to_string(length);
+  for (const Length* length : wanted) should += (should.empty() ? "" : " x ") + length->text();
+  fail("/" + path + " has shape " + (found.empty() ? "of no array" : is) + ", expected " + should);
+}
+
+template <typename T>
+std::span<const T> ModelSource::dataset(const Dataset<T>& what, Lengths& lengths) const {
+  const std::string path = what.path;
+  const std::uint64_t limit = bytes() / sizeof(T);
+  std::uint64_t count = 1;
+  for (const Length* length : shapeOf(path, typeOf<T>(), what.shape, lengths)) {
+    if (length->value != 0 && count > limit / length->value)
+      fail("/" + path + " has more numbers than the file's " + std::to_string(bytes()) + " bytes can hold");
+    count *= length->value;
+  }
+  const std::byte* const first = place(path, count * sizeof(T));
+  if (count == 0) return {};
+  return {static_cast<const T*>(static_cast<const void*>(first)), static_cast<std::size_t>(count)};
+}
+
+template std::span<const double> ModelSource::dataset(const Dataset<double>&, Lengths&) const;
+template std::span<const float> ModelSource::dataset(const Dataset<float>&, Lengths&) const;
+template std::span<const std::int16_t> ModelSource::dataset(const Dataset<std::int16_t>&, Lengths&) const;
+template std::span<const std::int32_t> ModelSource::dataset(const Dataset<std::int32_t>&, Lengths&) const;
+template std::span<const std::int64_t> ModelSource::dataset(const Dataset<std::int64_t>&, Lengths&) const;
+template std::span<const std::uint8_t> ModelSource::dataset(const Dataset<std::uint8_t>&, Lengths&) const;
+template std::span<const RegionName> ModelSource::dataset(const Dataset<RegionName>&, Lengths&) const;
+
+Length& Lengths::operator[](const char* symbol) {
+  const bool number = std::string_view(symbol).find_first_not_of("0123456789") == std::string_view::npos;
+  const auto [entry, added] =
+      lengths_.try_emplace(symbol, number ? Length(std::stoull(symbol)) : Length(symbol));
+  return entry->second;
+}
+
+void Lengths::define(const char* symbol, std::uint64_t value) {
+  lengths_.insert_or_assign(symbol, Length(value));
+}
+
+}  // namespace palpate

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// An organ in a page or in node: core as WebAssembly, with a model file that h5wasm has opened.
+const TYPES = { '<d': 0, '<f': 1, '<h': 2, '<i': 3, '<q': 4, '<B': 5 };
+const NAME = 6; // of a region: text of a fixed length
+
+/** Bytes of a dataset's numbers as the file has them. */
+function bytesOf(dataset) {
+  const { value } = dataset;
+  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  const size = dataset.metadata.size; // names: zeros fill what is left
+  const bytes = new Uint8Array(size * value.length);
+  value.forEach((name, i) => bytes.set(new TextEncoder().encode(name).subarray(0, size), i * size));
+  return bytes;
+}
+
+/** Calls visit(path, dataset) for all datasets below a group. */
+function forEachDataset(group, path, visit) {
+  for (const key of group.keys()) {
+    const thing = group.get(key);
+    const here = path === '' ? key : `${path}/${key}`;
+    if (thing.type === 'Group') forEachDataset(thing, here, visit);
+    else if (thing.type === 'Dataset') visit(here, thing);
+  }
+}
+
+/** The engine's memory and functions, with texts and arrays of numbers as arguments. */
+class Engine {
+  constructor(module) {
+    this.module = module;
+  }
+
+  /** Calls work(address...) with copies of texts (zero-ended) and Float64Arrays in the engine's memory, and frees them. */
+  with(things, work) {
+    const places = things.map((thing) => this.copy(thing));
+    try {
+      return work(...places);
+    } finally {
+      for (const place of places) this.module._free(place);
+    }
+  }
+
+  copy(thing) {
+    const bytes =
+      typeof thing === 'string' ? new TextEncoder().encode(`${thing}\0`) : new Uint8Array(thing.buffer, thing.byteOffset, thing.byteLength);
+    const place = this.module._malloc(Math.max(bytes.length, 8));
+    if (place === 0) throw new Error('the page has no memory left');
+    this.module.HEAPU8.set(bytes, place);
+    return place;
+  }
+
+  text(place) {
+    return this.module.UTF8ToString(place);
+  }
+
+  doubles(place, count) {
+    return new Float64Array(this.module.HEAPU8.buffer, place, count);
+  }
+
+  floats(place, count) {
+    return new Float32Array(this.module.HEAPU8.buffer, place, count);
+  }
+
+  bytes(place, count) {
+    return new Uint8Array(this.module.HEAPU8.buffer, place, count);
+  }
+}
+
+function giveAttributes(engine, file) {
+  const { module } = engine;
+  for (const [name, attribute] of Object.entries(file.attrs)) {
+    const { value, dtype } = attribute;
+    if (typeof value === 'string')
+      engine.with([name, value], (n, text) => module._palpate_text(n, text));
+    else if (dtype === '<i') engine.with([name], (n) => module._palpate_integer(n, Number(value)));
+    else {
+      const numbers = Float64Array.from(ArrayBuffer.isView(value) ? value : [value], Number);
+      engine.with([name, numbers], (n, values) => module._palpate_numbers(n, values, numbers.length));
+    }
+  }
+}
+
+function giveArrays(engine, file) {
+  const { module } = engine;
+  forEachDataset(file, '', (path, dataset) => {
+    const type = typeof dataset.dtype === 'string' && dataset.dtype in TYPES ? TYPES[dataset.dtype] : NAME;
+    const shape = Float64Array.from(dataset.shape, Number);
+    const bytes = bytesOf(dataset);
+    const place = engine.with([path, shape], (name, lengths) => module._palpate_array(name, type, shape.length, lengths, bytes.length));
+    if (place === 0) throw new Error(`${path}: the page has no memory left`);
+    module.HEAPU8.set(bytes, place);
+  });
+}
+
+/**
+ * Makes an organ of a model file.
+ * @param makeModule  what build/wasm/palpate_core.mjs exports
+ * @param settings    for it: sha256() gives an object with add(bytes) and finish(); locateFile, wasmBinary as emscripten has them
+ * @param file        h5wasm's File, open  @param name  how it is called in messages  @param tipRadius  m
+ * @throws Error  one sentence: file, dataset, found, expected
+ */
+export async function makeOrgan(makeModule, settings, file, name, tipRadius = 0.005) {
+  const engine = new Engine(await makeModule({ ...settings }));
+  engine.with([name], (n) => engine.module._palpate_begin(n));
+  giveAttributes(engine, file);
+  giveArrays(engine, file);
+  const wrong = engine.with([name], (n) => engine.text(engine.module._palpate_load(n, tipRadius)));
+  if (wrong !== '') throw new Error(wrong);
+  return new Organ(engine);
+}
+
+/** One model that is felt. Arrays that it gives are views of the engine's memory: valid until the next call. */
+export class Organ {
+  constructor(engine) {
+    this.engine = engine;
+    this.module = engine.module;
+    this.nodes = this.module._palpate_nodes();
+    this.room = this.module._malloc(8 * 32);
+    this.inputBytes = this.module._palpate_input_bytes();
+    this.resultBytes = this.module._palpate_result_bytes();
+  }
+
+  get id() {
+    return this.engine.text(this.module._palpate_id());
+  }
+
+  place(barycentric, d) {
+    this.engine.doubles(this.room, 6).set([...barycentric, ...d]);
+  }
+
+  /** @returns 18 numbers: force, stiffness (row-major), displacement, parameter */
+  respond(triangle, barycentric, d) {
+    this.place(barycentric, d);
+    const status = this.module._palpate_respond(triangle, this.room, this.room + 24, this.room + 48);
+    return { status, values: this.engine.doubles(this.room + 48, 18) };
+  }
+
+  /** @returns displacement of the surface's nodes, x y z each, m */
+  field(triangle, barycentric, d) {
+    this.place(barycentric, d);
+    return this.engine.floats(this.module._palpate_field(triangle, this.room, this.room + 24), 3 * this.nodes);
+  }
+
+  /** StepInput of the next tick, StepResult of the last: bytes as core/tick/step_io.h lays them out. */
+  get input() {
+    return this.engine.bytes(this.module._palpate_input(), this.inputBytes);
+  }
+  get result() {
+    return this.engine.bytes(this.module._palpate_result(), this.resultBytes);
+  }
+
+  step() {
+    return this.module._palpate_step();
+  }
+
+  /** @returns displacement of the surface's nodes, or undefined where it is the one of before */
+  surface() {
+    const place = this.module._palpate_surface();
+    return place === 0 ? undefined : this.engine.floats(place, 3 * this.nodes);
+  }
+}
