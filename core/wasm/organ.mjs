@@ -157,4 +157,77 @@ export class Organ {
     const place = this.module._palpate_surface();
     return place === 0 ? undefined : this.engine.floats(place, 3 * this.nodes);
   }
+
+  /** The rest surface: positions in m, as PROTOCOL.md's MESH has it. */
+  mesh() {
+    const { engine, module } = this;
+    const nodes = this.nodes;
+    const count = module._palpate_regions();
+    return {
+      nodes,
+      positions: Float32Array.from(engine.doubles(module._palpate_positions(), 3 * nodes)),
+      triangles: this.whole(module._palpate_triangles(), 3 * module._palpate_triangle_count()),
+      accessible: engine.bytes(module._palpate_accessible(), nodes).slice(),
+      clamped: engine.bytes(module._palpate_clamped(), nodes).slice(),
+      regions: Array.from({ length: count }, (_, r) => ({
+        name: engine.text(module._palpate_region_name(r)),
+        youngs_modulus: module._palpate_region_modulus(r),
+        nodes: module._palpate_region_nodes(r),
+        positions: Float32Array.from(engine.doubles(module._palpate_region_positions(r), 3 * module._palpate_region_nodes(r))),
+        triangles: this.whole(module._palpate_region_triangles(r), 3 * module._palpate_region_triangle_count(r)),
+      })),
+    };
+  }
+
+  whole(place, count) {
+    return new Uint32Array(this.module.HEAPU8.buffer, place, count).slice();
+  }
+
+  /** E of the model and as asked for, Pa; friction; force limit, N. */
+  get parameters() {
+    const { module } = this;
+    return {
+      modelModulus: module._palpate_model_modulus(),
+      modulus: module._palpate_modulus(),
+      friction: module._palpate_friction(),
+      forceLimit: module._palpate_force_limit(),
+    };
+  }
+
+  /** @returns empty, or which value is out of its range */
+  set(modulus, friction) {
+    return this.engine.text(this.module._palpate_set(modulus, friction));
+  }
+
+  /** The tool's goal, m. */
+  target([x, y, z], nowMs) {
+    this.module._palpate_target(x, y, z, nowMs);
+  }
+
+  release() {
+    this.module._palpate_release();
+  }
+
+  /** A tick with the tool that is driven. @returns whether there is one */
+  tick(nowMs) {
+    return this.module._palpate_tick(nowMs) === 1;
+  }
+
+  /** The driven tool, after a tick: numbers of StepInput and StepResult (core/tick/step_io.h). */
+  tool() {
+    const input = new DataView(this.module.HEAPU8.buffer, this.module._palpate_input(), this.inputBytes);
+    const result = new DataView(this.module.HEAPU8.buffer, this.module._palpate_result(), this.resultBytes);
+    const doubles = (view, at, count) => Array.from({ length: count }, (_, i) => view.getFloat64(at + 8 * i, true));
+    return {
+      tip: doubles(input, 8, 3),
+      flags: result.getUint32(0, true),
+      state: result.getUint32(4, true),
+      force: doubles(result, 8, 3),
+      stiffness: doubles(result, 32, 9),
+      anchor: doubles(result, 104, 3),
+      proxy: doubles(result, 128, 3),
+      domainRadius: result.getFloat64(176, true),
+      penetration: result.getFloat64(184, true),
+    };
+  }
 }

@@ -64,7 +64,7 @@ ToolGrant ToolDesk::grab(std::uint64_t page_id) {
   // The answer to this grab is newer than the pending endings.
   std::erase_if(endings_, [&](const Ending& ending) { return ending.page_id == page_id; });
   if (Tool* own = find(page_id)) {
-    if (own->driven->follower.state() != PoseFollower::State::kOver) {
+    if (own->driven->follower.state() != device::PoseFollower::State::kOver) {
       own->driven->follower.regrab(now_ns);
       return {true, static_cast<std::uint32_t>(own - tools_.data()), ""};
     }
@@ -75,7 +75,7 @@ ToolGrant ToolDesk::grab(std::uint64_t page_id) {
     Tool& tool = tools_[id];
     const bool taken = tool.foreign_ns != 0 && now_ns - tool.foreign_ns < kTakenNs;
     if (tool.driven || taken || now_ns < tool.rests_ns) continue;
-    tool.driven.emplace(Driven{page_id, PoseFollower(now_ns, speed_)});
+    tool.driven.emplace(Driven{page_id, device::PoseFollower(now_ns, speed_)});
     driven_.notify_one();
     return {true, id, ""};
   }
@@ -119,8 +119,8 @@ std::optional<std::uint32_t> ToolDesk::toolOf(std::uint64_t page_id) const {
 std::optional<device::Point> ToolDesk::tipOf(std::uint32_t tool_id) const {
   const std::lock_guard lock(mutex_);
   if (tool_id >= kTools || !tools_[tool_id].driven) return std::nullopt;
-  const PoseFollower& follower = tools_[tool_id].driven->follower;
-  if (follower.state() == PoseFollower::State::kWaiting) return std::nullopt;
+  const device::PoseFollower& follower = tools_[tool_id].driven->follower;
+  if (follower.state() == device::PoseFollower::State::kWaiting) return std::nullopt;
   return follower.position();
 }
 
@@ -155,12 +155,12 @@ void ToolDesk::stepAll(std::int64_t now_ns, std::vector<dds::ToolPose>& poses) {
   for (std::uint32_t id = 0; id < kTools; ++id) {
     Tool& tool = tools_[id];
     if (!tool.driven) continue;
-    PoseFollower& follower = tool.driven->follower;
-    const bool released = follower.state() == PoseFollower::State::kLifting ||
-                          follower.state() == PoseFollower::State::kOver;  // before its first target
+    device::PoseFollower& follower = tool.driven->follower;
+    const bool released = follower.state() == device::PoseFollower::State::kLifting ||
+                          follower.state() == device::PoseFollower::State::kOver;  // before its first target
     if (const auto p_WT = follower.step(now_ns))
       poses.push_back(poseAt(server_id_, id, ++tool.seq, now_ns, *p_WT));
-    if (follower.state() == PoseFollower::State::kOver)
+    if (follower.state() == device::PoseFollower::State::kOver)
       end(tool, released ? "released" : "no target came for 250 ms", now_ns);
   }
 }

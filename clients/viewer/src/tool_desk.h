@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
+#include "core/devices/path/pose_follower.h"
 #include "outward.h"
 #include "page_text.h"
 #include "palpate/idl/writer.h"
-#include "pose_follower.h"
 
 namespace palpate::viewer {
 
@@ -77,7 +77,7 @@ class ToolDesk {
  private:
   struct Driven {
     std::uint64_t page_id;
-    PoseFollower follower;
+    device::PoseFollower follower;
   };
   struct Tool {
     std::optional<Driven> driven;

@@ -7,6 +7,7 @@ const viewer = process.env['PALPATE_VIEWER'] ?? 'http://127.0.0.1:8080';
 
 export default defineConfig({
   base: './',
+  worker: { format: 'es' }, // the model's worker fetches its parts when it needs them
   build: {
     outDir: process.env['PALPATE_PAGE_OUT'] ?? 'dist',
     emptyOutDir: true,

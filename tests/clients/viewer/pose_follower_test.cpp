@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets with jitter become a steady path.
-#include "pose_follower.h"
+#include "core/devices/path/pose_follower.h"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,13 @@
 #include <random>
 #include <vector>
 
-namespace palpate::viewer {
+namespace palpate::device {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr double kSpeed = 0.5;
 
-using device::Point;
+using Point;
 
 TEST(PoseFollower, SaysNothingBeforeTheFirstTargetAndStartsThere) {
   PoseFollower follower(0, kSpeed);
@@ -147,4 +147,4 @@ TEST(PoseFollower, GrabbedAgainWhileItLiftsGoesOnFromWhereItIs) {
 }
 
 }  // namespace
-}  // namespace palpate::viewer
+}  // namespace palpate::device

@@ -5,7 +5,7 @@ import { flagsOfStatus, RecentFlags } from './flags';
 import { Hand } from './hand';
 import { Keys } from './keys';
 import { Legend } from './legend';
-import { Line, type LineListener } from './line';
+import { Line, modelAddress, type LineListener } from './line';
 import { admit, loginNeeded } from './login';
 import type { Colouring } from './organ';
 import { OrganView } from './organ_view';
@@ -58,7 +58,8 @@ export class App implements LineListener {
   constructor() {
     this.stage = new Stage(this.canvas);
     this.quality = new Quality(devicePixelRatio || 1, this.stage.software);
-    this.line = new Line(this);
+    const model = modelAddress(location);
+    this.line = new Line(this, model !== '');
     this.panel = new Panel(this.figures, this.line, this.stage);
     this.parameters = new Parameters(this.line);
     const organ = () => this.view && { surface: this.view.surface, tipRadius: this.tipRadius };
@@ -74,7 +75,8 @@ export class App implements LineListener {
     element('csv', HTMLButtonElement).addEventListener('click', () => this.saveStrip());
     element('picture', HTMLButtonElement).addEventListener('click', () => this.savePicture());
     requestAnimationFrame((now) => this.turn(now));
-    void admit().then(() => this.line.open(viewerAddress(location)));
+    if (model) this.line.open(model);
+    else void admit().then(() => this.line.open(viewerAddress(location)));
   }
 
   link(open: boolean, text: string): void {

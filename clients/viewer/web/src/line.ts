@@ -26,12 +26,25 @@ export interface LineListener {
   trouble(text: string): void;
 }
 
-/** The page's end of the worker that talks to the viewer. */
+/** The model file that the page's address names, with which it needs no viewer; empty: none. */
+export const modelAddress = (page: { href: string; search: string }): string => {
+  const named = new URLSearchParams(page.search).get('model');
+  return named ? new URL(named, page.href).href : '';
+};
+
+/** The page's end of the worker that talks to the viewer, or that has the organ itself. */
 export class Line {
   private reading: ClockReading = { tripMs: NaN, offsetUs: NaN };
-  private readonly worker = new Worker(new URL('./line_worker.ts', import.meta.url), { type: 'module' });
+  private readonly worker: Worker;
 
-  constructor(private readonly listener: LineListener) {
+  /** @param alone without a viewer: open() then takes a model's address */
+  constructor(
+    private readonly listener: LineListener,
+    alone = false,
+  ) {
+    this.worker = alone
+      ? new Worker(new URL('./model_worker.ts', import.meta.url), { type: 'module' })
+      : new Worker(new URL('./line_worker.ts', import.meta.url), { type: 'module' });
     this.worker.onmessage = (event: MessageEvent<ToPage>) => this.heard(event.data);
     this.worker.onerror = (event) => this.listener.trouble(event.message || 'the page\'s worker did not start');
   }

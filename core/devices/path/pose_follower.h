@@ -7,7 +7,7 @@
 
 #include "core/devices/path/path.h"
 
-namespace palpate::viewer {
+namespace palpate::device {
 
 /// Turns a page's targets, which come at 30 to 120 Hz with jitter, into a steady stream of poses. It plays the straight path
 /// between targets one interval later, never faster than a limit. Threads: one. Real-time: yes.
@@ -32,33 +32,33 @@ class PoseFollower {
       : speed_limit_(speed_limit), last_target_ns_(now_ns) {}
 
   /// The wanted position of the tip's centre, world W, m. No effect after a release.
-  void target(const device::Point& p_WT, std::int64_t now_ns) noexcept;
+  void target(const Point& p_WT, std::int64_t now_ns) noexcept;
 
   /// The page takes the tool back before kOver: it continues from its position at the next target.
   void regrab(std::int64_t now_ns) noexcept;
 
   /// @param[in] outward  unit direction off the organ at the tool
-  void release(const device::Point& outward) noexcept;
+  void release(const Point& outward) noexcept;
 
   /// The current pose; nothing before the first target and in kOver.
-  [[nodiscard]] std::optional<device::Point> step(std::int64_t now_ns) noexcept;
+  [[nodiscard]] std::optional<Point> step(std::int64_t now_ns) noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
   /// The newest pose given by step(). Valid after the first one.
-  [[nodiscard]] const device::Point& position() const noexcept { return position_; }
+  [[nodiscard]] const Point& position() const noexcept { return position_; }
   /// Delay from a target's arrival to its playing, s.
   [[nodiscard]] double delay() const noexcept { return delay_s_; }
 
  private:
   struct Timed {
     double t;  // s since the first target
-    device::Point p;
+    Point p;
   };
   static constexpr std::size_t kKept = 16;
 
-  [[nodiscard]] device::Point wanted(double t) const noexcept;
+  [[nodiscard]] Point wanted(double t) const noexcept;
   void play(double now_s, double dt) noexcept;
-  void moveTowards(const device::Point& goal, double longest) noexcept;
+  void moveTowards(const Point& goal, double longest) noexcept;
   void learnInterval(double interval) noexcept;
 
   double speed_limit_;
@@ -72,8 +72,8 @@ class PoseFollower {
   double delay_s_{1.0 / 60.0};
   double played_s_{0.0};
   bool placed_{false};  // position_ holds a pose that step() gave
-  device::Point position_{};
-  device::Point lift_to_{};
+  Point position_{};
+  Point lift_to_{};
 };
 
-}  // namespace palpate::viewer
+}  // namespace palpate::device

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pose_follower.h"
+#include "core/devices/path/pose_follower.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace palpate::viewer {
+namespace palpate::device {
 
 // The longest recent interval, and a little more: rises at once, falls slowly.
 void PoseFollower::learnInterval(double interval) noexcept {
@@ -15,7 +15,7 @@ void PoseFollower::learnInterval(double interval) noexcept {
   delay_s_ = std::clamp(1.1 * longest_s_, 0.004, static_cast<double>(kMaxDelayNs) * 1e-9);
 }
 
-void PoseFollower::target(const device::Point& p_WT, std::int64_t now_ns) noexcept {
+void PoseFollower::target(const Point& p_WT, std::int64_t now_ns) noexcept {
   if (state_ == State::kLifting || state_ == State::kOver) return;
   if (state_ == State::kWaiting) {
     state_ = State::kFollowing;
@@ -39,7 +39,7 @@ void PoseFollower::regrab(std::int64_t now_ns) noexcept {
   played_s_ = 0.0;
 }
 
-void PoseFollower::release(const device::Point& outward) noexcept {
+void PoseFollower::release(const Point& outward) noexcept {
   if (state_ == State::kOver || state_ == State::kLifting) return;
   if (state_ == State::kWaiting) {
     state_ = State::kOver;
@@ -49,7 +49,7 @@ void PoseFollower::release(const device::Point& outward) noexcept {
   lift_to_ = position_ + kLift * outward;
 }
 
-device::Point PoseFollower::wanted(double t) const noexcept {
+Point PoseFollower::wanted(double t) const noexcept {
   const std::size_t newest = count_ - 1;
   const std::size_t oldest = count_ > kKept ? count_ - kKept : 0;
   for (std::size_t i = newest; i > oldest; --i) {
@@ -62,8 +62,8 @@ device::Point PoseFollower::wanted(double t) const noexcept {
   return targets_[oldest % kKept].p;
 }
 
-void PoseFollower::moveTowards(const device::Point& goal, double longest) noexcept {
-  const device::Point way = goal - position_;
+void PoseFollower::moveTowards(const Point& goal, double longest) noexcept {
+  const Point way = goal - position_;
   const double size = length(way);
   position_ = size > longest ? position_ + (longest / size) * way : goal;
 }
@@ -82,7 +82,7 @@ void PoseFollower::play(double now_s, double dt) noexcept {
   moveTowards(wanted(played_s_), speed_limit_ * dt);
 }
 
-std::optional<device::Point> PoseFollower::step(std::int64_t now_ns) noexcept {
+std::optional<Point> PoseFollower::step(std::int64_t now_ns) noexcept {
   if (state_ == State::kOver) return std::nullopt;
   const std::int64_t patience = state_ == State::kWaiting ? kFirstNs : kPatienceNs;
   if (state_ != State::kLifting && now_ns - last_target_ns_ > patience) state_ = State::kOver;
@@ -99,4 +99,4 @@ std::optional<device::Point> PoseFollower::step(std::int64_t now_ns) noexcept {
   return position_;
 }
 
-}  // namespace palpate::viewer
+}  // namespace palpate::device
