@@ -14,8 +14,6 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000;
 constexpr double kSpeed = 0.5;
 
-using Point;
-
 TEST(PoseFollower, SaysNothingBeforeTheFirstTargetAndStartsThere) {
   PoseFollower follower(0, kSpeed);
   EXPECT_FALSE(follower.step(kMs).has_value());
