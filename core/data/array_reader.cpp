@@ -10,7 +10,7 @@ std::byte* ArrayReader::addArray(const std::string& path, NumberType type, std::
                                  std::size_t bytes) {
   Array& array = (*arrays_)[path];
   bytes_ += bytes - array.bytes;
-  array = {type, std::move(shape), std::vector<double>((bytes + sizeof(double) - 1) / sizeof(double)), bytes};
+  array = {type, std::move(shape), std::vector<double>(bytes / sizeof(double) + 1), bytes};
   return static_cast<std::byte*>(static_cast<void*>(array.numbers.data()));
 }
 

@@ -24,7 +24,7 @@ class ArrayReader final : public ModelSource {
   explicit ArrayReader(std::string name) : ModelSource(std::move(name)) {}
 
   void addAttribute(const std::string& name, Attribute value) { attributes_[name] = std::move(value); }
-  /// Room for an array's numbers, to be filled in. @param path  "contact/force"  @param bytes  its size
+  /// Room for an array's numbers, to be filled in; never null. @param path  "contact/force"  @param bytes  its size
   [[nodiscard]] std::byte* addArray(const std::string& path, NumberType type,
                                     std::vector<std::uint64_t> shape, std::size_t bytes);
   /// What keeps the arrays; they live as long as any copy of it.

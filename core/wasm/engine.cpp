@@ -3,79 +3,40 @@
 // organ at a time. What fails says so in words; nothing throws into the page. core/wasm/README.md
 #include <emscripten.h>
 
-#include <algorithm>
 #include <array>
 #include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/base/status_flags.h"
 #include "core/data/array_reader.h"
 #include "core/data/model_reader.h"
-#include "core/data/region_surfaces.h"
-#include "core/devices/path/pose_follower.h"
-#include "core/model/meta_model.h"
 #include "core/response/largest_stiffness.h"
 #include "core/response/patch_response.h"
-#include "core/tick/shown_surface.h"
-#include "core/tick/step.h"
+#include "core/wasm/organ.h"
 
 namespace palpate {
 
+std::unique_ptr<Organ> organ;
+
 namespace {
-
-constexpr double kHandSpeed = 0.6;  // m/s, of a tool that a page drives
-
-/// A model that is felt.
-struct Organ {
-  MetaModel model;
-  Workspace work;
-  ShownSurface shown;
-  FieldScratch scratch;
-  std::vector<float> field;
-  StepInput input{};
-  StepResult result{};
-  AllToolSettings settings;
-  double speed_limit;
-  std::optional<device::PoseFollower> follower;  ///< of the tool that the page drives
-  std::vector<std::uint8_t> accessible, clamped;
-  std::vector<RegionSurface> regions;
-
-  Organ(MetaModel loaded, const StepConfig& config)
-      : model(std::move(loaded)),
-        work(model, config),
-        shown(model),
-        scratch(model),
-        field(3 * model.view().surfaceNodes(), 0.0F),
-        settings(toolSettings(config)),
-        speed_limit(std::min(kHandSpeed, 0.5 * config.speed_limit)),
-        accessible(model.accessibleNodes()),
-        clamped(model.clampedNodes()),
-        regions(regionSurfaces(model.view())) {
-    for (ToolSettings& tool : settings)
-      if (tool.live.youngs_modulus == 0.0) tool.live.youngs_modulus = model.attributes().E;
-  }
-};
 
 std::int64_t nanoseconds(double ms) {
   return static_cast<std::int64_t>(1e6 * ms);
 }
 
-/// Off the organ: along the force, and without one away from the nearest point.
-device::Point outwardOf(const ToolInput& tool, const ToolResult& result) {
-  const Vec3 force = Eigen::Map<const Vec3>(result.force.data());
-  Vec3 way = force;
-  if (force.norm() < 1e-6)
-    way = Eigen::Map<const Vec3>(tool.position.data()) - Eigen::Map<const Vec3>(result.anchor.data());
-  const double length = way.norm();
-  if (!(length > 0.0)) return {{0.0, 0.0, 1.0}};
-  return {{way.x() / length, way.y() / length, way.z() / length}};
+/// Of the rest surface where the driven tool touches it, or nearest to it. @return unit, outward
+Vec3 normalThere() {
+  const Vec3 anchor = Eigen::Map<const Vec3>(organ->result.tools[0].anchor.data());
+  return organ->model.surface().normal(organ->model.surface().closestPoint(anchor).s);
 }
 
 std::unique_ptr<ArrayReader> reader;
-std::unique_ptr<Organ> organ;
 std::string said;
 
 template <class Work>
@@ -201,47 +162,6 @@ EMSCRIPTEN_KEEPALIVE const float* palpate_surface() {
   return organ->shown.show(organ->work.surface()) ? organ->shown.displacement().data() : nullptr;
 }
 
-/// The rest surface: [nodes][3] doubles, m; triangles; [nodes] bytes.
-EMSCRIPTEN_KEEPALIVE const double* palpate_positions() {
-  return organ->model.view().surface_positions.data();
-}
-EMSCRIPTEN_KEEPALIVE int palpate_triangle_count() {
-  return static_cast<int>(organ->model.view().triangles());
-}
-EMSCRIPTEN_KEEPALIVE const std::int32_t* palpate_triangles() {
-  return organ->model.view().surface_triangles.data();
-}
-EMSCRIPTEN_KEEPALIVE const std::uint8_t* palpate_accessible() {
-  return organ->accessible.data();
-}
-EMSCRIPTEN_KEEPALIVE const std::uint8_t* palpate_clamped() {
-  return organ->clamped.data();
-}
-
-/// Where regions end inside: how many, and of each its name, E in Pa, nodes and triangles.
-EMSCRIPTEN_KEEPALIVE int palpate_regions() {
-  return static_cast<int>(organ->regions.size());
-}
-EMSCRIPTEN_KEEPALIVE const char* palpate_region_name(int region) {
-  said = textOf(organ->model.view().region_name[static_cast<std::size_t>(region)]);
-  return said.c_str();
-}
-EMSCRIPTEN_KEEPALIVE double palpate_region_modulus(int region) {
-  return organ->model.view().region_E[static_cast<std::size_t>(region)];
-}
-EMSCRIPTEN_KEEPALIVE int palpate_region_nodes(int region) {
-  return static_cast<int>(organ->regions[static_cast<std::size_t>(region)].positions.size() / 3);
-}
-EMSCRIPTEN_KEEPALIVE const double* palpate_region_positions(int region) {
-  return organ->regions[static_cast<std::size_t>(region)].positions.data();
-}
-EMSCRIPTEN_KEEPALIVE int palpate_region_triangle_count(int region) {
-  return static_cast<int>(organ->regions[static_cast<std::size_t>(region)].triangles.size() / 3);
-}
-EMSCRIPTEN_KEEPALIVE const std::uint32_t* palpate_region_triangles(int region) {
-  return organ->regions[static_cast<std::size_t>(region)].triangles.data();
-}
-
 /// E of the model, Pa; and what is asked for now: E, friction; force limit, N.
 EMSCRIPTEN_KEEPALIVE double palpate_model_modulus() {
   return organ->model.attributes().E;
@@ -270,30 +190,47 @@ EMSCRIPTEN_KEEPALIVE const char* palpate_set(double youngs_modulus, double frict
   });
 }
 
-/// Where the tool that the page drives shall be, m. It comes there as a hand does (PoseFollower). @param now_ms  of tick()'s clock
+/// The page takes the tool, or takes it back while it lifts off. @param now_ms  of tick()'s clock
+EMSCRIPTEN_KEEPALIVE void palpate_grab(double now_ms) {
+  if (organ->follower)
+    organ->follower->regrab(nanoseconds(now_ms));
+  else
+    organ->follower.emplace(nanoseconds(now_ms), organ->speed_limit);
+}
+
+/// Where the tool that the page has taken shall be, m. It comes there as a hand does (PoseFollower).
 EMSCRIPTEN_KEEPALIVE void palpate_target(double x, double y, double z, double now_ms) {
-  if (!organ->follower) organ->follower.emplace(nanoseconds(now_ms), organ->speed_limit);
-  organ->follower->regrab(nanoseconds(now_ms));
-  organ->follower->target({{x, y, z}}, nanoseconds(now_ms));
+  if (organ->follower) organ->follower->target({{x, y, z}}, nanoseconds(now_ms));
 }
 
 /// The tool lifts off and is gone.
 EMSCRIPTEN_KEEPALIVE void palpate_release() {
-  if (organ->follower) organ->follower->release(outwardOf(organ->input.tools[0], organ->result.tools[0]));
+  const Vec3 n = normalThere();
+  if (organ->follower) organ->follower->release({{n.x(), n.y(), n.z()}});
 }
 
-/// A step with the tool that the page drives. @return 1 while there is one
+/// A step with the tool that the page has taken. @return 0 there is none, 1 it has no place yet, 2 there is one
 EMSCRIPTEN_KEEPALIVE int palpate_tick(double now_ms) {
   ToolInput& tool = organ->input.tools[0];
+  tool.present = 0;
   if (organ->follower) {
-    const std::optional<device::Point> tip = organ->follower->step(nanoseconds(now_ms));
-    tool.present = tip ? 1 : 0;
-    if (tip) tool.position = *tip;
+    if (const std::optional<device::Point> tip = organ->follower->step(nanoseconds(now_ms))) {
+      tool.present = 1;
+      tool.position = *tip;
+    }
     if (organ->follower->state() == device::PoseFollower::State::kOver) organ->follower.reset();
   }
-  if (!organ->follower) tool.present = 0;
   (void)palpate_step();
-  return organ->follower ? 1 : 0;
+  if (!organ->follower) return 0;
+  return tool.present == 1 ? 2 : 1;
+}
+
+/// -n.K n of the driven tool, N/m, along the rest surface's outward normal n; 0 when free.
+EMSCRIPTEN_KEEPALIVE double palpate_stiffness() {
+  const ToolResult& tool = organ->result.tools[0];
+  if (tool.state == static_cast<std::uint32_t>(ContactState::kFree)) return 0.0;
+  const Vec3 n = normalThere();
+  return -n.dot(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(tool.stiffness.data()) * n);
 }
 
 }  // extern "C"

@@ -17,15 +17,16 @@ export interface Organ {
     readonly regions: readonly (Shape & { readonly name: string; readonly youngs_modulus: number })[];
   };
   set(modulus: number, friction: number): string;
+  grab(nowMs: number): void;
   target(position: Vector, nowMs: number): void;
   release(): void;
-  tick(nowMs: number): boolean;
+  tick(nowMs: number): 0 | 1 | 2;
+  readonly stiffness: number;
   tool(): {
     readonly tip: number[];
     readonly flags: number;
     readonly state: number;
     readonly force: number[];
-    readonly stiffness: number[];
     readonly anchor: number[];
     readonly proxy: number[];
     readonly domainRadius: number;
@@ -34,4 +35,4 @@ export interface Organ {
   surface(): Float32Array | undefined;
 }
 
-export function makeOrgan(makeModule: unknown, settings: object, file: unknown, name: string, tipRadius?: number): Promise<Organ>;
+export function makeOrgan(makeModule: unknown, settings: object, hdf5: unknown, file: unknown, name: string, tipRadius?: number): Promise<Organ>;

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // An organ in a page or in node: core as WebAssembly, with a model file that h5wasm has opened.
 const TYPES = { '<d': 0, '<f': 1, '<h': 2, '<i': 3, '<q': 4, '<B': 5 };
-const NAME = 6; // of a region: text of a fixed length
+const OTHER = 6; // of a region's name, text of a fixed length; core refuses what is neither
 
-/** Bytes of a dataset's numbers as the file has them. */
-function bytesOf(dataset) {
-  const { value } = dataset;
-  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  const size = dataset.metadata.size; // names: zeros fill what is left
-  const bytes = new Uint8Array(size * value.length);
-  value.forEach((name, i) => bytes.set(new TextEncoder().encode(name).subarray(0, size), i * size));
-  return bytes;
+/** Calls work(bytes) with a dataset's bytes as the file has them: a view of h5wasm's memory. */
+function withBytes(hdf5, dataset, work) {
+  const size = dataset.metadata.size * (dataset.shape ?? []).reduce((product, length) => product * length, dataset.shape ? 1 : 0);
+  const place = hdf5._malloc(Math.max(size, 1));
+  if (place === 0) throw new Error(`${dataset.path}: the page has no memory left`);
+  try {
+    if (size > 0) hdf5.get_dataset_data(dataset.file_id, dataset.path, null, null, null, BigInt(place));
+    work(hdf5.HEAPU8.subarray(place, place + size));
+  } finally {
+    hdf5._free(place);
+  }
 }
 
 /** Calls visit(path, dataset) for all datasets below a group. */
@@ -67,11 +70,12 @@ class Engine {
 
 function giveAttributes(engine, file) {
   const { module } = engine;
-  for (const [name, attribute] of Object.entries(file.attrs)) {
-    const { value, dtype } = attribute;
-    if (typeof value === 'string')
-      engine.with([name, value], (n, text) => module._palpate_text(n, text));
-    else if (dtype === '<i') engine.with([name], (n) => module._palpate_integer(n, Number(value)));
+  for (const [name, { value, metadata }] of Object.entries(file.attrs)) {
+    const whole = metadata.type === 0; // H5T_INTEGER
+    const fits = !ArrayBuffer.isView(value) && Number(value) === (Number(value) | 0);
+    if (typeof value === 'string') engine.with([name, value], (n, text) => module._palpate_text(n, text));
+    else if (whole && fits) engine.with([name], (n) => module._palpate_integer(n, Number(value)));
+    else if (whole) engine.with([name, 'whole numbers'], (n, text) => module._palpate_text(n, text)); // none that a model has
     else {
       const numbers = Float64Array.from(ArrayBuffer.isView(value) ? value : [value], Number);
       engine.with([name, numbers], (n, values) => module._palpate_numbers(n, values, numbers.length));
@@ -79,15 +83,16 @@ function giveAttributes(engine, file) {
   }
 }
 
-function giveArrays(engine, file) {
+function giveArrays(engine, hdf5, file) {
   const { module } = engine;
   forEachDataset(file, '', (path, dataset) => {
-    const type = typeof dataset.dtype === 'string' && dataset.dtype in TYPES ? TYPES[dataset.dtype] : NAME;
-    const shape = Float64Array.from(dataset.shape, Number);
-    const bytes = bytesOf(dataset);
-    const place = engine.with([path, shape], (name, lengths) => module._palpate_array(name, type, shape.length, lengths, bytes.length));
-    if (place === 0) throw new Error(`${path}: the page has no memory left`);
-    module.HEAPU8.set(bytes, place);
+    const type = TYPES[dataset.dtype] ?? OTHER;
+    const shape = Float64Array.from(dataset.shape ?? [], Number);
+    withBytes(hdf5, dataset, (bytes) => {
+      const place = engine.with([path, shape], (name, lengths) => module._palpate_array(name, type, shape.length, lengths, bytes.length));
+      if (place === 0) throw new Error(`${path}: the page has no memory left`);
+      module.HEAPU8.set(bytes, place);
+    });
   });
 }
 
@@ -95,14 +100,16 @@ function giveArrays(engine, file) {
  * Makes an organ of a model file.
  * @param makeModule  what build/wasm/palpate_core.mjs exports
  * @param settings    for it: sha256() gives an object with add(bytes) and finish(); locateFile, wasmBinary as emscripten has them
- * @param file        h5wasm's File, open  @param name  how it is called in messages  @param tipRadius  m
+ * @param hdf5        what h5wasm.ready gives  @param file  h5wasm's File, open; it is closed
+ * @param name        how it is called in messages  @param tipRadius  m
  * @throws Error  one sentence: file, dataset, found, expected
  */
-export async function makeOrgan(makeModule, settings, file, name, tipRadius = 0.005) {
+export async function makeOrgan(makeModule, settings, hdf5, file, name, tipRadius = 0.005) {
   const engine = new Engine(await makeModule({ ...settings }));
   engine.with([name], (n) => engine.module._palpate_begin(n));
   giveAttributes(engine, file);
-  giveArrays(engine, file);
+  giveArrays(engine, hdf5, file);
+  file.close();
   const wrong = engine.with([name], (n) => engine.text(engine.module._palpate_load(n, tipRadius)));
   if (wrong !== '') throw new Error(wrong);
   return new Organ(engine);
@@ -199,7 +206,12 @@ export class Organ {
     return this.engine.text(this.module._palpate_set(modulus, friction));
   }
 
-  /** The tool's goal, m. */
+  /** The page's tool is taken, or taken back while it lifts off. */
+  grab(nowMs) {
+    this.module._palpate_grab(nowMs);
+  }
+
+  /** The taken tool's goal, m. */
   target([x, y, z], nowMs) {
     this.module._palpate_target(x, y, z, nowMs);
   }
@@ -208,9 +220,14 @@ export class Organ {
     this.module._palpate_release();
   }
 
-  /** A tick with the tool that is driven. @returns whether there is one */
+  /** A tick with the page's tool. @returns 0 there is none, 1 it has no place yet, 2 there is one */
   tick(nowMs) {
-    return this.module._palpate_tick(nowMs) === 1;
+    return this.module._palpate_tick(nowMs);
+  }
+
+  /** -n.K n of that tool, N/m, along the rest surface's outward normal n; 0 when free. */
+  get stiffness() {
+    return this.module._palpate_stiffness();
   }
 
   /** The driven tool, after a tick: numbers of StepInput and StepResult (core/tick/step_io.h). */
@@ -223,7 +240,6 @@ export class Organ {
       flags: result.getUint32(0, true),
       state: result.getUint32(4, true),
       force: doubles(result, 8, 3),
-      stiffness: doubles(result, 32, 9),
       anchor: doubles(result, 104, 3),
       proxy: doubles(result, 128, 3),
       domainRadius: result.getFloat64(176, true),

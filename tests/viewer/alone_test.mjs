@@ -63,6 +63,23 @@ test('a press is answered in the page itself, and the organ comes to rest when t
   await seen.close();
 });
 
+test('a tool that is taken back while it lifts off goes on, and its end is not told', async () => {
+  const seen = await Seen.open(browser, `${address}?model=organ.h5`);
+  await seen.organ();
+  const place = await seen.middle();
+  await seen.page.mouse.move(place.x, place.y);
+  await seen.page.mouse.down();
+  await seen.until('pressed', (f) => f.force > 0.2);
+  await seen.page.mouse.up();
+  await seen.page.waitForTimeout(30);
+  await seen.page.mouse.down();
+  await seen.until('off, or on its way back', (f) => f.force < 0.2);
+  await seen.until('pressed again', (f) => f.penetration > 0.0038 && f.force > 0.2 && f.toolId === 0);
+  await seen.page.waitForTimeout(500); // longer than lifting off takes
+  assert.equal((await seen.figures()).toolId, 0);
+  await seen.close();
+});
+
 test('a softer organ is asked for, and is in force', async () => {
   const seen = await Seen.open(browser, `${address}?model=organ.h5`);
   await seen.organ();

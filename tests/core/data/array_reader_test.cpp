@@ -61,6 +61,14 @@ TEST(ArrayReader, GivesBackWhatItGot) {
   EXPECT_FALSE(reader.hasDataset("near/node"));
 }
 
+TEST(ArrayReader, HasAPlaceForAnArrayOfNothing) {
+  ArrayReader reader("page.h5");
+  EXPECT_NE(reader.addArray("near/node", NumberType::kI32, {2}, 8), nullptr);
+  EXPECT_NE(reader.addArray("near/scale", NumberType::kF32, {2, 0}, 0), nullptr);
+  Lengths lengths;
+  EXPECT_TRUE(reader.dataset(kPairs, lengths).empty());
+}
+
 TEST(ArrayReader, KeepsItsArraysAsLongAsItsMemoryIsHeld) {
   std::shared_ptr<const void> memory;
   std::span<const float> found;

@@ -10,6 +10,12 @@ modules=$root/clients/viewer/web/node_modules
 cmake --build "$build/wasm"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-"$build/tests/write_round_organ" "$scratch/organ.h5"
-"$build/tests/core_answers" "$scratch/organ.h5" "$scratch/answers"
-node "$root/tests/core/wasm/compare.mjs" "$build/wasm" "$modules" "$scratch/organ.h5" "$scratch/answers"
+compare() { # NAME [ARGUMENTS OF write_round_organ]
+  local name=$1
+  shift
+  "$build/tests/write_round_organ" "$scratch/$name.h5" "$@"
+  "$build/tests/core_answers" "$scratch/$name.h5" "$scratch/$name"
+  node "$root/tests/core/wasm/compare.mjs" "$build/wasm" "$modules" "$scratch/$name.h5" "$scratch/$name"
+}
+compare displacement
+compare force 3 0.3 force

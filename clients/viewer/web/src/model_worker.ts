@@ -46,16 +46,15 @@ async function open(address: string): Promise<void> {
     import('@noble/hashes/sha2.js'),
     import(/* @vite-ignore */ `${base}palpate_core.mjs`) as Promise<{ default: unknown }>,
   ]);
-  const { FS } = await h5wasm.ready;
-  FS.writeFile(name, bytes);
+  const hdf5 = await h5wasm.ready;
+  hdf5.FS.writeFile(name, bytes, { canOwn: true } as { flags?: string }); // no second copy
   const file = new h5wasm.File(name, 'r');
+  hdf5.FS.unlink(name); // the open file keeps it
   const digest = (): object => {
     const hash = sha256.create();
     return { add: (part: Uint8Array) => void hash.update(part), finish: () => hash.digest() };
   };
-  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile: (path: string) => base + path }, file, name);
-  file.close();
-  FS.unlink(name);
+  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile: (path: string) => base + path }, hdf5, file, name);
   host = new OrganHost(organ, name, {
     said: (said) => tell({ kind: 'said', said }),
     mesh: (mesh) => tell({ kind: 'mesh', mesh }),

@@ -2,7 +2,7 @@
 import type { Organ } from '../../../../core/wasm/organ.mjs';
 import { clockMs } from './clock';
 import type { Said } from './connection';
-import { STATE_FREE, type Answer, type Frame, type Mesh } from './protocol';
+import type { Answer, Frame, Mesh } from './protocol';
 import type { Vec3 } from './vec';
 
 const TIP_RADIUS = 0.005; // m
@@ -10,8 +10,11 @@ const TICK_MS = 1;
 const WAKE_MS = 4; // between wake-ups, each of which makes up for the time since the last one
 const MOST_TICKS = 25; // of one wake-up: a page that stood still does not catch up
 const STATUS_MS = 1000;
-const REST_MS = 300; // ticks after the last tool, in which forces and fields fade
+const REST_TICKS = 300; // after the last tool, in which forces and fields fade
 const SHORTEST_FRAME_MS = 16;
+const TARGET_MS = 12; // between repetitions of a target
+const HOLD_MS = 1000; // longest repetition of a target while a busy page sends no new one
+const MOST_ANSWERS = 2000; // kept for a page that takes no frames
 
 export interface Told {
   said(said: Said): void;
@@ -37,14 +40,16 @@ class Times {
 
 /** What palpate-viewer and palpate-server do for a page, for one organ and one tool, in this page's worker. */
 export class OrganHost {
-  private held: Vec3 | undefined;
-  private driven = false;
+  private held: { position: Vec3; sinceMs: number; givenMs: number } | undefined;
+  private tool: 0 | 1 | 2 = 0; // as Organ.tick() says
+  private released = false;
   private seq = 0;
   private ticks = 0;
   private overruns = 0;
   private flags = 0;
   private lastMs = clockMs();
-  private restFromMs = clockMs();
+  private ticksLeft = 0; // until rest
+  private unshown = false;
   private nextFrameMs = 0;
   private pageIsBusy = false;
   private answers: Answer[] = [];
@@ -66,13 +71,14 @@ export class OrganHost {
   }
 
   say(message: { type: string; [field: string]: unknown }): void {
-    if (message.type === 'grab') this.told.said({ type: 'tool', granted: true, tool_id: 0, message: '' });
+    if (message.type === 'grab') this.grab();
     else if (message.type === 'release') this.release();
     else if (message.type === 'set') this.set(message);
   }
 
+  /** The tool's target until the next call; undefined: no tool is held. */
   hold(position: Vec3 | undefined): void {
-    this.held = position;
+    this.held = position && { position, sinceMs: clockMs(), givenMs: -Infinity };
   }
 
   /** The page has drawn the last frame. */
@@ -80,8 +86,17 @@ export class OrganHost {
     this.pageIsBusy = false;
   }
 
+  private grab(): void {
+    this.wake(); // what ended before is told before
+    this.released = false;
+    this.organ.grab(this.lastMs);
+    this.ticksLeft = REST_TICKS;
+    this.told.said({ type: 'tool', granted: true, tool_id: 0, message: '' });
+  }
+
   private release(): void {
     this.held = undefined;
+    this.released = true;
     this.organ.release();
   }
 
@@ -89,7 +104,7 @@ export class OrganHost {
     const { modelModulus, modulus, friction } = this.organ.parameters;
     const factor = message['youngs_factor'], mu = message['friction'];
     const wrong = this.organ.set(typeof factor === 'number' ? factor * modelModulus : modulus, typeof mu === 'number' ? mu : friction);
-    this.restFromMs = clockMs();
+    this.ticksLeft = REST_TICKS;
     this.told.said({ type: 'parameters', request: message['request'], accepted: wrong === '', message: wrong });
     this.status();
   }
@@ -119,47 +134,50 @@ export class OrganHost {
   private wake(): void {
     const nowMs = clockMs();
     const due = Math.floor((nowMs - this.lastMs) / TICK_MS);
-    if (this.held || this.driven) this.restFromMs = nowMs;
-    if (nowMs - this.restFromMs > REST_MS) {
-      this.lastMs = nowMs;
-      return;
-    }
-    if (this.held) this.organ.target(this.held, nowMs);
-    const ticks = Math.min(due, MOST_TICKS);
-    this.overruns += due - ticks;
-    for (let i = ticks; i > 0; --i) this.tick(nowMs - (i - 1) * TICK_MS);
-    this.lastMs = due > ticks ? nowMs : this.lastMs + ticks * TICK_MS;
-    if (ticks > 0 && !this.pageIsBusy && nowMs >= this.nextFrameMs) this.frame(nowMs);
+    const ticks = Math.min(due, MOST_TICKS, this.ticksLeft);
+    if (this.ticksLeft > 0) this.overruns += Math.max(0, due - MOST_TICKS);
+    this.lastMs += (due - ticks) * TICK_MS; // a page that stood still goes on from now
+    this.aim(nowMs);
+    for (let i = 0; i < ticks; ++i) this.tick((this.lastMs += TICK_MS));
+    if (this.unshown && !this.pageIsBusy && nowMs >= this.nextFrameMs) this.frame(nowMs);
   }
 
-  private tick(nowMs: number): void {
+  private aim(nowMs: number): void {
+    const { held } = this;
+    if (!held || nowMs - held.sinceMs >= HOLD_MS || nowMs - held.givenMs < TARGET_MS) return;
+    held.givenMs = nowMs;
+    this.organ.target(held.position, this.lastMs);
+  }
+
+  private tick(tickMs: number): void {
     const start = performance.now();
-    const was = this.driven;
-    this.driven = this.organ.tick(nowMs);
+    const was = this.tool;
+    this.tool = this.organ.tick(tickMs);
     this.tickUs.add(1000 * (performance.now() - start));
     ++this.ticks;
-    if (was && !this.driven) this.told.said({ type: 'tool', granted: false, tool_id: null, message: 'released' });
-    if (!this.driven) return;
+    this.unshown = true;
+    this.ticksLeft = this.tool === 0 ? this.ticksLeft - 1 : REST_TICKS;
+    if (was !== 0 && this.tool === 0)
+      this.told.said({ type: 'tool', granted: false, tool_id: null, message: this.released ? 'released' : 'no target came for 250 ms' });
+    if (this.tool !== 2) return;
     const tool = this.organ.tool();
     this.flags |= tool.flags;
-    const size = Math.hypot(...tool.force);
-    const n = tool.force.map((f) => f / size);
-    const K = tool.stiffness;
-    const felt = [0, 1, 2].reduce((sum, i) => sum - n[i]! * (K[3 * i]! * n[0]! + K[3 * i + 1]! * n[1]! + K[3 * i + 2]! * n[2]!), 0);
     this.answers.push({
       toolId: 0,
       flags: tool.flags,
-      tUs: 1000 * nowMs,
-      force: size,
+      tUs: 1000 * tickMs,
+      force: Math.hypot(...tool.force),
       penetration: tool.penetration,
       wakeupUs: 0,
-      stiffness: tool.state === STATE_FREE || !(size > 0) ? 0 : felt,
+      stiffness: this.organ.stiffness,
     });
+    if (this.answers.length > MOST_ANSWERS) this.answers.splice(0, MOST_ANSWERS / 2);
   }
 
   private frame(nowMs: number): void {
     this.nextFrameMs = nowMs + SHORTEST_FRAME_MS;
     this.pageIsBusy = true;
+    this.unshown = false;
     const u = this.organ.surface();
     const tool = this.organ.tool();
     let most = 0;
@@ -177,7 +195,7 @@ export class OrganHost {
       surfaceSeq: this.seq,
       scale,
       displacement,
-      tools: this.driven
+      tools: this.tool === 2
         ? [
             {
               id: 0,
