@@ -11,8 +11,8 @@ namespace palpate {
 
 namespace {
 
-constexpr std::size_t kLinear = kLinearCoefficients;  // PatchStiffness's
-constexpr std::size_t kLinearNumbers = 3 * kLinear;
+constexpr std::size_t kLinear = kLinearCoefficients;                           // PatchStiffness's
+constexpr auto kQuadratic = static_cast<std::size_t>(MonomialBasis::size(2));  // of the energy, likewise
 
 }  // namespace
 
@@ -88,18 +88,46 @@ ContactResponse::ContactResponse(const ModelView& view, const ModelAttributes& a
       limit_(attributes.parameters == Parameters::kDisplacement ? view.contact_series_radius
                                                                 : view.contact_domain_radius),
       domain_radius_(view.contact_domain_radius),
-      harmonic_(attributes.parameters != Parameters::kDisplacement) {
-  if (attributes.parameters == Parameters::kDisplacement) copyRows();
+      harmonic_(attributes.parameters != Parameters::kDisplacement),
+      energy_basis_(harmonic_ ? 1 : attributes.force_order + 1) {
+  if (harmonic_) return;
+  fillDerivatives();
+  fillRows();
 }
 
-void ContactResponse::copyRows() {
-  const std::size_t width = 3 * index(functions_.size()), numbers = width - kLinearNumbers;
-  lines_ = (numbers + kPerLine - 1) / kPerLine;
-  rows_.resize(limit_.size() * lines_);
-  for (std::size_t b = 0; b < limit_.size(); ++b) {
-    const std::span<const double> c = coefficient_.subspan(b * width + kLinearNumbers, numbers);
-    if (!c.empty()) std::copy(c.begin(), c.end(), rows_[b * lines_].number.begin());
+void ContactResponse::fillDerivatives() {
+  const auto narrow = [](int number) { return static_cast<std::uint8_t>(number); };
+  const MonomialBasis& basis = functions_.basis();
+  for (int k = static_cast<int>(kLinear); k < basis.size(); ++k) {
+    const auto& [x, y, z] = basis[k];
+    const int place = MonomialBasis::positionOf({x + 1, y, z}) - static_cast<int>(kQuadratic);
+    derivatives_.push_back(
+        {narrow(place), narrow(place + y + z + 1), {narrow(x + 1), narrow(y + 1), narrow(z + 1)}});
   }
+}
+
+/// W / d_ref = int_0^1 f(tau d) . x dtau: what in a file's forces is no derivative of an energy is left out.
+void ContactResponse::fillRows() {
+  const MonomialBasis& basis = functions_.basis();
+  lines_ = (index(energy_basis_.size()) - kQuadratic + kPerLine - 1) / kPerLine;
+  rows_.resize(limit_.size() * lines_);
+  if (rows_.empty()) return;
+  double* row = rows_.front().number.data();
+  const double* f = coefficient_.data();
+  for (std::size_t b = 0; b < limit_.size(); ++b, row += rowLength(), f += 3 * basis.size())
+    for (int k = static_cast<int>(kLinear); k < basis.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i) {
+        MultiIndex beta = basis[k];
+        ++beta[i];
+        row[index(MonomialBasis::positionOf(beta)) - kQuadratic] +=
+            f[3 * index(k) + i] / (beta[0] + beta[1] + beta[2]);
+      }
+}
+
+/// @param energy  a row, or a mixture of rows @param[out] force  its derivative's coefficients, from degree 2 on
+void ContactResponse::derive(const double* energy, Vec3* force) const noexcept PALPATE_NONBLOCKING {
+  for (const auto& [x, y, times] : derivatives_)
+    *force++ = Vec3(times[0] * energy[x], times[1] * energy[y], times[2] * energy[y + 1]);
 }
 
 Rows ContactResponse::rowsOf(const Stencil& stencil) const noexcept PALPATE_NONBLOCKING {
@@ -126,7 +154,9 @@ ContactSeries ContactResponse::at(const PositionMix& mix) const noexcept PALPATE
 ContactSeries ContactResponse::at(const Stencil& stencil, const Mat3& stiffness,
                                   const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
   ContactSeries series(functions_);
-  mixRows(rowsOf(stencil), stencil.weight.data(), rowLength(), series.coefficient_[kLinear].data());
+  std::array<double, MonomialBasis::kMaxCoefficients> energy;
+  mixRows(rowsOf(stencil), stencil.weight.data(), rowLength(), energy.data());
+  derive(energy.data(), series.coefficient_.data() + kLinear);
   for (std::size_t k = 0; k < 3; ++k)
     series.coefficient_[k] = functions_.reference() * stiffness.col(static_cast<Eigen::Index>(k));
   series.limit_ = limit(mix);
@@ -138,17 +168,14 @@ Vec3 ContactResponse::energySlope(const Stencil& stencil, const std::array<Mat3,
                                   const Vec3& d, double limit) const noexcept PALPATE_NONBLOCKING {
   const double length = lengthOf(d), beyond = length > limit ? length / limit : 1.0;
   const Vec3 at = d / beyond;
-  std::array<double, MonomialBasis::kMaxCoefficients> share;
-  functions_.energyShares(at, share);
-  std::array<Vec3, MonomialBasis::kMaxCoefficients + 2> product;  // as ContactSeries::coefficient_
-  const auto size = index(functions_.size());
-  for (std::size_t k = kLinear; k < size; ++k) product[k] = share[k] * at;
-  for (std::size_t k = size; k < product.size(); ++k) product[k].setZero();
+  std::array<double, MonomialBasis::kMaxCoefficients + kPerLine> monomial;
+  energy_basis_.evaluate(at / functions_.reference(), monomial);
+  std::fill_n(monomial.begin() + energy_basis_.size(), kPerLine, 0.0);
   std::array<double, Stencil::kMost> W;
-  dotRows(rowsOf(stencil), product[kLinear].data(), rowLength(), W.data());
+  dotRows(rowsOf(stencil), monomial.data() + kQuadratic, rowLength(), W.data());  // over d_ref
   Vec3 slope = Vec3::Zero();
   for (std::size_t b = 0; b < stencil.count; ++b) slope += W[b] * stencil.slope[b];
-  slope *= beyond * beyond;
+  slope *= beyond * beyond * functions_.reference();
   for (std::size_t k = 0; k < 3; ++k)
     slope[static_cast<Eigen::Index>(k)] += 0.5 * d.dot(stiffness_slope[k] * d);
   return slope;

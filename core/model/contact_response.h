@@ -48,8 +48,7 @@ class ContactSeries {
   void sum(const Jets& jets, Vec3& value, Mat3& gradient) const noexcept PALPATE_NONBLOCKING;
 
   const ParameterFunctions* functions_;
-  std::array<Vec3, MonomialBasis::kMaxCoefficients + 2>
-      coefficient_;  // the first size(); room for whole vectors
+  std::array<Vec3, MonomialBasis::size(kMostForceOrder)> coefficient_;  // the first size()
   double limit_{0.0}, domain_radius_{0.0};
 };
 
@@ -91,7 +90,15 @@ class ContactResponse {
   struct alignas(64) Line {
     std::array<double, kPerLine> number{};
   };
-  void copyRows();
+  /// The coefficient of x^alpha in f_i is (alpha_i + 1) / d_ref times that of x^(alpha + e_i) in the energy. In a row
+  /// alpha + e_y comes alpha_y + alpha_z + 1 behind alpha + e_x, and alpha + e_z right behind that.
+  struct Derivative {
+    std::uint8_t x, y;  // places in a row
+    std::array<std::uint8_t, 3> times;
+  };
+  void fillDerivatives();
+  void fillRows();
+  void derive(const double* energy, Vec3* force) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] double meanOf(std::span<const double> radius,
                               const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] Rows rowsOf(const Stencil& stencil) const noexcept PALPATE_NONBLOCKING;
@@ -103,9 +110,11 @@ class ContactResponse {
   std::span<const double> domain_radius_;  // [M]
   bool harmonic_;                          // the mean of the limits
   std::size_t lines_{0};                   // of a row
-  // [M] of a "displacement" model: coefficient_ from degree 2 on, filled up with zeros. The energy is summed from them too: a
-  // tick whose cache is cold waits for memory, not for products
+  // Of a "displacement" model. [M]: coefficients of the energy over d_ref from degree 3 on, N, filled up with zeros. They are
+  // less than half the numbers of the force, and a tick whose cache is cold waits for memory, not for products
   std::vector<Line> rows_;
+  std::vector<Derivative> derivatives_;  // of the force's coefficients from degree 2 on
+  MonomialBasis energy_basis_;
 };
 
 }  // namespace palpate

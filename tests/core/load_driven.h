@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <random>
 #include <vector>
 
 #include "driver.h"
-#include "tools/modelfile/write_model.h"
+#include "spoiled_model.h"
 
 namespace palpate::testing {
 
@@ -19,16 +18,6 @@ inline SyntheticOptions forceOptions(int order = 4) {
 inline const MetaModel& forceModel() {
   static const MetaModel model = loadSynthetic(forceOptions());
   return model;
-}
-
-/// A model whose data are spoiled before they are written.
-inline MetaModel spoiled(const SyntheticOptions& options,
-                         const std::function<void(modelfile::ModelData&)>& spoil) {
-  modelfile::ModelData data = syntheticModel(options);
-  spoil(data);
-  const TemporaryFile file("load-driven.h5");
-  modelfile::writeModel(file.path(), data);
-  return MetaModel::load(file.path());
 }
 
 class Random {
