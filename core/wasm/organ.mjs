@@ -2,19 +2,36 @@
 // An organ in a page or in node: core as WebAssembly, with a model file that h5wasm has opened.
 const TYPES = { '<d': 0, '<f': 1, '<h': 2, '<i': 3, '<q': 4, '<B': 5 };
 const OTHER = 6; // of a region's name, text of a fixed length; core refuses what is neither
+const MOST_AT_ONCE = 4e6; // bytes that h5wasm holds beside the file and core
 
-/** Calls work(bytes) with a dataset's bytes as the file has them: a view of h5wasm's memory. */
-function withBytes(hdf5, dataset, work) {
-  const size = dataset.metadata.size * (dataset.shape ?? []).reduce((product, length) => product * length, dataset.shape ? 1 : 0);
-  const place = hdf5._malloc(Math.max(size, 1));
+const bytesOf = ({ metadata, shape }) => metadata.size * (shape ?? []).reduce((product, length) => product * length, shape ? 1 : 0);
+
+/** Calls visit(bytes, at) with a dataset's bytes as the file has them, some rows at a time: views of h5wasm's memory. */
+function forEachPart(hdf5, dataset, visit) {
+  const [rows = 1, ...others] = dataset.shape ?? [0];
+  const row = rows > 0 ? bytesOf(dataset) / rows : 0;
+  if (row === 0) return;
+  const most = Math.min(rows, Math.max(1, Math.floor(MOST_AT_ONCE / row)));
+  const place = hdf5._malloc(most * row);
   if (place === 0) throw new Error(`${dataset.path}: the page has no memory left`);
   try {
-    if (size > 0) hdf5.get_dataset_data(dataset.file_id, dataset.path, null, null, null, BigInt(place));
-    work(hdf5.HEAPU8.subarray(place, place + size));
+    for (let first = 0; first < rows; first += most) {
+      const count = Math.min(most, rows - first);
+      const slab = dataset.shape.length === 0 ? [null, null, null] : slabOf(first, count, others);
+      hdf5.get_dataset_data(dataset.file_id, dataset.path, ...slab, BigInt(place));
+      visit(hdf5.HEAPU8.subarray(place, place + count * row), first * row);
+    }
   } finally {
     hdf5._free(place);
   }
 }
+
+/** Rows of an array as HDF5 names them: counts, offsets, strides. */
+const slabOf = (first, count, others) => [
+  [count, ...others].map(BigInt),
+  [first, ...others.map(() => 0)].map(BigInt),
+  [1, ...others.map(() => 1)].map(BigInt),
+];
 
 /** Calls visit(path, dataset) for all datasets below a group. */
 function forEachDataset(group, path, visit) {
@@ -88,11 +105,10 @@ function giveArrays(engine, hdf5, file) {
   forEachDataset(file, '', (path, dataset) => {
     const type = TYPES[dataset.dtype] ?? OTHER;
     const shape = Float64Array.from(dataset.shape ?? [], Number);
-    withBytes(hdf5, dataset, (bytes) => {
-      const place = engine.with([path, shape], (name, lengths) => module._palpate_array(name, type, shape.length, lengths, bytes.length));
-      if (place === 0) throw new Error(`${path}: the page has no memory left`);
-      module.HEAPU8.set(bytes, place);
-    });
+    const bytes = bytesOf(dataset);
+    const place = engine.with([path, shape], (name, lengths) => module._palpate_array(name, type, shape.length, lengths, bytes));
+    if (place === 0) throw new Error(`${path}: the page has no memory left`);
+    forEachPart(hdf5, dataset, (part, at) => module.HEAPU8.set(part, place + at));
   });
 }
 

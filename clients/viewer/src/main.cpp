@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "export_page.h"
 #include "palpate/client/error.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/receive_threads.h"
@@ -24,6 +25,8 @@ constexpr int kReceivePriority = 35;  // below the server's threads
 struct Options {
   WebOptions web;
   std::string page;
+  std::string export_folder;
+  std::string model;
   std::string token_file;
   std::uint32_t domain{0};
   std::uint32_t server_id{dds::kServerAny};
@@ -39,6 +42,11 @@ void addOptions(program::Options line, Options& options) {
            "numeric address to listen on; one that other machines reach needs a token");
   line.add("--port", &web.access.port, "TCP port; 0: any that is free");
   line.add("--page", &options.page, "folder with the page's index.html");
+  line.add(
+      "--export", &options.export_folder,
+      "write the page into this new or empty folder, with an organ of its own, for any web server; then end");
+  line.add("--model", &options.model,
+           "with --export: model file that the page opens; without it the page asks for one");
   line.add("--token-file", &options.token_file,
            "file whose first line is the secret that lets people in: 16 to 128 letters, digits, - and _");
   line.add("--tls-cert", &web.tls.certificate, "PEM file with the certificate of this machine, for https");
@@ -51,7 +59,8 @@ void addOptions(program::Options line, Options& options) {
   line.add("--tools", &options.tools, "tool ids that pages may drive, in the order of preference")
       .list(',')
       .range(0, 3);
-  line.flag("--json", &options.json, "when it listens, print one JSON object on standard output");
+  line.flag("--json", &options.json,
+            "when it listens or has exported, print one JSON object on standard output");
 }
 
 std::string tokenFrom(const std::string& path) {
@@ -77,6 +86,19 @@ void announce(const WebServer& server, const Options& options) {
   }
 }
 
+void writePage(const Options& options) {
+  const Exported written = exportPage(options.web.page, options.export_folder, options.model);
+  if (options.json) {
+    program::printJson({{"folder", options.export_folder},
+                        {"model", options.model},
+                        {"files", written.files},
+                        {"bytes", written.bytes}});
+  } else {
+    std::cout << options.export_folder << ": " << written.files << " files, " << written.bytes / 1000
+              << " kB, for any web server\n";
+  }
+}
+
 void warnOfOpenDoors(const WebOptions& web) {
   if (!isLoopback(web.access.listen) && !web.tls.given())
     spdlog::warn(
@@ -94,8 +116,14 @@ int body(int argc, char** argv) {
   Options options;
   addOptions(line.options(), options);
   if (!line.read(argc, argv)) return 0;
-  if (!options.token_file.empty()) options.web.access.token = tokenFrom(options.token_file);
+  if (options.export_folder.empty() && !options.model.empty())
+    throw client::ClientError("--model is for --export: a server has its own model");
   options.web.page = options.page.empty() ? defaultPageFolder() : std::filesystem::path(options.page);
+  if (!options.export_folder.empty()) {
+    writePage(options);
+    return 0;
+  }
+  if (!options.token_file.empty()) options.web.access.token = tokenFrom(options.token_file);
   spdlog::set_default_logger(spdlog::stderr_color_mt("palpate-viewer"));
   client::catchStopSignals();
   std::signal(SIGPIPE, SIG_IGN);

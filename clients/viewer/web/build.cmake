@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNPM=npm -DWEB=folder -P build.cmake: npm ci, when the lock file is newer than what is installed, and vite build.
+# cmake -DNPM=npm -DWEB=folder -DCORE=folder -P build.cmake: npm ci, when the lock file is newer than what is installed, and
+# vite build, which takes core as WebAssembly from its folder.
 set(installed ${WEB}/node_modules/.package-lock.json)
 if(NOT EXISTS ${installed} OR ${WEB}/package-lock.json IS_NEWER_THAN ${installed})
   execute_process(COMMAND ${NPM} ci --no-audit --no-fund --fetch-retries=1 WORKING_DIRECTORY ${WEB}
@@ -13,6 +14,7 @@ if(NOT EXISTS ${installed} OR ${WEB}/package-lock.json IS_NEWER_THAN ${installed
   endif()
   file(TOUCH ${installed})
 endif()
+set(ENV{PALPATE_CORE} ${CORE})
 execute_process(COMMAND ${NPM} run --silent build WORKING_DIRECTORY ${WEB} RESULT_VARIABLE result
   OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT result EQUAL 0)

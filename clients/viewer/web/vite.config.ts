@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-import { defineConfig } from 'vite';
+import { cpSync, existsSync, readdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { defineConfig, type Plugin } from 'vite';
 
 // Relative addresses and no inline scripts: palpate-viewer serves the page under a strict content policy.
 // `npm run dev` passes /ws and /login on to a running palpate-viewer (or to test/pretend_viewer.mjs) at PALPATE_VIEWER.
 const viewer = process.env['PALPATE_VIEWER'] ?? 'http://127.0.0.1:8080';
+const out = process.env['PALPATE_PAGE_OUT'] ?? 'dist';
+const core = process.env['PALPATE_CORE']; // folder with core as WebAssembly
+
+// Beside what Vite makes: core, and files.json, the list of all files but index.html, which pages keep for times without a network.
+const completed: Plugin = {
+  name: 'palpate-completed',
+  closeBundle() {
+    for (const file of ['palpate_core.mjs', 'palpate_core.wasm'])
+      if (core && existsSync(join(core, file))) cpSync(join(core, file), join(out, 'core', file));
+    const entries = readdirSync(out, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
+    const files = entries.map((entry) => join(entry.parentPath ?? entry.path, entry.name).slice(out.length + 1)).sort();
+    writeFileSync(join(out, 'files.json'), JSON.stringify(files.filter((file) => file !== 'index.html'), undefined, 1));
+  },
+};
 
 export default defineConfig({
   base: './',
+  plugins: [completed],
   worker: { format: 'es' }, // the model's worker fetches its parts when it needs them
   build: {
-    outDir: process.env['PALPATE_PAGE_OUT'] ?? 'dist',
+    outDir: out,
     emptyOutDir: true,
     target: 'es2022',
     assetsInlineLimit: 0,

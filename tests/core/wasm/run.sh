@@ -1,13 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD_FOLDER: builds core as WebAssembly and holds it to core as it is here, on the tests' round organ.
+# run.sh BUILD_FOLDER: holds core as WebAssembly to core as it is here, on the tests' round organ.
 set -euo pipefail
 build=$1
 root=$(cd "$(dirname "$0")/../../.." && pwd)
 modules=$root/clients/viewer/web/node_modules
 [[ -d $modules/h5wasm ]] || { echo "SKIPPED: npm could not fetch the packages that package-lock.json names"; exit 0; }
-[[ -f $build/wasm/build.ninja ]] || emcmake cmake -S "$root/core/wasm" -B "$build/wasm" -G Ninja > /dev/null
-cmake --build "$build/wasm"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 compare() { # NAME [ARGUMENTS OF write_round_organ]

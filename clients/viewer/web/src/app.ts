@@ -5,8 +5,10 @@ import { flagsOfStatus, RecentFlags } from './flags';
 import { Hand } from './hand';
 import { Keys } from './keys';
 import { Legend } from './legend';
-import { Line, modelAddress, type LineListener } from './line';
-import { admit, loginNeeded } from './login';
+import { Line, type LineListener } from './line';
+import { admit, door } from './login';
+import { ModelFiles, namedModel } from './model_files';
+import { forget, keep } from './offline';
 import type { Colouring } from './organ';
 import { OrganView } from './organ_view';
 import { download, element, followInputKind, numberIn, setText, timeStamp } from './page';
@@ -21,11 +23,13 @@ import { Stage } from './stage';
 import { csvOf, Strips } from './strip';
 import { StripChart } from './strip_chart';
 import { Theme, themeColour } from './theme';
+import { Vibration } from './vibration';
 
 const PANEL_MS = 250;
 const CHART_MS = 40;
 const NOTICE_MS = 5000;
 const HIDDEN_HZ = 1;
+const KEEP_AFTER_MS = 1500; // of the first organ: it comes before its copy
 const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
 /** The page: listens to the viewer, draws, and lets people press. */
@@ -52,14 +56,16 @@ export class App implements LineListener {
   private readonly readout = new Readout();
   private readonly legend: Legend;
   private readonly regionList = new RegionList((on) => this.view?.showInside(on));
-  private readonly panel: Panel;
+  readonly panel: Panel;
   private readonly flags = new RecentFlags();
+  private readonly vibration = new Vibration();
+  private readonly modelFiles = new ModelFiles((file) => this.line.open({ model: file }), (text) => this.notice(text));
+  private toKeep: string | undefined; // the model's address, until its organ is there
 
   constructor() {
     this.stage = new Stage(this.canvas);
     this.quality = new Quality(devicePixelRatio || 1, this.stage.software);
-    const model = modelAddress(location);
-    this.line = new Line(this, model !== '');
+    this.line = new Line(this);
     this.panel = new Panel(this.figures, this.line, this.stage);
     this.parameters = new Parameters(this.line);
     const organ = () => this.view && { surface: this.view.surface, tipRadius: this.tipRadius };
@@ -75,15 +81,43 @@ export class App implements LineListener {
     element('csv', HTMLButtonElement).addEventListener('click', () => this.saveStrip());
     element('picture', HTMLButtonElement).addEventListener('click', () => this.savePicture());
     requestAnimationFrame((now) => this.turn(now));
-    if (model) this.line.open(model);
-    else void admit().then(() => this.line.open(viewerAddress(location)));
+    void this.begin();
+  }
+
+  /** Finds out whether a palpate-viewer is here; without one the page has an organ of its own. */
+  private async begin(): Promise<void> {
+    const model = namedModel(document);
+    const here = model.exported ? 'other' : await door();
+    const again = model.address !== '' || Boolean(navigator.serviceWorker?.controller); // opened without a network
+    if (here === 'other' || (here === 'silent' && again)) return this.alone(model.address);
+    if (model.address) this.notice('A palpate-viewer serves this page, so it shows the organ of a palpate-server, not the model named.');
+    void forget();
+    await admit(here === 'asks');
+    this.line.open({ viewer: viewerAddress(location) });
+  }
+
+  private alone(model: string): void {
+    this.modelFiles.want();
+    this.panel.alone();
+    if (model) {
+      this.toKeep = model;
+      this.line.open({ model });
+    } else {
+      this.setState('wait', 'no organ');
+      this.modelFiles.offer('There is no palpate-viewer here, and no model is named.');
+      void this.keep('');
+    }
+  }
+
+  private async keep(model: string): Promise<void> {
+    this.panel.kept = await keep(model);
   }
 
   link(open: boolean, text: string): void {
     this.lineOpen = open;
     if (open) return this.askRate();
     this.setState('bad', `${text}; trying again`);
-    void loginNeeded().then((needed) => needed && location.reload()); // the cookie is too old, or the token another one
+    void door().then((here) => here === 'asks' && location.reload()); // the cookie is too old, or the token another one
   }
 
   said(message: Said): void {
@@ -102,6 +136,9 @@ export class App implements LineListener {
     this.view = new OrganView(mesh, this.stage, this.tipRadius);
     this.view.setColouring(this.colouring);
     this.view.showInside(this.regionList.show(mesh));
+    const { toKeep } = this;
+    this.toKeep = undefined;
+    if (toKeep !== undefined) setTimeout(() => void this.keep(toKeep), KEEP_AFTER_MS);
   }
 
   frame(frame: Frame, received: readonly Received[]): void {
@@ -110,6 +147,7 @@ export class App implements LineListener {
     this.frame_ = frame;
     this.view?.frame(frame);
     this.strips.add(frame.answers);
+    this.vibration.feel(frame.tools);
     for (const { flags } of [...frame.tools, ...frame.answers]) this.flags.add(flags, performance.now());
   }
 
@@ -157,6 +195,7 @@ export class App implements LineListener {
     state.title = text; // it may be cut short
     state.toggleAttribute('data-others', others);
     setText(element('state-text', HTMLSpanElement), text);
+    this.modelFiles.offer(level === 'bad' ? text : '');
     if (!this.serving) this.forget();
   }
 
@@ -171,6 +210,7 @@ export class App implements LineListener {
     this.view?.calm();
     this.frame_ = undefined;
     this.strips.clear();
+    this.vibration.feel([]);
     this.flags.clear();
     this.parameters.absent();
     this.panel.heard(undefined);

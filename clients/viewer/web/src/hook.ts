@@ -34,6 +34,9 @@ export function figuresOf(app: App): Record<string, unknown> {
     inForce: app.parameters.inForce,
     samples: tool ? app.strips.of(tool.id).length : 0,
     felt: app.view ? { low: app.view.felt.low, high: app.view.felt.high } : null,
+    tickUs: app.panel.status?.['tick_us'] ?? null,
+    fields: app.panel.status?.['fields'] ?? null,
+    kept: app.panel.kept ?? null,
     drawnBy: app.stage.drawnBy,
     pixelRatio: app.stage.pixelRatio,
   };

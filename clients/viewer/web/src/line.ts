@@ -13,7 +13,7 @@ export type ToPage =
   | { kind: 'trouble'; text: string };
 
 export type FromPage =
-  | { kind: 'open'; address: string }
+  | { kind: 'open'; source: string | File }
   | { kind: 'say'; message: object }
   | { kind: 'hold'; position: Vec3 | undefined }
   | { kind: 'taken' };
@@ -26,32 +26,29 @@ export interface LineListener {
   trouble(text: string): void;
 }
 
-/** The model file that the page's address names, with which it needs no viewer; empty: none. */
-export const modelAddress = (page: { href: string; search: string }): string => {
-  const named = new URLSearchParams(page.search).get('model');
-  return named ? new URL(named, page.href).href : '';
-};
+/** Where the organ is: at a viewer, by its WebSocket's address, or in a model file, by its address or itself. */
+export type Source = { readonly viewer: string } | { readonly model: string | File };
 
 /** The page's end of the worker that talks to the viewer, or that has the organ itself. */
 export class Line {
   private reading: ClockReading = { tripMs: NaN, offsetUs: NaN };
-  private readonly worker: Worker;
+  private worker: Worker | undefined; // none until open()
 
-  /** @param alone without a viewer: open() then takes a model's address */
-  constructor(
-    private readonly listener: LineListener,
-    alone = false,
-  ) {
-    this.worker = alone
-      ? new Worker(new URL('./model_worker.ts', import.meta.url), { type: 'module' })
-      : new Worker(new URL('./line_worker.ts', import.meta.url), { type: 'module' });
+  constructor(private readonly listener: LineListener) {}
+
+  /** Ends what was open before, with all its memory. */
+  open(source: Source): void {
+    if (this.worker) {
+      this.worker.onmessage = null; // what it sent last is still on its way
+      this.worker.terminate();
+    }
+    this.worker =
+      'viewer' in source
+        ? new Worker(new URL('./line_worker.ts', import.meta.url), { type: 'module' })
+        : new Worker(new URL('./model_worker.ts', import.meta.url), { type: 'module' });
     this.worker.onmessage = (event: MessageEvent<ToPage>) => this.heard(event.data);
     this.worker.onerror = (event) => this.listener.trouble(event.message || 'the page\'s worker did not start');
-  }
-
-  /** Call once; what is sent before is lost. */
-  open(address: string): void {
-    this.tell({ kind: 'open', address });
+    this.tell({ kind: 'open', source: 'viewer' in source ? source.viewer : source.model });
   }
 
   send(message: object): void {
@@ -74,7 +71,7 @@ export class Line {
   }
 
   private tell(message: FromPage): void {
-    this.worker.postMessage(message);
+    this.worker?.postMessage(message);
   }
 
   private heard(message: ToPage): void {

@@ -11,7 +11,7 @@ let connection: Connection | undefined;
 onmessage = (event: MessageEvent<FromPage>) => {
   const message = event.data;
   if (message.kind === 'open')
-    connection = new Connection(message.address, {
+    connection = new Connection(message.source as string, {
       link: (open, text) => {
         handOver.clear();
         tell({ kind: 'link', open, text });

@@ -9,13 +9,16 @@ export function codeIn(fragment: string): string {
   return fragment.startsWith(CODE) ? fragment.slice(CODE.length) : '';
 }
 
-/** Whether the viewer wants its token first. A viewer that does not answer wants nothing yet. */
-export async function loginNeeded(): Promise<boolean> {
+/** What answers here: a palpate-viewer, which wants its token first or not; another web server; nothing. */
+export type Door = 'asks' | 'open' | 'other' | 'silent';
+
+export async function door(): Promise<Door> {
   try {
     const answer = await fetch('./login', { cache: 'no-store' });
-    return answer.ok && ((await answer.json()) as { needed?: unknown }).needed === true;
+    const { needed } = (answer.ok ? await answer.json().catch(() => ({})) : {}) as { needed?: unknown };
+    return typeof needed !== 'boolean' ? 'other' : needed ? 'asks' : 'open';
   } catch {
-    return false;
+    return 'silent';
   }
 }
 
@@ -31,12 +34,15 @@ export async function bring(secret: string): Promise<string> {
   }
 }
 
-/** Resolves once the viewer lets this page in: by its cookie, the code of its address, or the token that people give. */
-export async function admit(): Promise<void> {
+/**
+ * Resolves once the viewer lets this page in: by its cookie, the code of its address, or the token that people give.
+ * @param asked  whether it wants its token first; a viewer that does not answer wants nothing yet
+ */
+export async function admit(asked: boolean): Promise<void> {
   const code = codeIn(location.hash);
   if (code) history.replaceState(null, '', location.pathname + location.search);
   addEventListener('hashchange', () => codeIn(location.hash) && location.reload());
-  if (!(await loginNeeded())) return;
+  if (!asked) return;
   const refused = code && (await bring(code));
   if (!code || refused) await ask(refused);
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worker with the organ itself, in the place of the line to a viewer: core as WebAssembly, a model file, and the ticks.
+import { sha256 } from '@noble/hashes/sha2.js';
 import { makeOrgan } from '../../../../core/wasm/organ.mjs';
 import { HandOver } from './hand_over';
 import type { FromPage, ToPage } from './line';
 import { OrganHost } from './organ_host';
+
+const FOLDER = '/given';
 
 const tell = (message: ToPage, transfer: Transferable[] = []): void => postMessage(message, { transfer });
 const handOver = new HandOver((parcel) => tell({ kind: 'frame', ...parcel }, [parcel.frame.displacement.buffer as ArrayBuffer]));
@@ -11,51 +14,59 @@ let host: OrganHost | undefined;
 
 const state = (server: string, text: string): void => tell({ kind: 'said', said: { type: 'state', server, text, others: '' } });
 
-/** The file's bytes, with a word on the way. @throws Error where the address has none */
-async function fetched(address: string): Promise<Uint8Array> {
-  const answer = await fetch(address);
+const megabytes = (bytes: number): string => (bytes / 1e6).toFixed(1);
+
+/** The file, with a word on the way. @throws Error where the address has none */
+async function fetched(address: string): Promise<File> {
+  const answer = await fetch(address, { cache: 'no-cache' });
   if (!answer.ok || !answer.body) throw new Error(`${address}: the web server answers ${answer.status}`);
   const size = Number(answer.headers.get('content-length')) || 0;
-  const parts: Uint8Array[] = [];
   let got = 0;
-  const reader = answer.body.getReader();
-  for (let part = await reader.read(); !part.done; part = await reader.read()) {
-    parts.push(part.value);
-    got += part.value.length;
-    state('starting', `fetching the model: ${(got / 1e6).toFixed(1)} MB${size > 0 ? ` of ${(size / 1e6).toFixed(1)}` : ''}`);
-  }
-  const bytes = new Uint8Array(got);
-  let at = 0;
-  for (const part of parts) {
-    bytes.set(part, at);
-    at += part.length;
-  }
-  return bytes;
+  const counted = new TransformStream<Uint8Array, Uint8Array>({
+    transform(part, out) {
+      got += part.length;
+      state('starting', `fetching the model: ${megabytes(got)} MB${size > 0 ? ` of ${megabytes(size)}` : ''}`);
+      out.enqueue(part);
+    },
+  });
+  const bytes = await new Response(answer.body.pipeThrough(counted)).blob(); // the browser's memory or disk, not this worker's
+  return new File([bytes], decodeURIComponent(new URL(address).pathname.replace(/.*\//, '')));
 }
 
-async function open(address: string): Promise<void> {
+const digest = (): object => {
+  const hash = sha256.create();
+  return { add: (part: Uint8Array) => void hash.update(part), finish: () => hash.digest() };
+};
+
+/** core, which lies beside the page. @throws Error where it does not */
+async function core(): Promise<{ makeModule: unknown; locateFile: (path: string) => string }> {
+  const base = new URL('../core/', self.location.href).href;
+  const locateFile = (path: string): string => base + path;
+  try {
+    const { default: makeModule } = (await import(/* @vite-ignore */ locateFile('palpate_core.mjs'))) as { default: unknown };
+    return { makeModule, locateFile };
+  } catch {
+    throw new Error(`${base}palpate_core.mjs is not there: this page was built without emscripten`);
+  }
+}
+
+async function open(source: string | File): Promise<void> {
   tell({ kind: 'link', open: true, text: '' });
   tell({ kind: 'clock', reading: { tripMs: 0, offsetUs: 0 } });
   state('starting', 'fetching the model');
-  const name = address.replace(/.*\//, '');
-  const bytes = await fetched(address);
-  state('starting', 'reading the model');
-  const base = new URL('../core/', self.location.href).href;
-  const [{ default: h5wasm }, { sha256 }, { default: makeModule }] = await Promise.all([
+  const [model, { default: h5wasm }, { makeModule, locateFile }] = await Promise.all([
+    typeof source === 'string' ? fetched(source) : source,
     import('h5wasm'),
-    import('@noble/hashes/sha2.js'),
-    import(/* @vite-ignore */ `${base}palpate_core.mjs`) as Promise<{ default: unknown }>,
+    core(),
   ]);
+  state('starting', 'reading the model');
   const hdf5 = await h5wasm.ready;
-  hdf5.FS.writeFile(name, bytes, { canOwn: true } as { flags?: string }); // no second copy
-  const file = new h5wasm.File(name, 'r');
-  hdf5.FS.unlink(name); // the open file keeps it
-  const digest = (): object => {
-    const hash = sha256.create();
-    return { add: (part: Uint8Array) => void hash.update(part), finish: () => hash.digest() };
-  };
-  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile: (path: string) => base + path }, hdf5, file, name);
-  host = new OrganHost(organ, name, {
+  hdf5.FS.mkdir(FOLDER);
+  hdf5.FS.mount(hdf5.FS.filesystems.WORKERFS, { files: [model] }, FOLDER); // reads where the file is: no copy of it here
+  const file = new h5wasm.File(`${FOLDER}/${model.name}`, 'r');
+  if (file.file_id < 0n) throw new Error(`${model.name} is no HDF5 file`);
+  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile }, hdf5, file, model.name);
+  host = new OrganHost(organ, model.name, {
     said: (said) => tell({ kind: 'said', said }),
     mesh: (mesh) => tell({ kind: 'mesh', mesh }),
     frame: (frame) => handOver.add(frame, { bytes: 2 * frame.displacement.length, delayMs: 0 }),
@@ -65,7 +76,7 @@ async function open(address: string): Promise<void> {
 onmessage = (event: MessageEvent<FromPage>) => {
   const message = event.data;
   if (message.kind === 'open')
-    open(message.address).catch((error: unknown) => state('gone', error instanceof Error ? error.message : String(error)));
+    open(message.source).catch((error: unknown) => state('gone', error instanceof Error ? error.message : String(error)));
   else if (message.kind === 'say') host?.say(message.message as { type: string });
   else if (message.kind === 'hold') host?.hold(message.position);
   else {

@@ -46,6 +46,7 @@ export class OrganHost {
   private seq = 0;
   private ticks = 0;
   private overruns = 0;
+  private fields = 0; // evaluated
   private flags = 0;
   private lastMs = clockMs();
   private ticksLeft = 0; // until rest
@@ -117,6 +118,7 @@ export class OrganHost {
       rate_hz: 1000 / TICK_MS,
       ticks: this.ticks,
       overruns: this.overruns,
+      fields: this.fields,
       tick_us: this.tickUs.summary,
       flags: this.flags,
       tip_radius: TIP_RADIUS,
@@ -179,6 +181,7 @@ export class OrganHost {
     this.pageIsBusy = true;
     this.unshown = false;
     const u = this.organ.surface();
+    if (u) ++this.fields;
     const tool = this.organ.tool();
     let most = 0;
     if (u) for (const x of u) most = Math.max(most, Math.abs(x));

@@ -7,6 +7,8 @@ import { brief, element, numberIn, setText } from './page';
 import type { Stage } from './stage';
 
 type Level = '' | 'warn' | 'bad';
+/** Rows that say nothing on a page that has its organ itself. */
+const OF_A_VIEWER = new Set(['DDS to decoded', 'Round trip to viewer', 'Woke late', 'Real time', 'Pages at the viewer']);
 const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {});
 
 /** Rates, latencies and health, in numbers and words; times as p50 / p99. */
@@ -16,7 +18,9 @@ export class Panel {
   private readonly event = element('event', HTMLParagraphElement);
   private readonly rows = new Map<string, HTMLElement>();
   private shownFlags = '';
-  private status: Said | undefined;
+  status: Said | undefined; // the newest
+  kept: string | undefined; // empty when the page works without a network, or why not; undefined: not known yet
+  private isAlone = false;
 
   constructor(
     private readonly figures: Figures,
@@ -26,6 +30,13 @@ export class Panel {
 
   heard(status: Said | undefined): void {
     this.status = status;
+  }
+
+  /** This page has no viewer. */
+  alone(): void {
+    this.isAlone = true;
+    this.list.replaceChildren();
+    this.rows.clear();
   }
 
   /** @param flags  of all tools in the last seconds, or-ed */
@@ -42,7 +53,7 @@ export class Panel {
     this.row('Pictures drawn', rate > 0 ? `${brief(rate, 0)} / s` : 'at rest');
     this.row('Frames received', `${brief(received.rate(nowMs), 0)} / s of ${brief(received.mean() / 1000)} kB`);
     this.row('DDS to decoded', pair(decodedMs, 'ms'), decodedMs.percentile(0.5) > 50 ? 'warn' : '');
-    this.row('DDS to picture', pair(shownMs, 'ms'));
+    this.row(this.isAlone ? 'Field to picture' : 'DDS to picture', pair(shownMs, 'ms'));
     this.row('Round trip to viewer', `${brief(this.line.tripMs)} ms`);
     if (this.stage) this.row('Drawn by', shortName(this.stage.drawnBy));
   }
@@ -53,7 +64,7 @@ export class Panel {
     const viewer = asRecord(status['viewer']);
     const overruns = numberIn(status, 'overruns');
     const ticks = numberIn(status, 'ticks');
-    this.row('Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, ${String(status['device'] ?? '–')}` : '–');
+    this.row(this.isAlone ? 'Ticks' : 'Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, ${String(status['device'] ?? '–')}` : '–');
     this.row('Tick', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
     this.row('Woke late', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
     this.row('Ticks missed', Number.isFinite(overruns) ? `${overruns} of ${ticks}` : '–', overruns > 0.01 * ticks ? 'bad' : '');
@@ -61,9 +72,11 @@ export class Panel {
     this.row('Real time', granted === undefined ? '–' : granted ? 'granted' : 'not granted', granted === false ? 'warn' : '');
     this.row('Force limit', `${brief(numberIn(status, 'force_limit'))} N`);
     this.row('Pages at the viewer', brief(numberIn(viewer, 'pages'), 0));
+    if (this.kept !== undefined) this.row('Without a network', this.kept || 'works');
   }
 
   private row(name: string, value: string, level: Level = ''): void {
+    if (this.isAlone && OF_A_VIEWER.has(name)) return;
     let cell = this.rows.get(name);
     if (!cell) {
       const term = document.createElement('dt');

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { recall, remember } from './memory';
 import { element, setText } from './page';
 
 const KEY = 'palpate-theme';
@@ -11,14 +12,14 @@ export class Theme {
   constructor(private readonly changed: (dark: boolean) => void) {
     this.system.addEventListener('change', () => this.apply());
     this.button.addEventListener('click', () => {
-      this.remember(this.dark ? 'light' : 'dark');
+      remember(KEY, this.dark ? 'light' : 'dark');
       this.apply();
     });
     this.apply();
   }
 
   get dark(): boolean {
-    const chosen = this.chosen();
+    const chosen = recall(KEY);
     return chosen ? chosen === 'dark' : this.system.matches;
   }
 
@@ -26,26 +27,6 @@ export class Theme {
     document.documentElement.dataset['theme'] = this.dark ? 'dark' : 'light';
     setText(this.button, this.dark ? 'Light' : 'Dark');
     this.changed(this.dark);
-  }
-
-  // A browser may forbid storage; then the choice lasts until the page closes.
-  private memory: string | null = null;
-
-  private chosen(): string | null {
-    try {
-      return localStorage.getItem(KEY) ?? this.memory;
-    } catch {
-      return this.memory;
-    }
-  }
-
-  private remember(theme: string): void {
-    this.memory = theme;
-    try {
-      localStorage.setItem(KEY, theme);
-    } catch {
-      // storage is forbidden, see above
-    }
   }
 }
 

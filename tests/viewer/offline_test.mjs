@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page that palpate-viewer --export wrote: it needs no address but its own, and after the first time no network.
+import assert from 'node:assert/strict';
+import { cpSync, readFileSync, utimesSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { aloneStage, browser, exported, organ, press, state } from './support/alone.mjs';
+import { Seen } from './support/browser.mjs';
+import { Bench } from './support/processes.mjs';
+import { StaticServer } from './support/static_server.mjs';
+
+aloneStage();
+let server, folder, bench;
+before(async () => {
+  folder = exported('web', organ('liver 1.h5'));
+  server = await StaticServer.open([folder]);
+  bench = await Bench.open();
+});
+after(async () => {
+  await server?.close();
+  await bench?.close();
+});
+
+const kept = (seen) => seen.until('works without a network', (f) => f.kept === '');
+
+test('cut off and loaded again it is pressed; a new model and a new page take the place of the old ones', async () => {
+  const seen = await Seen.open(browser, server.address);
+  const coarse = await seen.organ();
+  assert.match(await state(seen), /liver 1\.h5, in this page/);
+  assert.ok(!server.asked.includes('/login'), 'an exported page asks for no viewer');
+  await press(seen);
+  await kept(seen);
+  assert.equal((await seen.panel())['Without a network'], 'works');
+  const { installabilityErrors } = await (await seen.context.newCDPSession(seen.page)).send('Page.getInstallabilityErrors');
+  assert.deepEqual(installabilityErrors, []);
+
+  const cutOff = async () => {
+    await server.close();
+    await seen.context.setOffline(true);
+    await seen.page.reload();
+  };
+  await cutOff();
+  await seen.organ();
+  await press(seen);
+  await kept(seen);
+
+  const newer = organ('newer.h5', 4);
+  const index = join(folder, 'index.html');
+  cpSync(newer, join(folder, 'liver 1.h5'));
+  writeFileSync(index, readFileSync(index, 'utf8').replace('<title>palpate<', '<title>newer<'));
+  for (const file of [index, join(folder, 'liver 1.h5')]) utimesSync(file, new Date(), new Date(Date.now() + 5000)); // web servers say seconds
+  server = await StaticServer.open([folder], server.port);
+  await seen.context.setOffline(false);
+  await seen.page.reload();
+  const fine = await seen.organ();
+  assert.ok(fine.nodes > 2 * coarse.nodes, `${fine.nodes} nodes, before ${coarse.nodes}`);
+  await kept(seen);
+  await cutOff();
+  assert.equal((await seen.organ()).nodes, fine.nodes);
+  assert.equal(await seen.page.title(), 'newer');
+  await press(seen);
+
+  // palpate-viewer at the same address: its own page, always.
+  await seen.context.setOffline(false);
+  await bench.server(bench.model(2));
+  await bench.viewer(server.port);
+  await seen.page.reload();
+  await seen.until('the organ of the server', (f) => f.nodes > 0 && f.nodes < coarse.nodes);
+  await seen.page.waitForFunction(async () => (await caches.keys()).length === 0 && !(await navigator.serviceWorker.getRegistration()));
+  await seen.close();
+});
