@@ -25,14 +25,14 @@ const kept = (seen) => seen.until('works without a network', (f) => f.kept === '
 
 test('cut off and loaded again it is pressed; a new model and a new page take the place of the old ones', async () => {
   const seen = await Seen.open(browser, server.address);
-  const coarse = await seen.organ();
+  const first = await seen.organ();
   assert.match(await state(seen), /liver 1\.h5, in this page/);
   assert.ok(!server.asked.includes('/login'), 'an exported page asks for no viewer');
   await press(seen);
   await kept(seen);
-  assert.equal((await seen.panel())['Without a network'], 'works');
+  await seen.page.locator('dt:text-is("Without a network") + dd:text-is("works")').waitFor();
   const { installabilityErrors } = await (await seen.context.newCDPSession(seen.page)).send('Page.getInstallabilityErrors');
-  assert.deepEqual(installabilityErrors, []);
+  assert.deepEqual(installabilityErrors.map(({ errorId }) => errorId), ['in-incognito'], 'nothing but the test\'s browser is in the way of installing');
 
   const cutOff = async () => {
     await server.close();
@@ -44,7 +44,7 @@ test('cut off and loaded again it is pressed; a new model and a new page take th
   await press(seen);
   await kept(seen);
 
-  const newer = organ('newer.h5', 4);
+  const newer = organ('newer.h5', 2);
   const index = join(folder, 'index.html');
   cpSync(newer, join(folder, 'liver 1.h5'));
   writeFileSync(index, readFileSync(index, 'utf8').replace('<title>palpate<', '<title>newer<'));
@@ -52,20 +52,20 @@ test('cut off and loaded again it is pressed; a new model and a new page take th
   server = await StaticServer.open([folder], server.port);
   await seen.context.setOffline(false);
   await seen.page.reload();
-  const fine = await seen.organ();
-  assert.ok(fine.nodes > 2 * coarse.nodes, `${fine.nodes} nodes, before ${coarse.nodes}`);
+  const second = await seen.organ();
+  assert.ok(second.nodes < first.nodes, `${second.nodes} nodes, before ${first.nodes}`);
   await kept(seen);
   await cutOff();
-  assert.equal((await seen.organ()).nodes, fine.nodes);
+  assert.equal((await seen.organ()).nodes, second.nodes);
   assert.equal(await seen.page.title(), 'newer');
   await press(seen);
 
   // palpate-viewer at the same address: its own page, always.
   await seen.context.setOffline(false);
-  await bench.server(bench.model(2));
+  await bench.server(bench.model(1));
   await bench.viewer(server.port);
   await seen.page.reload();
-  await seen.until('the organ of the server', (f) => f.nodes > 0 && f.nodes < coarse.nodes);
+  await seen.until('the organ of the server', (f) => f.nodes > 0 && f.nodes < second.nodes);
   await seen.page.waitForFunction(async () => (await caches.keys()).length === 0 && !(await navigator.serviceWorker.getRegistration()));
   await seen.close();
 });

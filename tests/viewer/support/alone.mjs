@@ -12,8 +12,8 @@ import { bin } from './processes.mjs';
 export const DIST = fileURLToPath(new URL('../../../clients/viewer/web/dist', import.meta.url));
 export let scratch, browser;
 
-/** Call once, before the tests: a folder `scratch` and a browser, gone after them. */
-export function aloneStage() {
+/** Call once, before the tests: a folder `scratch` and a browser, gone after them. @param open  opens another browser */
+export function aloneStage(open = openBrowser) {
   skipWithoutBrowser();
   if (!existsSync(join(DIST, 'core/palpate_core.wasm'))) {
     console.log('SKIPPED: core is not built as WebAssembly: tools/install_packages installs emscripten');
@@ -21,7 +21,7 @@ export function aloneStage() {
   }
   before(async () => {
     scratch = mkdtempSync(join(tmpdir(), 'palpate-alone-'));
-    browser = await openBrowser();
+    browser = await open();
   });
   after(async () => {
     await browser?.close();

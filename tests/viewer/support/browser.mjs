@@ -7,7 +7,7 @@ import { decodePng } from './png.mjs';
 
 const web = new URL('../../../clients/viewer/web/', import.meta.url);
 const require = createRequire(new URL('package.json', web));
-const CHROMIUM = process.env.PALPATE_CHROMIUM ?? '/usr/bin/chromium';
+export const CHROMIUM = process.env.PALPATE_CHROMIUM ?? '/usr/bin/chromium';
 const shots = process.env.PALPATE_SHOTS ?? '/tmp/palpate-viewer-shots';
 
 /** The package of that name, in the version of the page's lock file. */
@@ -25,9 +25,10 @@ export function skipWithoutBrowser() {
   process.exit(0);
 }
 
-export async function openBrowser() {
+/** @param executablePath  of chromium, or of a program that becomes it */
+export async function openBrowser(executablePath = CHROMIUM) {
   const args = ['--enable-unsafe-swiftshader', ...(process.getuid() === 0 ? ['--no-sandbox'] : [])];
-  return packageOf('playwright-core').chromium.launch({ executablePath: CHROMIUM, args });
+  return packageOf('playwright-core').chromium.launch({ executablePath, args });
 }
 
 /**

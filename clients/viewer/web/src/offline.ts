@@ -10,7 +10,7 @@ const ours = async (): Promise<string[]> => (await caches.keys()).filter((name) 
 async function unchanged(kept: Cache | undefined, address: string): Promise<boolean> {
   const copy = await kept?.match(address, { ignoreVary: true });
   if (!copy) return false;
-  const now = await fetch(address, { method: 'HEAD', cache: 'no-cache' });
+  const now = await fetch(address, { method: 'HEAD', cache: 'no-store' });
   const dated = now.headers.has('etag') || now.headers.has('last-modified');
   return now.ok && dated && STAMPS.every((stamp) => now.headers.get(stamp) === copy.headers.get(stamp));
 }

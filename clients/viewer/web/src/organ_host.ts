@@ -46,7 +46,7 @@ export class OrganHost {
   private seq = 0;
   private ticks = 0;
   private overruns = 0;
-  private fields = 0; // evaluated
+  private fields = { count: 0, sinceMs: clockMs() }; // evaluated since the last status
   private flags = 0;
   private lastMs = clockMs();
   private ticksLeft = 0; // until rest
@@ -118,7 +118,7 @@ export class OrganHost {
       rate_hz: 1000 / TICK_MS,
       ticks: this.ticks,
       overruns: this.overruns,
-      fields: this.fields,
+      fields_hz: this.fieldsHz(),
       tick_us: this.tickUs.summary,
       flags: this.flags,
       tip_radius: TIP_RADIUS,
@@ -130,6 +130,12 @@ export class OrganHost {
       viewer: { pages: 1 },
     });
     this.flags = 0;
+  }
+
+  private fieldsHz(): number {
+    const { count, sinceMs } = this.fields;
+    this.fields = { count: 0, sinceMs: clockMs() };
+    return (1000 * count) / Math.max(1, this.fields.sinceMs - sinceMs);
   }
 
   /** The ticks since the last wake-up, and a frame where the page waits for one. */
@@ -181,7 +187,7 @@ export class OrganHost {
     this.pageIsBusy = true;
     this.unshown = false;
     const u = this.organ.surface();
-    if (u) ++this.fields;
+    if (u) ++this.fields.count;
     const tool = this.organ.tool();
     let most = 0;
     if (u) for (const x of u) most = Math.max(most, Math.abs(x));

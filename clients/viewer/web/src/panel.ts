@@ -65,6 +65,7 @@ export class Panel {
     const overruns = numberIn(status, 'overruns');
     const ticks = numberIn(status, 'ticks');
     this.row(this.isAlone ? 'Ticks' : 'Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, ${String(status['device'] ?? '–')}` : '–');
+    if (this.isAlone) this.row('Fields evaluated', `${brief(numberIn(status, 'fields_hz'), 0)} / s`);
     this.row('Tick', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
     this.row('Woke late', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
     this.row('Ticks missed', Number.isFinite(overruns) ? `${overruns} of ${ticks}` : '–', overruns > 0.01 * ticks ? 'bad' : '');

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A quarter of a core for a program and all that it starts, by a control group. As root.
+import { chmodSync, existsSync, mkdirSync, readFileSync, rmdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+// A short period: a group that has used its share stands still until the next one, and 100 ms of that, the usual, is no slow
+// machine but one that is fast and absent by turns.
+const PERIOD_US = 10_000;
+const QUOTA_US = PERIOD_US / 4;
+
+/** Where groups with a limit of processor time can be made, and how; undefined: nowhere here. */
+function kind() {
+  const mounts = readFileSync('/proc/self/mounts', 'utf8').split('\n').map((line) => line.split(' '));
+  const second = mounts.find(([, at, type]) => type === 'cgroup2' && readFileSync(join(at, 'cgroup.controllers'), 'utf8').split(/\s/).includes('cpu'));
+  const first = mounts.find(([, , type, options]) => type === 'cgroup' && options.split(',').includes('cpu'));
+  // Others on the machine may have less than usual, so that the group really gets its quarter: weight, shares.
+  if (second)
+    return { at: second[1], above: [['cgroup.subtree_control', '+cpu']], settings: [['cpu.max', `${QUOTA_US} ${PERIOD_US}`], ['cpu.weight', '10000']] };
+  if (first)
+    return { at: first[1], above: [], settings: [['cpu.cfs_period_us', PERIOD_US], ['cpu.cfs_quota_us', QUOTA_US], ['cpu.shares', '262144']] };
+  return undefined;
+}
+
+/** The group, and a program in `folder` that joins it and becomes `program`. @return why there is none, or the group */
+export function quarterOfACore(folder, program) {
+  const found = kind();
+  if (!found) return { lacks: 'no control group limits processor time here' };
+  const group = join(found.at, `palpate-test-${process.pid}`);
+  try {
+    for (const [file, value] of found.above) writeFileSync(join(found.at, file), value);
+    mkdirSync(group);
+    for (const [file, value] of found.settings) writeFileSync(join(group, file), String(value));
+  } catch (error) {
+    if (existsSync(group)) rmdirSync(group);
+    return { lacks: `this user may not make a control group: ${error.message}` };
+  }
+  const inside = join(folder, 'inside');
+  writeFileSync(inside, `#!/bin/sh\necho $$ > ${group}/cgroup.procs && exec ${program} "$@"\n`);
+  chmodSync(inside, 0o755);
+  return {
+    inside,
+    /** Seconds of processor time that the group used. */
+    used: () => {
+      const [file, unit] = existsSync(join(group, 'cpu.max')) ? ['cpu.stat', 1e6] : ['cpu.stat', 1e9];
+      return Number(/(?:usage_usec|throttled_time) (\d+)/.exec(readFileSync(join(group, file), 'utf8'))[1]) / unit;
+    },
+    remove: () => rmdirSync(group),
+  };
+}
