@@ -3,7 +3,7 @@
 // one that palpate-solve makes in seconds.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
@@ -15,7 +15,8 @@ import { quarterOfACore } from './support/quarter_core.mjs';
 import { StaticServer } from './support/static_server.mjs';
 
 const MOST_BYTES = 8e6;
-const SLIDE_MS = 8000;
+const SECONDS = 8;
+const STROKE_MS = 400; // up or down by 5 mm, which takes longer
 
 const folder = mkdtempSync(join(tmpdir(), 'palpate-quarter-'));
 const quarter = quarterOfACore(folder, CHROMIUM);
@@ -24,48 +25,65 @@ if (quarter.lacks) {
   process.exit(0);
 }
 aloneStage(() => openBrowser(quarter.inside));
-after(() => {
-  quarter.remove();
+after(async () => {
+  await quarter.remove();
   rmSync(folder, { recursive: true, force: true });
 });
 
+/** A body as soft as a liver, with few nodes. */
 function handheldModel() {
   if (process.env.PALPATE_HANDHELD_MODEL) return process.env.PALPATE_HANDHELD_MODEL;
-  const [mesh, model] = [join(scratch, 'organ.msh'), join(scratch, 'organ.h5')];
-  execFileSync(bin('palpate-organ'), ['paper-liver', '-o', mesh, '--element-size', '0.02']);
-  execFileSync(bin('palpate-solve'), [mesh, '-o', model, '--order', '3', '--element-order', '1'], { stdio: 'ignore' });
+  const [mesh, organCase, model] = ['organ.msh', 'organ.toml', 'organ.h5'].map((name) => join(scratch, name));
+  execFileSync(bin('palpate-organ'), ['paper-liver', '-o', mesh, '--element-size', '0.02'], { stdio: 'ignore' });
+  writeFileSync(organCase, `[mesh]\nfile = '${mesh}'\n[material]\nE = 5e3\nnu = 0.4\n[boundary]\nfixed = "fixed"\naccessible = "accessible"\n` +
+    '[model]\npatch_radius = 0.02\n');
+  execFileSync(bin('palpate-solve'), [organCase, '-o', model, '--order', '3', '--element-order', '1'], { stdio: 'ignore' });
   return model;
 }
 
+/** In the page, so that the test takes no processor time of its own: presses between two depths, and waits for a figure. */
+const palpate = (everyMs) => {
+  const depth = document.querySelector('#depth');
+  let times = 0;
+  setInterval(() => {
+    depth.value = ++times % 2 ? '1' : '6';
+    depth.dispatchEvent(new Event('input', { bubbles: true }));
+  }, everyMs);
+};
+const timeOf = async (seen, name, least) => {
+  const holds = ([what, bound]) => window.palpate?.figures()[what] > bound && performance.now();
+  const time = await seen.page.waitForFunction(holds, [name, least], { polling: 100, timeout: 60_000 });
+  return (await time.jsonValue()) / 1000;
+};
+
 test('a quarter of a core presses an organ within seconds, ticks in time and evaluates 25 fields a second', async () => {
   const model = handheldModel();
-  assert.ok(statSync(model).size <= MOST_BYTES, `${model}: ${statSync(model).size} bytes`);
+  const bytes = statSync(model).size;
+  assert.ok(bytes <= MOST_BYTES, `${model}: ${bytes} bytes`);
   const server = await StaticServer.open([exported('web', model)]);
   const seen = await Seen.open(browser, 'about:blank', { phone: true });
-  const began = Date.now();
   await seen.page.goto(server.address, { waitUntil: 'commit' });
-  await seen.until('an organ', (f) => f.nodes > 0 && f.organSeenMs > 0, 60);
+  const organSeen = await timeOf(seen, 'organSeenMs', 0);
   const middle = await seen.middle();
   await seen.page.mouse.move(middle.x, middle.y);
   await seen.page.mouse.down();
-  const first = await seen.until('a force', (f) => f.force > 0.01, 30);
-  const firstPress = (Date.now() - began) / 1000;
-  const [fields, pictures] = [[], []]; // each second
-  for (let i = 0, end = Date.now() + SLIDE_MS; Date.now() < end; ++i) {
-    await seen.page.mouse.move(middle.x + 40 * Math.sin(0.15 * i), middle.y + 20 * Math.sin(0.11 * i));
-    await seen.page.waitForTimeout(40);
-    if (Date.now() < end - SLIDE_MS + 1000 * (fields.length + 2)) continue;
-    const now = await seen.figures();
-    fields.push(now.fieldsPerSecond);
-    pictures.push(now.picturesPerSecond);
+  const firstPress = await timeOf(seen, 'force', 0.01);
+  await seen.page.evaluate(palpate, STROKE_MS);
+  const [fields, pictures] = [[], []];
+  for (let second = 0; second < SECONDS; ++second) {
+    await seen.page.waitForTimeout(1000);
+    const { fieldsPerSecond, picturesPerSecond } = await seen.figures();
+    fields.push(fieldsPerSecond);
+    pictures.push(picturesPerSecond);
   }
-  const figures = await seen.figures();
+  const { nodes, ticks, tickUs } = await seen.figures();
   await seen.page.mouse.up();
-  console.log(`  ${first.nodes} nodes, ${(statSync(model).size / 1e6).toFixed(1)} MB, ${figures.ticks} ticks`);
-  console.log(`  pictures a second: ${median(pictures).toFixed(0)}; step() p50 ${figures.tickUs.p50.toFixed(0)} us`);
-  assert.ok(figures.ticks > 0.5 * SLIDE_MS, `${figures.ticks} ticks`);
+  console.log(`  ${nodes} nodes, ${(bytes / 1e6).toFixed(1)} MB, ${ticks} ticks; fields each second ${fields.map((x) => x.toFixed(0)).join(' ')}`);
+  console.log(`  from loading until the organ is seen: ${organSeen.toFixed(1)} s`);
+  console.log(`  pictures a second: ${median(pictures).toFixed(1)}`);
+  assert.ok(ticks > 500 * SECONDS, `${ticks} ticks in ${SECONDS} s`);
   measured('from loading to the first press', firstPress, 5, 's');
-  measured('step(), p99', figures.tickUs.p99 / 1000, 2, 'ms');
+  measured('step(), p99', tickUs.p99 / 1000, 2, 'ms');
   measuredAtLeast('fields evaluated', median(fields), 25, '1/s');
   await seen.close();
   await server.close();

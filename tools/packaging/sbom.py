@@ -127,14 +127,17 @@ class Bill:
             self.relate(self.debian(name), "BUILD_DEPENDENCY_OF", spdx_id("palpate"))
 
     def page(self):
-        """What the page holds of npm."""
+        """What the page holds of npm, and of emscripten's libraries, which core as WebAssembly is linked with."""
+        self.relate(spdx_id("palpate"), "STATIC_LINK", self.debian("emscripten"))
         lock = json.loads((ROOT / "clients/viewer/web/package-lock.json").read_text())
         for path, entry in lock["packages"].items():
             if not path or entry.get("dev"):
                 continue
             name = path.removeprefix("node_modules/")
             identity = spdx_id("npm", name)
-            self.packages[identity] = package(identity, name, entry["version"], entry.get("license", "NOASSERTION"),
+            licence = entry.get("license", "NOASSERTION")
+            more = {"licenseComments": licence} if licence.startswith("SEE ") else {}
+            self.packages[identity] = package(identity, name, entry["version"], "NOASSERTION" if more else licence, **more,
                                               externalRefs=reference(f"pkg:npm/{name}@{entry['version']}"))
             self.relate(spdx_id("palpate"), "CONTAINS", identity)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { cpSync, existsSync, readdirSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { defineConfig, type Plugin } from 'vite';
 
@@ -9,12 +9,20 @@ const viewer = process.env['PALPATE_VIEWER'] ?? 'http://127.0.0.1:8080';
 const out = process.env['PALPATE_PAGE_OUT'] ?? 'dist';
 const core = process.env['PALPATE_CORE']; // folder with core as WebAssembly
 
-// Beside what Vite makes: core, and files.json, the list of all files but index.html, which pages keep for times without a network.
+const { dependencies } = JSON.parse(readFileSync('package.json', 'utf8')) as { dependencies: Record<string, string> };
+
+// Beside what Vite makes: core, the licences of what is in the page, and files.json, the list of all files but index.html, which pages keep for times without a network.
 const completed: Plugin = {
   name: 'palpate-completed',
   closeBundle() {
     for (const file of ['palpate_core.mjs', 'palpate_core.wasm'])
       if (core && existsSync(join(core, file))) cpSync(join(core, file), join(out, 'core', file));
+    for (const name of Object.keys(dependencies)) {
+      const folder = join('node_modules', name);
+      const text = readdirSync(folder).find((file) => /^licen[cs]e/i.test(file));
+      if (!text) throw new Error(`${folder} has no licence`);
+      cpSync(join(folder, text), join(out, 'licences', `${name.replace('/', '-')}.txt`));
+    }
     const entries = readdirSync(out, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
     const files = entries.map((entry) => join(entry.parentPath ?? entry.path, entry.name).slice(out.length + 1)).sort();
     writeFileSync(join(out, 'files.json'), JSON.stringify(files.filter((file) => file !== 'index.html'), undefined, 1));

@@ -2,6 +2,7 @@
 // A quarter of a core for a program and all that it starts, by a control group. As root.
 import { chmodSync, existsSync, mkdirSync, readFileSync, rmdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { setTimeout as sleep } from 'node:timers/promises';
 
 // A short period: a group that has used its share stands still until the next one, and 100 ms of that, the usual, is no slow
 // machine but one that is fast and absent by turns.
@@ -21,7 +22,17 @@ function kind() {
   return undefined;
 }
 
-/** The group, and a program in `folder` that joins it and becomes `program`. @return why there is none, or the group */
+/** A group is busy until the last of its processes is gone, some time after the browser has closed. */
+async function remove(group) {
+  for (const end = Date.now() + 5000; ; await sleep(100))
+    try {
+      return rmdirSync(group);
+    } catch (error) {
+      if (Date.now() > end) throw error;
+    }
+}
+
+/** Makes a group. @return `inside`, a program in `folder` that joins it and becomes `program`, and `remove`; or what it `lacks` */
 export function quarterOfACore(folder, program) {
   const found = kind();
   if (!found) return { lacks: 'no control group limits processor time here' };
@@ -37,13 +48,5 @@ export function quarterOfACore(folder, program) {
   const inside = join(folder, 'inside');
   writeFileSync(inside, `#!/bin/sh\necho $$ > ${group}/cgroup.procs && exec ${program} "$@"\n`);
   chmodSync(inside, 0o755);
-  return {
-    inside,
-    /** Seconds of processor time that the group used. */
-    used: () => {
-      const [file, unit] = existsSync(join(group, 'cpu.max')) ? ['cpu.stat', 1e6] : ['cpu.stat', 1e9];
-      return Number(/(?:usage_usec|throttled_time) (\d+)/.exec(readFileSync(join(group, file), 'utf8'))[1]) / unit;
-    },
-    remove: () => rmdirSync(group),
-  };
+  return { inside, remove: () => remove(group) };
 }

@@ -27,8 +27,10 @@ import { Vibration } from './vibration';
 
 const PANEL_MS = 250;
 const CHART_MS = 40;
+const EMPTY_MS = 100; // between pictures without an organ
 const NOTICE_MS = 5000;
 const HIDDEN_HZ = 1;
+const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
 const KEEP_AFTER_MS = 1500; // of the first organ: it comes before its copy
 const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
@@ -97,6 +99,7 @@ export class App implements LineListener {
   }
 
   private alone(model: string): void {
+    if (this.stage.software) this.usualHz = SOFTWARE_HZ;
     this.modelFiles.want();
     this.panel.alone();
     if (model) {
@@ -233,10 +236,13 @@ export class App implements LineListener {
 
   /** One turn of the display: draws what changed, and nothing while all is at rest. */
   private turn(nowMs: number): void {
-    requestAnimationFrame((next) => this.turn(next));
+    const next = (): number => requestAnimationFrame((then) => this.turn(then));
+    if (this.view) next();
+    else setTimeout(next, EMPTY_MS); // the processor is for those who bring the organ
     const tool = toolToShow(this.frame_?.tools ?? []);
-    if (this.quality.due(nowMs)) this.drawChanges(nowMs, tool);
-    if (nowMs >= this.nextChart) {
+    const due = this.quality.due(nowMs);
+    if (due) this.drawChanges(nowMs, tool);
+    if (due && nowMs >= this.nextChart) {
       this.nextChart = nowMs + CHART_MS;
       this.readout.write(tool);
       this.chart.draw(tool && this.strips.of(tool.id), this.line.nowUs);
@@ -247,11 +253,11 @@ export class App implements LineListener {
   }
 
   private drawChanges(nowMs: number, tool: Tool | undefined): void {
-    const moved = this.view?.update() ?? false;
+    if (!this.view) return;
+    const moved = this.view.update();
     const turned = this.stage.orbit.changed;
     if (!moved && !turned && !this.quality.rested(nowMs)) return;
     this.draw(nowMs, moved);
-    if (!this.view) return;
     this.legend.write(this.view, this.stage);
     this.readout.arrow(tool, tool && this.view.toolMesh(tool.id), this.stage);
   }
@@ -260,6 +266,7 @@ export class App implements LineListener {
     if (this.quality.picture(nowMs)) this.stage.resize(this.quality.ratio);
     const start = performance.now();
     this.stage.draw();
+    setTimeout(() => this.quality.finished(performance.now())); // behind what the browser does with the picture
     this.figures.picture(start, performance.now(), this.line.nowUs, moved);
   }
 

@@ -17,6 +17,7 @@ export class Hand implements Toucher {
   private press_: Press | undefined;
   private wanted = 0; // m
   private askedMs = -Infinity;
+  private timer = 0; // of targets, while it presses
   private readonly slider = element('depth', HTMLInputElement);
   private readonly sliderText = element('depth-text', HTMLOutputElement);
   private readonly hint = element('hint', HTMLParagraphElement);
@@ -30,7 +31,6 @@ export class Hand implements Toucher {
     this.slider.max = String(1000 * DEEPEST);
     this.slider.addEventListener('input', () => this.setDepth(Number(this.slider.value) / 1000));
     this.setDepth(Number(this.slider.value) / 1000);
-    setInterval(() => this.send(), TARGET_MS);
   }
 
   get pressing(): boolean {
@@ -48,6 +48,8 @@ export class Hand implements Toucher {
       return true;
     }
     this.press_ = press;
+    clearInterval(this.timer);
+    this.timer = window.setInterval(() => this.send(), TARGET_MS);
     this.hint.dataset['gone'] = '';
     this.ask();
     return true;
@@ -65,9 +67,7 @@ export class Hand implements Toucher {
 
   letGo(): void {
     if (!this.press_) return;
-    this.press_ = undefined;
-    this.toolId = undefined;
-    this.line.hold(undefined);
+    this.drop();
     this.line.send({ type: 'release' });
   }
 
@@ -93,6 +93,7 @@ export class Hand implements Toucher {
 
   /** The line broke or another organ came: the hand holds nothing. */
   drop(): void {
+    clearInterval(this.timer);
     this.press_ = undefined;
     this.toolId = undefined;
     this.line.hold(undefined);

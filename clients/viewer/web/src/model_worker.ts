@@ -7,6 +7,7 @@ import type { FromPage, ToPage } from './line';
 import { OrganHost } from './organ_host';
 
 const FOLDER = '/given';
+const SAY_MS = 250; // between words on how far it is
 
 const tell = (message: ToPage, transfer: Transferable[] = []): void => postMessage(message, { transfer });
 const handOver = new HandOver((parcel) => tell({ kind: 'frame', ...parcel }, [parcel.frame.displacement.buffer as ArrayBuffer]));
@@ -21,12 +22,14 @@ async function fetched(address: string): Promise<File> {
   const answer = await fetch(address, { cache: 'no-cache' });
   if (!answer.ok || !answer.body) throw new Error(`${address}: the web server answers ${answer.status}`);
   const size = Number(answer.headers.get('content-length')) || 0;
-  let got = 0;
+  let [got, nextMs] = [0, 0];
   const counted = new TransformStream<Uint8Array, Uint8Array>({
     transform(part, out) {
       got += part.length;
-      state('starting', `fetching the model: ${megabytes(got)} MB${size > 0 ? ` of ${megabytes(size)}` : ''}`);
       out.enqueue(part);
+      if (performance.now() < nextMs) return;
+      nextMs = performance.now() + SAY_MS;
+      state('starting', `fetching the model: ${megabytes(got)} MB${size > 0 ? ` of ${megabytes(size)}` : ''}`);
     },
   });
   const bytes = await new Response(answer.body.pipeThrough(counted)).blob(); // the browser's memory or disk, not this worker's
@@ -51,7 +54,6 @@ async function core(): Promise<{ makeModule: unknown; locateFile: (path: string)
 }
 
 async function open(source: string | File): Promise<void> {
-  tell({ kind: 'link', open: true, text: '' });
   tell({ kind: 'clock', reading: { tripMs: 0, offsetUs: 0 } });
   state('starting', 'fetching the model');
   const [model, { default: h5wasm }, { makeModule, locateFile }] = await Promise.all([
@@ -71,6 +73,7 @@ async function open(source: string | File): Promise<void> {
     mesh: (mesh) => tell({ kind: 'mesh', mesh }),
     frame: (frame) => handOver.add(frame, { bytes: 2 * frame.displacement.length, delayMs: 0 }),
   });
+  tell({ kind: 'link', open: true, text: '' }); // now it hears what the page asks for
 }
 
 onmessage = (event: MessageEvent<FromPage>) => {
@@ -79,8 +82,5 @@ onmessage = (event: MessageEvent<FromPage>) => {
     open(message.source).catch((error: unknown) => state('gone', error instanceof Error ? error.message : String(error)));
   else if (message.kind === 'say') host?.say(message.message as { type: string });
   else if (message.kind === 'hold') host?.hold(message.position);
-  else {
-    handOver.taken();
-    host?.taken();
-  }
+  else handOver.taken();
 };

@@ -11,7 +11,7 @@ const WAKE_MS = 4; // between wake-ups, each of which makes up for the time sinc
 const MOST_TICKS = 25; // of one wake-up: a page that stood still does not catch up
 const STATUS_MS = 1000;
 const REST_TICKS = 300; // after the last tool, in which forces and fields fade
-const SHORTEST_FRAME_MS = 16;
+const USUAL_HZ = 60; // of fields, until the page asks for others
 const TARGET_MS = 12; // between repetitions of a target
 const HOLD_MS = 1000; // longest repetition of a target while a busy page sends no new one
 const MOST_ANSWERS = 2000; // kept for a page that takes no frames
@@ -51,8 +51,8 @@ export class OrganHost {
   private lastMs = clockMs();
   private ticksLeft = 0; // until rest
   private unshown = false;
+  private frameMs = 1000 / USUAL_HZ;
   private nextFrameMs = 0;
-  private pageIsBusy = false;
   private answers: Answer[] = [];
   private readonly tickUs = new Times();
 
@@ -75,16 +75,12 @@ export class OrganHost {
     if (message.type === 'grab') this.grab();
     else if (message.type === 'release') this.release();
     else if (message.type === 'set') this.set(message);
+    else if (message.type === 'rate') this.frameMs = 1000 / Number(message['hz']);
   }
 
   /** The tool's target until the next call; undefined: no tool is held. */
   hold(position: Vec3 | undefined): void {
     this.held = position && { position, sinceMs: clockMs(), givenMs: -Infinity };
-  }
-
-  /** The page has drawn the last frame. */
-  taken(): void {
-    this.pageIsBusy = false;
   }
 
   private grab(): void {
@@ -138,7 +134,7 @@ export class OrganHost {
     return (1000 * count) / Math.max(1, this.fields.sinceMs - sinceMs);
   }
 
-  /** The ticks since the last wake-up, and a frame where the page waits for one. */
+  /** The ticks since the last wake-up, and a frame when it is time, also for a page that still draws: it gets the newest. */
   private wake(): void {
     const nowMs = clockMs();
     const due = Math.floor((nowMs - this.lastMs) / TICK_MS);
@@ -147,7 +143,7 @@ export class OrganHost {
     this.lastMs += (due - ticks) * TICK_MS; // a page that stood still goes on from now
     this.aim(nowMs);
     for (let i = 0; i < ticks; ++i) this.tick((this.lastMs += TICK_MS));
-    if (this.unshown && !this.pageIsBusy && nowMs >= this.nextFrameMs) this.frame(nowMs);
+    if (this.unshown && nowMs >= this.nextFrameMs) this.frame(nowMs);
   }
 
   private aim(nowMs: number): void {
@@ -183,8 +179,7 @@ export class OrganHost {
   }
 
   private frame(nowMs: number): void {
-    this.nextFrameMs = nowMs + SHORTEST_FRAME_MS;
-    this.pageIsBusy = true;
+    this.nextFrameMs = Math.max(this.nextFrameMs + this.frameMs, nowMs);
     this.unshown = false;
     const u = this.organ.surface();
     if (u) ++this.fields.count;

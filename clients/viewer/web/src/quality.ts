@@ -13,6 +13,7 @@ const SOFTWARE_MS = 38; // least time between pictures
 export class Quality {
   private intervals: number[] = [];
   private lastMs = NaN;
+  private nextMs = -Infinity; // earliest next picture
   private moving: number; // ratio while pictures follow each other
   private readonly sharp: number;
   private sharpen = false;
@@ -30,7 +31,12 @@ export class Quality {
 
   /** Whether to draw now: software rendering leaves processor time to the threads that bring the forces. */
   due(nowMs: number): boolean {
-    return !this.software || !(nowMs - this.lastMs < SOFTWARE_MS);
+    return !this.software || !(nowMs < this.nextMs);
+  }
+
+  /** The page's thread is free again after a picture. What took longer than usual leaves as much time to others. */
+  finished(nowMs: number): void {
+    this.nextMs = Math.max(this.lastMs + SOFTWARE_MS, nowMs + (nowMs - this.lastMs - SOFTWARE_MS));
   }
 
   /** Whether it is time for the sharp picture: nothing moved for a while. */
@@ -46,6 +52,7 @@ export class Quality {
     this.ratio = this.sharpen ? this.sharp : this.moving;
     this.sharpen = false;
     this.lastMs = nowMs;
+    this.nextMs = nowMs + SOFTWARE_MS;
     return Math.abs(this.ratio - before) > 0.01;
   }
 

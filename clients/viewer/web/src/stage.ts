@@ -34,6 +34,7 @@ const FOV = (32 * Math.PI) / 180;
 export class Stage {
   readonly scene = new Scene();
   readonly orbit = new Orbit();
+  readonly drawnBy: string; // the renderer's own name, e.g. SwiftShader; its frame rate depends on it
   readonly software: boolean; // no graphics hardware: each pixel costs processor time
   private readonly camera = new PerspectiveCamera((FOV * 180) / Math.PI, 1, 0.01, 20);
   private readonly renderer: WebGLRenderer;
@@ -45,7 +46,8 @@ export class Stage {
 
   /** @throws Error when the browser has no WebGL 2 */
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.software = drawnInSoftware();
+    this.drawnBy = nameOfRenderer();
+    this.software = /swiftshader|llvmpipe|softpipe|basic render/i.test(this.drawnBy);
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: !this.software, powerPreference: 'high-performance' });
     this.renderer.setClearColor(0x000000, 0);
     this.camera.up.set(0, 0, 1);
@@ -54,13 +56,6 @@ export class Stage {
 
   get aspect(): number {
     return this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-  }
-
-  /** The renderer's own name, e.g. SwiftShader; its frame rate depends on it. */
-  get drawnBy(): string {
-    const gl = this.renderer.getContext();
-    const ext = gl.getExtension('WEBGL_debug_renderer_info');
-    return String(gl.getParameter(ext ? ext.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
   }
 
   /** @param ratio pixels drawn per CSS pixel */
@@ -144,12 +139,13 @@ export class Stage {
   }
 }
 
-function drawnInSoftware(): boolean {
+/** Asked once: whoever asks a context waits for all that it still draws. */
+function nameOfRenderer(): string {
   const gl = document.createElement('canvas').getContext('webgl2');
   const ext = gl?.getExtension('WEBGL_debug_renderer_info');
-  const name = gl && ext ? String(gl.getParameter(ext.UNMASKED_RENDERER_WEBGL)) : '';
+  const name = gl ? String(gl.getParameter(ext ? ext.UNMASKED_RENDERER_WEBGL : gl.RENDERER)) : '';
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
+  return name;
 }
 
 /** Frees its memory on the graphics card. */

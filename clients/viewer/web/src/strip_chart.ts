@@ -4,6 +4,7 @@ import { SPAN_US, type Sample, type Strip } from './strip';
 import { themeColour } from './theme';
 
 const GAP_US = 50_000; // a longer silence is a gap in the line
+const COLUMN = 0.5; // CSS pixels
 const LEFT = 44;
 const RIGHT = 6;
 
@@ -17,6 +18,7 @@ interface Plot {
 /** Force above penetration on one time axis; the newest is at the right. */
 export class StripChart {
   private readonly draw2d: CanvasRenderingContext2D;
+  private empty = ''; // how the canvas was when nothing was drawn last
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     const context = canvas.getContext('2d');
@@ -38,6 +40,9 @@ export class StripChart {
       { title: 'mm', colour: themeColour('--depth'), value: (s) => 1000 * s.penetration, least: 1 },
     ];
     const samples = strip?.since(nowUs - SPAN_US) ?? [];
+    const empty = samples.length > 0 ? '' : [this.canvas.width, this.canvas.height, plots[0].colour].join();
+    if (empty !== '' && empty === this.empty) return;
+    this.empty = empty;
     this.draw2d.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.draw2d.clearRect(0, 0, w, h);
     this.draw2d.font = '11px system-ui, "Liberation Sans", "DejaVu Sans", sans-serif';
@@ -70,6 +75,7 @@ export class StripChart {
     this.line(plot, samples, xOf, yOf, box);
   }
 
+  /** Of the samples that share a column of pixels the least, the most and the last are drawn. */
   private line(plot: Plot, samples: readonly Sample[], xOf: (s: Sample) => number, yOf: (v: number) => number, box: { x: number }): void {
     const g = this.draw2d;
     g.strokeStyle = plot.colour;
@@ -77,12 +83,24 @@ export class StripChart {
     g.lineJoin = 'round';
     g.beginPath();
     let before: Sample | undefined;
+    let [x, y, low, high] = [-Infinity, NaN, NaN, NaN];
+    const finish = (): void => {
+      for (const end of [low, high, y]) if (high > low) g.lineTo(x, end);
+    };
     for (const s of samples) {
-      const x = Math.max(box.x, xOf(s));
-      if (!before || s.tUs - before.tUs > GAP_US) g.moveTo(x, yOf(plot.value(s)));
-      else g.lineTo(x, yOf(plot.value(s)));
+      const [xNow, yNow] = [Math.max(box.x, xOf(s)), yOf(plot.value(s))];
+      const gap = !before || s.tUs - before.tUs > GAP_US;
       before = s;
+      if (!gap && xNow < x + COLUMN) {
+        [y, low, high] = [yNow, Math.min(low, yNow), Math.max(high, yNow)];
+        continue;
+      }
+      finish();
+      if (gap) g.moveTo(xNow, yNow);
+      else g.lineTo(xNow, yNow);
+      [x, y, low, high] = [xNow, yNow, yNow, yNow];
     }
+    finish();
     g.stroke();
     if (!before) return;
     g.fillStyle = plot.colour;
