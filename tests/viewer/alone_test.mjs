@@ -23,6 +23,7 @@ test('a press is answered in the page itself, and the organ comes to rest when t
   await seen.organ();
   assert.match(await state(seen), /organ\.h5, in this page/);
   const pressed = await press(seen);
+  assert.ok(pressed.penetration < 0.0045, `${pressed.penetration} m`);
   assert.ok(pressed.largestDisplacement > 0.0015, JSON.stringify(pressed));
   assert.equal(pressed.toolId, 0);
   assert.ok(pressed.samples > 100, `${pressed.samples} samples for the strip chart`);

@@ -65,7 +65,7 @@ export async function press(seen) {
   const place = await seen.middle();
   await seen.page.mouse.move(place.x, place.y);
   await seen.page.mouse.down();
-  const pressed = await seen.until('pressed 4 mm deep', (f) => f.penetration > 0.0038 && f.penetration < 0.0045 && f.force > 0.2);
+  const pressed = await seen.until('pressed 4 mm deep', (f) => f.penetration > 0.0038 && f.penetration < 0.005 && f.force > 0.2);
   await seen.page.mouse.up();
   return pressed;
 }

@@ -9,6 +9,8 @@ import { viewerAddress } from '../src/connection';
 import { FLAGS } from '../src/flag_list';
 import { flagsOfStatus, flagWords, RecentFlags } from '../src/flags';
 import { codeIn } from '../src/login';
+import { namedModel } from '../src/model_files';
+import { Quality } from '../src/quality';
 import { Recent } from '../src/recent';
 import { csvOf, Strip, Strips } from '../src/strip';
 import type { Vec3 } from '../src/vec';
@@ -138,4 +140,25 @@ test('the line is beside the page, and the address brings no secret to it', () =
 test('a code is in the fragment that palpate-viewer prints, and nowhere else', () => {
   assert.equal(codeIn('#code=0af3'), '0af3');
   for (const other of ['', '#', '#0af3', '?code=0af3', '#token=0af3']) assert.equal(codeIn(other), '');
+});
+
+test('the address names a model before the export does, and an exported page is told by its meta element', () => {
+  const page = (href: string, exported?: string) =>
+    ({ location: new URL(href), querySelector: () => (exported === undefined ? null : { content: exported }) }) as unknown as Document;
+  assert.deepEqual(namedModel(page('http://h/a/')), { address: '', exported: false });
+  assert.deepEqual(namedModel(page('http://h/a/', '')), { address: '', exported: true });
+  assert.deepEqual(namedModel(page('http://h/a/index.html', './b%20c.h5')), { address: 'http://h/a/b%20c.h5', exported: true });
+  assert.deepEqual(namedModel(page('http://h/a/?model=d.h5', './b.h5')), { address: 'http://h/a/d.h5', exported: true });
+  assert.equal(namedModel(page('http://h/a/?model=http://other/e.h5')).address, 'http://other/e.h5');
+});
+
+test('a picture that took long leaves as much time to others; with graphics hardware none does', () => {
+  const next = (software: boolean, took: number): number => {
+    const quality = new Quality(1, software);
+    quality.picture(1000);
+    quality.finished(1000 + took);
+    for (let ms = 1000 + took; ; ++ms) if (quality.due(ms)) return ms - 1000;
+  };
+  assert.deepEqual([5, 38, 100].map((took) => next(true, took)), [38, 38, 162]);
+  assert.equal(next(false, 100), 100);
 });
