@@ -16,6 +16,7 @@ import { Panel } from './panel';
 import { Parameters } from './parameters';
 import { Pointers } from './pointer';
 import type { Frame, Mesh, Tool } from './protocol';
+import { savePicture } from './picture';
 import { Quality } from './quality';
 import { Readout, toolToShow } from './readout';
 import { RegionList } from './region_list';
@@ -31,7 +32,7 @@ const EMPTY_MS = 100; // between pictures without an organ
 const NOTICE_MS = 5000;
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
-const KEEP_AFTER_MS = 1500; // of the first organ: it comes before its copy
+const KEEP_AFTER_MS = 1500; // the organ comes before its copy
 const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
 /** The page: listens to the viewer, draws, and lets people press. */
@@ -112,6 +113,11 @@ export class App implements LineListener {
     }
   }
 
+  /** Copies take the processor's time: not while somebody presses. */
+  private keepSoon(model: string): void {
+    setTimeout(() => (this.hand.pressing ? this.keepSoon(model) : void this.keep(model)), KEEP_AFTER_MS);
+  }
+
   private async keep(model: string): Promise<void> {
     this.panel.kept = await keep(model);
   }
@@ -141,7 +147,7 @@ export class App implements LineListener {
     this.view.showInside(this.regionList.show(mesh));
     const { toKeep } = this;
     this.toKeep = undefined;
-    if (toKeep !== undefined) setTimeout(() => void this.keep(toKeep), KEEP_AFTER_MS);
+    if (toKeep !== undefined) this.keepSoon(toKeep);
   }
 
   frame(frame: Frame, received: readonly Received[]): void {
@@ -284,15 +290,7 @@ export class App implements LineListener {
 
   private savePicture(): void {
     this.stage.draw(); // the canvas keeps its picture until this turn ends
-    const picture = document.createElement('canvas');
-    picture.width = this.canvas.width;
-    picture.height = this.canvas.height;
-    const draw = picture.getContext('2d');
-    if (!draw) return this.notice('This browser cannot save pictures.');
-    draw.fillStyle = themeColour('--ground');
-    draw.fillRect(0, 0, picture.width, picture.height);
-    draw.drawImage(this.canvas, 0, 0);
-    picture.toBlob((png) => (png ? download(`palpate-${timeStamp()}.png`, png) : this.notice('The picture could not be made.')));
+    savePicture(this.canvas, (text) => this.notice(text));
   }
 }
 
