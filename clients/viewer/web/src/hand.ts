@@ -114,7 +114,7 @@ export class Hand implements Toucher {
     if (!this.press_) return;
     const now = performance.now();
     const target = this.press_.target(now, this.wanted);
-    if (this.toolId !== undefined) this.line.hold(target);
+    if (this.toolId !== undefined) this.line.hold(target, this.press_.goal(this.wanted));
     else if (now - this.askedMs > RETRY_MS) this.ask();
   }
 }

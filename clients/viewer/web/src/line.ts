@@ -15,7 +15,7 @@ export type ToPage =
 export type FromPage =
   | { kind: 'open'; source: string | File }
   | { kind: 'say'; message: object }
-  | { kind: 'hold'; position: Vec3 | undefined }
+  | { kind: 'hold'; position: Vec3 | undefined; goal: Vec3 | undefined }
   | { kind: 'taken' };
 
 export interface LineListener {
@@ -55,9 +55,9 @@ export class Line {
     this.tell({ kind: 'say', message });
   }
 
-  /** The target of this page's tool; undefined when it holds none. */
-  hold(position: Vec3 | undefined): void {
-    this.tell({ kind: 'hold', position });
+  /** The target of this page's tool; undefined when it holds none. @param goal  to where it goes on by itself */
+  hold(position: Vec3 | undefined, goal = position): void {
+    this.tell({ kind: 'hold', position, goal });
   }
 
   /** Shortest round trip to the viewer, ms. */

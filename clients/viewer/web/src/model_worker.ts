@@ -81,6 +81,6 @@ onmessage = (event: MessageEvent<FromPage>) => {
   if (message.kind === 'open')
     open(message.source).catch((error: unknown) => state('gone', error instanceof Error ? error.message : String(error)));
   else if (message.kind === 'say') host?.say(message.message as { type: string });
-  else if (message.kind === 'hold') host?.hold(message.position);
+  else if (message.kind === 'hold') host?.hold(message.position, message.goal);
   else handOver.taken();
 };

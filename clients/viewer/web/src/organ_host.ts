@@ -2,6 +2,7 @@
 import type { Organ } from '../../../../core/wasm/organ.mjs';
 import { clockMs } from './clock';
 import type { Said } from './connection';
+import { later } from './press';
 import type { Answer, Frame, Mesh } from './protocol';
 import type { Vec3 } from './vec';
 
@@ -40,7 +41,7 @@ class Times {
 
 /** What palpate-viewer and palpate-server do for a page, for one organ and one tool, in this page's worker. */
 export class OrganHost {
-  private held: { position: Vec3; sinceMs: number; givenMs: number } | undefined;
+  private held: { position: Vec3; goal: Vec3; sinceMs: number; givenMs: number } | undefined;
   private tool: 0 | 1 | 2 = 0; // as Organ.tick() says
   private released = false;
   private seq = 0;
@@ -78,9 +79,9 @@ export class OrganHost {
     else if (message.type === 'rate') this.frameMs = 1000 / Number(message['hz']);
   }
 
-  /** The tool's target until the next call; undefined: no tool is held. */
-  hold(position: Vec3 | undefined): void {
-    this.held = position && { position, sinceMs: clockMs(), givenMs: -Infinity };
+  /** The tool's target until the next call, from which it goes on to its goal; undefined: no tool is held. */
+  hold(position: Vec3 | undefined, goal = position): void {
+    this.held = position && goal && { position, goal, sinceMs: clockMs(), givenMs: -Infinity };
   }
 
   private grab(): void {
@@ -150,7 +151,7 @@ export class OrganHost {
     const { held } = this;
     if (!held || nowMs - held.sinceMs >= HOLD_MS || nowMs - held.givenMs < TARGET_MS) return;
     held.givenMs = nowMs;
-    this.organ.target(held.position, this.lastMs);
+    this.organ.target(later(held.position, held.goal, nowMs - held.sinceMs), this.lastMs);
   }
 
   private tick(tickMs: number): void {

@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 import { restNormalAt, type Surface } from './surface';
-import { add, dot, scale, sub, type Vec3 } from './vec';
+import { add, dot, norm, scale, sub, type Vec3 } from './vec';
 
 export const DEEPEST = 0.015; // m; the server clamps beyond its domain and says so
 const ABOVE = 0.001; // m; a press begins this far above the surface
 const SPEED = 0.012; // m/s of a press, down and up
+const MOST_MS = 100; // of one move: a page that stood still longer does not catch up
 
 export interface Ray {
   readonly origin: Vec3;
   readonly direction: Vec3; // unit length
+}
+
+const bounded = (depth: number): number => Math.min(DEEPEST, Math.max(-ABOVE, depth));
+const travelIn = (ms: number): number => (SPEED * Math.min(MOST_MS, Math.max(0, ms))) / 1000;
+
+/** Where a press is some time after its target, on the way to its goal: for a page that is late with the next target. */
+export function later(target: Vec3, goal: Vec3, ms: number): Vec3 {
+  const way = sub(goal, target);
+  const length = norm(way);
+  return add(target, scale(way, length > 0 ? Math.min(1, travelIn(ms) / length) : 0));
 }
 
 /**
@@ -53,11 +64,19 @@ export class Press {
 
   /** Moves towards the wanted depth, m. @return the tip's centre, m */
   target(nowMs: number, wanted: number): Vec3 {
-    const step = (SPEED * Math.min(100, Math.max(0, nowMs - this.timeMs))) / 1000;
-    const goal = Math.min(DEEPEST, Math.max(-ABOVE, wanted));
-    this.depthNow += Math.min(step, Math.max(-step, goal - this.depthNow));
+    const step = travelIn(nowMs - this.timeMs);
+    this.depthNow += Math.min(step, Math.max(-step, bounded(wanted) - this.depthNow));
     this.timeMs = nowMs;
-    return add(this.spot, scale(this.normal, this.tipRadius - this.depthNow));
+    return this.tipAt(this.depthNow);
+  }
+
+  /** Where the tip's centre will be at the wanted depth, m. */
+  goal(wanted: number): Vec3 {
+    return this.tipAt(bounded(wanted));
+  }
+
+  private tipAt(depth: number): Vec3 {
+    return add(this.spot, scale(this.normal, this.tipRadius - depth));
   }
 
   get depth(): number {

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { FeltMap } from '../src/felt';
 import { Orbit } from '../src/orbit';
-import { DEEPEST, Press } from '../src/press';
+import { DEEPEST, later, Press } from '../src/press';
 import { gapTo, restingCentre } from '../src/resting';
 import { Surface } from '../src/surface';
 import { norm, scale, sub, unit, type Vec3 } from '../src/vec';
@@ -193,4 +193,13 @@ test('the camera keeps its distance when it turns, and the whole organ is seen a
   orbit.reset();
   assert.ok(Math.abs(away() - distance) < 1e-12);
   near(orbit.target, [0.1, 0.2, 0.3], 1e-12);
+});
+
+test('a target that is late goes on at 12 mm/s to its goal, for 100 ms at most', () => {
+  const goal: Vec3 = [0, 0, -0.003];
+  near(later([0, 0, 0], goal, 50), [0, 0, -0.0006], 1e-12);
+  near(later([0, 0, 0], goal, 5000), [0, 0, -0.0012], 1e-12);
+  near(later([0, 0, -0.0028], goal, 90), goal, 1e-12);
+  near(later(goal, goal, 50), goal, 1e-12);
+  near(later([0, 0, 0], goal, -3), [0, 0, 0], 1e-12);
 });
