@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/examine/certify/certificate.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "tools/examine/certify/quantile_bound.h"
+#include "tools/program/certificate_line.h"
+#include "tools/program/printed.h"
+
+namespace palpate::certify {
+
+namespace {
+
+using program::Json;
+using program::printed;
+using Error = double Finding::*;
+
+/// Null without findings.
+Json quantiles(const std::vector<Finding>& findings, Error error, bool bound) {
+  if (findings.empty()) return nullptr;
+  std::vector<double> errors;
+  for (const Finding& finding : findings) errors.push_back(finding.*error);
+  const ErrorStatistics s = statisticsOf(errors);
+  Json json{{"p50", s.p50}, {"p95", s.p95}, {"max", s.max}};
+  if (bound) json["bound_95_95"] = s.bound_95_95 ? Json(*s.bound_95_95) : Json(nullptr);
+  return json;
+}
+
+/// The touch with the largest error, so that it can be asked for again.
+Json worst(const std::vector<Finding>& findings, Error error) {
+  if (findings.empty()) return nullptr;
+  const Finding& f =
+      *std::max_element(findings.begin(), findings.end(),
+                        [error](const Finding& a, const Finding& b) { return a.*error < b.*error; });
+  return {{"position", f.touch.position}, {"displacement", f.touch.d}, {"error", f.*error}};
+}
+
+Json leastDetF(const std::vector<Finding>& findings) {
+  if (findings.empty()) return nullptr;
+  return std::min_element(findings.begin(), findings.end(),
+                          [](const Finding& a, const Finding& b) { return a.min_det_f < b.min_det_f; })
+      ->min_det_f;
+}
+
+Json largestAsymmetry(const std::vector<Finding>& findings) {
+  if (findings.empty()) return nullptr;
+  return std::max_element(findings.begin(), findings.end(),
+                          [](const Finding& a, const Finding& b) { return a.asymmetry < b.asymmetry; })
+      ->asymmetry;
+}
+
+Json meshErrorOf(const MetaModel& model) {
+  const auto provenance = Json::read(model.attributes().provenance);
+  const Json* const error = provenance ? provenance->find("mesh_error") : nullptr;
+  return error == nullptr ? Json(nullptr) : *error;
+}
+
+std::string errorText(const char* name, const Json& error) {
+  if (error.isNull()) return {};
+  const auto percent = [&](const char* key) { return 100.0 * error.at(key).get<double>(); };
+  std::string text = printed("%-9s %.3f %% median, %.3f %% p95, %.3f %% largest", name, percent("p50"),
+                             percent("p95"), percent("max"));
+  const Json* const bound = error.find("bound_95_95");
+  if (bound != nullptr && bound->isNull()) text += "; too few samples for a bound";
+  if (bound != nullptr && !bound->isNull())
+    text += printed("; 95 %% of touches within %.3f %%, with 95 %% confidence", percent("bound_95_95"));
+  return text + '\n';
+}
+
+}  // namespace
+
+Json certificateOf(const MetaModel& model, const Drawing& drawing, const Examination& found) {
+  const std::vector<Finding> within = found.of(Outcome::kWithin), beyond = found.of(Outcome::kBeyond);
+  const std::size_t drawn = found.findings.size();
+  Json c{{"program", "palpate-certify"},
+         {"version", PALPATE_VERSION},
+         {"samples", within.size()},
+         {"drawn", drawn},
+         {"beyond_domain", std::count_if(found.findings.begin(), found.findings.end(),
+                                         [](const Finding& finding) { return finding.flagged; })},
+         {"not_converged", found.count(Outcome::kNotSolved)},
+         {"seed", drawing.seed},
+         {"travel", drawing.travel.length}};
+  c["force_error"] = quantiles(within, &Finding::force_error, true);
+  c["field_error"] = quantiles(within, &Finding::field_error, true);
+  c["min_det_f"] = leastDetF(within);
+  c["certified_area_fraction"] = static_cast<double>(within.size()) / static_cast<double>(drawn);
+  c["energy_asymmetry"] = largestAsymmetry(within);
+  c["mesh_error"] = meshErrorOf(model);
+  c["flagged"] = {{"count", beyond.size()},
+                  {"force_error", quantiles(beyond, &Finding::force_error, false)},
+                  {"field_error", quantiles(beyond, &Finding::field_error, false)}};
+  c["worst"] = {{"force", worst(within, &Finding::force_error)},
+                {"field", worst(within, &Finding::field_error)}};
+  return c;
+}
+
+std::string toText(const Json& c, const Drawing& drawing) {
+  std::string text = printed("travel    %.4g mm (%s), seed %llu\n", 1e3 * drawing.travel.length,
+                             drawing.travel.from.c_str(), static_cast<unsigned long long>(drawing.seed));
+  text += printed(
+      "touches   %d in the domain and solved, of %d drawn (%.1f %%); %d beyond the domain, %d without a full "
+      "solution\n",
+      c["samples"].get<int>(), c["drawn"].get<int>(), 100.0 * c["certified_area_fraction"].get<double>(),
+      c["beyond_domain"].get<int>(), c["not_converged"].get<int>());
+  text += errorText("force", c["force_error"]) + errorText("field", c["field_error"]);
+  const Json& flagged = c["flagged"];
+  if (flagged["count"].get<int>() > 0)
+    text += printed("beyond the domain, %d touches:\n", flagged["count"].get<int>()) +
+            errorText("  force", flagged["force_error"]) + errorText("  field", flagged["field_error"]);
+  if (!c["min_det_f"].isNull())
+    text += printed("min det F %.3f; asymmetry of df/dd %.1e\n", c["min_det_f"].get<double>(),
+                    c["energy_asymmetry"].get<double>());
+  if (const Json* const mean = c["mesh_error"].find("mean"); mean != nullptr && mean->isNumber())
+    text += printed("mesh      %.1f %% too stiff or too soft in the mean, beside the errors above\n",
+                    100.0 * mean->get<double>());
+  return text;
+}
+
+}  // namespace palpate::certify

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/model/meta_model.h"
+#include "tools/examine/certify/examination.h"
+#include "tools/examine/certify/travel.h"
+#include "tools/program/json.h"
+
+namespace palpate::certify {
+
+/// How the touches were drawn.
+struct Drawing {
+  Travel travel;
+  TouchRange range;
+  std::uint64_t seed;
+};
+
+/// What the file keeps: keys in docs/json.md, meaning in docs/design.md, Certificate. The same for the same content, however
+/// many threads there were.
+[[nodiscard]] program::Json certificateOf(const MetaModel& model, const Drawing& drawing,
+                                          const Examination& found);
+
+/// The same for a person to read, several lines.
+[[nodiscard]] std::string toText(const program::Json& certificate, const Drawing& drawing);
+
+}  // namespace palpate::certify
