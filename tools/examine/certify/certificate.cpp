@@ -96,6 +96,21 @@ Json certificateOf(const MetaModel& model, const Drawing& drawing, const Examina
   return c;
 }
 
+Json touchesOf(const Examination& found) {
+  Json list = Json::array();
+  for (const Finding& f : found.findings) {
+    const bool solved = f.outcome == Outcome::kWithin || f.outcome == Outcome::kBeyond;
+    const auto ofSolved = [solved](double number) { return solved ? Json(number) : Json(nullptr); };
+    list.push_back({{"position", f.touch.position},
+                    {"displacement", f.touch.d},
+                    {"beyond_domain", f.flagged},
+                    {"force_error", ofSolved(f.force_error)},
+                    {"field_error", ofSolved(f.field_error)},
+                    {"min_det_f", ofSolved(f.min_det_f)}});
+  }
+  return list;
+}
+
 std::string toText(const Json& c, const Drawing& drawing) {
   std::string text = printed("travel    %.4g mm (%s), seed %llu\n", 1e3 * drawing.travel.length,
                              drawing.travel.from.c_str(), static_cast<unsigned long long>(drawing.seed));

@@ -23,7 +23,10 @@ struct Drawing {
 [[nodiscard]] program::Json certificateOf(const MetaModel& model, const Drawing& drawing,
                                           const Examination& found);
 
-/// The same for a person to read, several lines.
+/// Every touch that was drawn, for --json. docs/json.md
+[[nodiscard]] program::Json touchesOf(const Examination& found);
+
+/// The certificate for a person to read, several lines.
 [[nodiscard]] std::string toText(const program::Json& certificate, const Drawing& drawing);
 
 }  // namespace palpate::certify

@@ -97,6 +97,7 @@ void run(const Options& options) {
     certificate["travel_from"] = drawing.travel.from;
     certificate["written"] = options.writes();
     certificate["seconds"] = seconds;
+    certificate["touches"] = touchesOf(found);
     std::cout << certificate.dump(2, program::Keys::kAsWritten) << '\n';
     return;
   }

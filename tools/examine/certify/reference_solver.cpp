@@ -2,7 +2,6 @@
 #include "tools/examine/certify/reference_solver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "tools/solver/base/lanes.h"
@@ -20,10 +19,15 @@ solver::NewtonOptions newtonOptions() {
   return options;
 }
 
-double monomial(const MultiIndex& alpha, const Vec3& d) {
-  double product = 1.0;
-  for (std::size_t c = 0; c < 3; ++c) product *= std::pow(d[static_cast<Eigen::Index>(c)], alpha[c]);
-  return product;
+/// u = sum d^alpha U_alpha of the position in a lane.
+Eigen::VectorXd fieldOf(const solver::SeriesSolver& series, int lane, const Vec3& d, int nodes) {
+  std::vector<double> powers(static_cast<std::size_t>(series.basis().size()));
+  series.basis().evaluate(d, powers);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * nodes);
+  for (std::size_t k = 0; k < powers.size(); ++k)
+    for (int node = 0; node < nodes; ++node)
+      u.segment<3>(3 * node) += powers[k] * series.displacement(lane, static_cast<int>(k), node);
+  return u;
 }
 
 }  // namespace
@@ -47,7 +51,7 @@ solver::Patch ReferenceSolver::patchOf(const Touch& touch) const {
 std::vector<Eigen::VectorXd> ReferenceSolver::starts(std::span<const Touch> touches) {
   constexpr int kOrder = 3;
   constexpr std::size_t kLanes = solver::kLanes;
-  std::vector<Eigen::VectorXd> starts(touches.size(), Eigen::VectorXd::Zero(3 * organ_.body.nodeCount()));
+  std::vector<Eigen::VectorXd> starts(touches.size());
   std::vector<std::unique_ptr<solver::SeriesSolver>> series(newton_.size());
   const auto solve = [&](int thread, std::size_t chunk) {
     auto& own = series[static_cast<std::size_t>(thread)];
@@ -59,12 +63,7 @@ std::vector<Eigen::VectorXd> ReferenceSolver::starts(std::span<const Touch> touc
     for (const Touch& touch : part) patches.push_back(patchOf(touch));
     own->solve(patches);
     for (std::size_t i = 0; i < part.size(); ++i)
-      for (int k = 0; k < MonomialBasis::size(kOrder); ++k) {
-        const double factor = monomial(own->basis()[k], part[i].d);
-        for (int node = 0; node < organ_.body.nodeCount(); ++node)
-          starts[kLanes * chunk + i].segment<3>(3 * node) +=
-              factor * own->displacement(static_cast<int>(i), k, node);
-      }
+      starts[kLanes * chunk + i] = fieldOf(*own, static_cast<int>(i), part[i].d, organ_.body.nodeCount());
   };
   solver::parallelFor(static_cast<int>(newton_.size()), (touches.size() + kLanes - 1) / kLanes, solve);
   return starts;
