@@ -2,6 +2,8 @@
 #include "tools/examine/certify/certificate.h"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "tools/examine/certify/quantile_bound.h"
@@ -17,10 +19,11 @@ using program::printed;
 using Error = double Finding::*;
 
 /// Null without findings.
-Json quantiles(const std::vector<Finding>& findings, Error error, bool bound) {
+template <class One>
+Json quantiles(const std::vector<One>& findings, double One::*error, bool bound) {
   if (findings.empty()) return nullptr;
   std::vector<double> errors;
-  for (const Finding& finding : findings) errors.push_back(finding.*error);
+  for (const One& finding : findings) errors.push_back(finding.*error);
   const ErrorStatistics s = statisticsOf(errors);
   Json json{{"p50", s.p50}, {"p95", s.p95}, {"max", s.max}};
   if (bound) json["bound_95_95"] = s.bound_95_95 ? Json(*s.bound_95_95) : Json(nullptr);
@@ -36,10 +39,11 @@ Json worst(const std::vector<Finding>& findings, Error error) {
   return {{"position", f.touch.position}, {"displacement", f.touch.d}, {"error", f.*error}};
 }
 
-Json leastDetF(const std::vector<Finding>& findings) {
+template <class One>
+Json leastDetF(const std::vector<One>& findings) {
   if (findings.empty()) return nullptr;
   return std::min_element(findings.begin(), findings.end(),
-                          [](const Finding& a, const Finding& b) { return a.min_det_f < b.min_det_f; })
+                          [](const One& a, const One& b) { return a.min_det_f < b.min_det_f; })
       ->min_det_f;
 }
 
@@ -68,6 +72,16 @@ std::string errorText(const char* name, const Json& error) {
   return text + '\n';
 }
 
+std::string pairsText(const Json& two) {
+  std::string text =
+      printed("two tools, %.1f to %.1f mm apart, %d pairs:\n", 1e3 * two["distance"]["from"].get<double>(),
+              1e3 * two["distance"]["to"].get<double>(), two["samples"].get<int>());
+  text += errorText("  force", two["force_error"]) + errorText("  field", two["field_error"]);
+  if (two["least_distance"].isNull()) return text + "  at no distance 1 % holds for 95 % of pairs\n";
+  return text + printed("  from %.1f mm on 1 %% holds for 95 %% of pairs, with 95 %% confidence\n",
+                        1e3 * two["least_distance"].get<double>());
+}
+
 }  // namespace
 
 Json certificateOf(const MetaModel& model, const Drawing& drawing, const Examination& found) {
@@ -94,6 +108,26 @@ Json certificateOf(const MetaModel& model, const Drawing& drawing, const Examina
   c["worst"] = {{"force", worst(within, &Finding::force_error)},
                 {"field", worst(within, &Finding::field_error)}};
   return c;
+}
+
+Json pairsOf(const MetaModel& model, const std::vector<PairFinding>& pairs) {
+  constexpr double kAsked = 0.01;
+  std::vector<PairFinding> solved;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(solved),
+               [](const PairFinding& pair) { return pair.solved; });
+  const auto flagged =
+      std::count_if(pairs.begin(), pairs.end(), [](const PairFinding& pair) { return pair.flagged; });
+  const std::optional<double> least = leastDistance(solved, kAsked);
+  const double a = model.attributes().patch_radius;
+  return {{"samples", solved.size()},
+          {"drawn", pairs.size()},
+          {"beyond_domain", flagged},
+          {"not_converged", static_cast<std::ptrdiff_t>(pairs.size() - solved.size()) - flagged},
+          {"distance", {{"from", kNearestPair * a}, {"to", kFarthestPair * a}}},
+          {"force_error", quantiles(solved, &PairFinding::force_error, true)},
+          {"field_error", quantiles(solved, &PairFinding::field_error, true)},
+          {"min_det_f", leastDetF(solved)},
+          {"least_distance", least ? Json(*least) : Json(nullptr)}};
 }
 
 Json touchesOf(const Examination& found) {
@@ -130,6 +164,7 @@ std::string toText(const Json& c, const Drawing& drawing) {
   if (const Json* const mean = c["mesh_error"].find("mean"); mean != nullptr && mean->isNumber())
     text += printed("mesh      %.1f %% too stiff or too soft in the mean, beside the errors above\n",
                     100.0 * mean->get<double>());
+  if (const Json* const two = c.find("two_tools")) text += pairsText(*two);
   return text;
 }
 

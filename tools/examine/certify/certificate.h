@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/model/meta_model.h"
 #include "tools/examine/certify/examination.h"
+#include "tools/examine/certify/pair_examination.h"
 #include "tools/examine/certify/travel.h"
 #include "tools/program/json.h"
 
@@ -22,6 +24,9 @@ struct Drawing {
 /// many threads there were.
 [[nodiscard]] program::Json certificateOf(const MetaModel& model, const Drawing& drawing,
                                           const Examination& found);
+
+/// What the certificate says of two tools, as its "two_tools". @param pairs  all that were drawn
+[[nodiscard]] program::Json pairsOf(const MetaModel& model, const std::vector<PairFinding>& pairs);
 
 /// Every touch that was drawn, for --json. docs/json.md
 [[nodiscard]] program::Json touchesOf(const Examination& found);

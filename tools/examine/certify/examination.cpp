@@ -23,8 +23,7 @@ std::vector<Finding> draw(const MetaModel& model, TouchSampler& touches, std::si
   for (std::size_t within = 0; within < missing && drawn.size() < most;) {
     Finding finding;
     finding.touch = touches.next();
-    Response response;
-    finding.flagged = respond(model, finding.touch.s, finding.touch.d, response) != ResponseStatus::kOk;
+    finding.flagged = isBeyond(model, finding.touch);
     if (!finding.flagged) ++within;
     drawn.push_back(finding);
   }
@@ -65,7 +64,7 @@ class Examiner {
     const std::vector<Eigen::VectorXd> starts = reference_.starts(touches);
     solver::parallelFor(threads_, findings.size(), [&](int thread, std::size_t i) {
       Finding& finding = *findings[i];
-      const auto truth = reference_.solve(finding.touch, starts[i], thread);
+      const auto truth = reference_.solve(std::span(&finding.touch, 1), starts[i], thread);
       finding.outcome = Outcome::kNotSolved;
       if (truth) compare(model_, organ_, *truth, travel_, finding);
       progress.advance();
@@ -113,16 +112,25 @@ Examination examine(const MetaModel& model, const query::Organ& organ, TouchSamp
   }
 }
 
-void compare(const MetaModel& model, const query::Organ& organ, const query::FullSolution& truth,
-             double travel, Finding& finding) {
+bool isBeyond(const MetaModel& model, const Touch& touch) {
+  Response response;
+  return respond(model, touch.s, touch.d, response) != ResponseStatus::kOk;
+}
+
+double forceError(const MetaModel& model, const Touch& touch, const Vec3& force, const Vec3& truth,
+                  double travel) {
   constexpr double kFloor = 0.05;  // of the force at the travel
-  const Touch& touch = finding.touch;
-  const query::Answer answer = query::ask(model, {touch.s, touch.position, 0}, touch.d);
   Response at_travel;
   (void)respond(model, touch.s, travel * touch.d.normalized(), at_travel);  // it goes on beyond the domain
+  return (force - truth).norm() / std::max(truth.norm(), kFloor * at_travel.force.norm());
+}
+
+void compare(const MetaModel& model, const query::Organ& organ, const query::FullSolution& truth,
+             double travel, Finding& finding) {
+  const Touch& touch = finding.touch;
+  const query::Answer answer = query::ask(model, {touch.s, touch.position, 0}, touch.d);
   finding.outcome = finding.flagged ? Outcome::kBeyond : Outcome::kWithin;
-  finding.force_error = (answer.response.force - truth.state.force).norm() /
-                        std::max(truth.state.force.norm(), kFloor * at_travel.force.norm());
+  finding.force_error = forceError(model, touch, answer.response.force, truth.state.force, travel);
   finding.field_error = query::fieldErrors(answer.field, truth, organ, touch.d.norm()).max;
   finding.min_det_f = truth.min_det_f;
   const Mat3& K = answer.response.stiffness;

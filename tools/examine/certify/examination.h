@@ -23,9 +23,8 @@ enum class Outcome : std::uint8_t {
 struct Finding {
   Touch touch;
   Outcome outcome{Outcome::kNotExamined};
-  bool flagged{false};  ///< abs(d) > d_max(s)
-  double force_error{
-      0.0};  ///< |f - f_Newton| / max(|f_Newton|, 5 % of the model's |f| at the travel, same s and direction)
+  bool flagged{false};      ///< abs(d) > d_max(s)
+  double force_error{0.0};  ///< forceError()
   double field_error{0.0};  ///< largest |u - u_Newton| over the surface nodes / abs(d)
   double min_det_f{1.0};    ///< of the full solution
   double asymmetry{0.0};    ///< |K - K^T| / |K| of the model's K = df/dd
@@ -50,6 +49,14 @@ struct Extent {
 /// @param travel  m, of the force error's floor  @throw query::QueryError, std::runtime_error
 [[nodiscard]] Examination examine(const MetaModel& model, const query::Organ& organ, TouchSampler& touches,
                                   double travel, const Extent& extent);
+
+/// abs(d) > d_max(s): the model flags its answer.
+[[nodiscard]] bool isBeyond(const MetaModel& model, const Touch& touch);
+
+/// |f - f_Newton| / max(|f_Newton|, 5 % of the model's |f| at the travel, for the same s and direction).
+/// @param force  what the model answers, N  @param truth  N  @param travel  m
+[[nodiscard]] double forceError(const MetaModel& model, const Touch& touch, const Vec3& force,
+                                const Vec3& truth, double travel);
 
 /// Compares the model's answer with the full solution. @param[in,out] finding  with its touch
 void compare(const MetaModel& model, const query::Organ& organ, const query::FullSolution& truth,

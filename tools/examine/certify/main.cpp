@@ -5,6 +5,7 @@
 //               palpate-certify liver.h5 --samples 93 --json --plot errors.svg
 //               palpate-certify liver.h5 --seed 7 --samples 100 --json    # measures only
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -13,6 +14,7 @@
 #include "tools/examine/certify/certify_error.h"
 #include "tools/examine/certify/error_plot.h"
 #include "tools/examine/certify/examination.h"
+#include "tools/examine/certify/pair_examination.h"
 #include "tools/modelfile/write_certificate.h"
 #include "tools/program/certificate_line.h"
 #include "tools/program/command_line.h"
@@ -29,7 +31,7 @@ struct Options {
   int samples{59}, threads{solver::machineThreads()};
   std::optional<double> travel, length;
   std::optional<std::int64_t> seed;
-  bool inward{false}, json{false}, no_write{false};
+  bool two_tools{false}, inward{false}, json{false}, no_write{false};
 
   /// What is drawn otherwise than a certificate's touches is a measurement only.
   [[nodiscard]] bool writes() const { return !no_write && !seed && !inward && !length; }
@@ -42,6 +44,8 @@ void describe(program::Options line, Options& options) {
   line.add("--travel", &options.travel,
            "how far tools press, m (default: the case's, else 0.007 below 50 kPa, 0.005 above)")
       .range(kShortest, kLongest);
+  line.flag("--two-tools", &options.two_tools,
+            "certify pairs of tools too, 1.5 to 8 patch radii apart: twice as many");
   line.add("--plot", &options.plot, "draw the errors over the length of d (.svg)");
   line.flag("--no-write", &options.no_write, "leave the file as it is");
   line.flag("--json", &options.json, "print one JSON object on standard output");
@@ -60,7 +64,15 @@ void checkKind(const MetaModel& model, const std::string& path) {
                        "; certify takes displacement models");
 }
 
+/// A range lets NaN through. @throw CertifyError
+void checkNumber(const char* option, const std::optional<double>& value) {
+  if (value && std::isnan(*value))
+    throw CertifyError(std::string(option) + " is nan, expected a length in m");
+}
+
 Drawing drawingOf(const MetaModel& model, const Options& options) {
+  checkNumber("--travel", options.travel);
+  checkNumber("--length", options.length);
   if (options.seed && *options.seed < 0)
     throw CertifyError("--seed is " + std::to_string(*options.seed) + ", expected 0 or more");
   const Travel travel = travelOf(model.attributes(), options.travel);
@@ -78,10 +90,13 @@ void run(const Options& options) {
   // 2. Touches that no fit has seen, each beside its full solution.
   const Drawing drawing = drawingOf(model, options);
   TouchSampler touches(model, drawing.range, drawing.seed);
-  const Examination found = examine(model, organ, touches, drawing.travel.length,
-                                    {static_cast<std::size_t>(options.samples), options.threads});
+  const Extent extent{static_cast<std::size_t>(options.samples), options.threads};
+  const Examination found = examine(model, organ, touches, drawing.travel.length, extent);
   // 3. What that says, in the file and as a picture.
   program::Json certificate = certificateOf(model, drawing, found);
+  if (options.two_tools)
+    certificate["two_tools"] =
+        pairsOf(model, examinePairs(model, organ, touches, drawing.travel.length, extent));
   const std::string text = certificate.dump();
   if (options.writes()) modelfile::writeCertificate(options.model, text, model.digest());
   if (!options.plot.empty())

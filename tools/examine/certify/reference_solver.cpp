@@ -69,17 +69,19 @@ std::vector<Eigen::VectorXd> ReferenceSolver::starts(std::span<const Touch> touc
   return starts;
 }
 
-std::optional<query::FullSolution> ReferenceSolver::solve(const Touch& touch, const Eigen::VectorXd& start,
-                                                          int thread) {
+std::optional<query::FullSolution> ReferenceSolver::solve(std::span<const Touch> touches,
+                                                          const Eigen::VectorXd& start, int thread) {
   solver::NewtonSolver& newton = *newton_[static_cast<std::size_t>(thread)];
+  std::vector<solver::ImposedPatch> tools;
+  for (const Touch& touch : touches) tools.push_back({patchOf(touch), touch.d});
   query::FullSolution solution;
-  solution.patch = patchOf(touch);
-  solution.d = touch.d;
-  if (auto state = newton.solvePatchFrom(start, solution.patch, touch.d, newtonOptions())) {
+  solution.patch = tools.front().patch;
+  solution.d = tools.front().d;
+  if (auto state = newton.solvePatchesFrom(start, tools, newtonOptions())) {
     solution.state = std::move(*state);
   } else {
     try {
-      solution.state = newton.solvePatch(solution.patch, touch.d, newtonOptions());
+      solution.state = newton.solvePatches(tools, newtonOptions());
     } catch (const std::runtime_error&) {
       return std::nullopt;  // the caller counts it
     }

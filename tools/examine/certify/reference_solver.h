@@ -23,10 +23,11 @@ class ReferenceSolver {
   ReferenceSolver(const query::Organ& organ, double patch_radius, int threads);
   ~ReferenceSolver();
 
-  /// The full solution of a touch. @param start  3 N, m, of starts()  @param thread  0-based, each from one thread at once
-  /// @return nothing where Newton's method does not converge
-  [[nodiscard]] std::optional<query::FullSolution> solve(const Touch& touch, const Eigen::VectorXd& start,
-                                                         int thread);
+  /// The full solution of a touch, or of several tools at once. @param start  3 N, m, the sum of their starts()
+  /// @param thread  0-based, each from one thread at once
+  /// @return nothing where Newton's method does not converge; `patch` and `d` are the first tool's
+  [[nodiscard]] std::optional<query::FullSolution> solve(std::span<const Touch> touches,
+                                                         const Eigen::VectorXd& start, int thread);
   /// Where Newton's method begins: the series of degree 3 of each touch, on all threads.
   [[nodiscard]] std::vector<Eigen::VectorXd> starts(std::span<const Touch> touches);
 

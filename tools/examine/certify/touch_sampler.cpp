@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "tools/examine/certify/certify_error.h"
 
@@ -32,6 +33,22 @@ Touch TouchSampler::next() {
   const double length = range_.travel * (kShortest + (1.0 - kShortest) * uniform());
   touch.d = range_.length.value_or(length) * e;
   return touch;
+}
+
+std::array<Touch, 2> TouchSampler::nextPair(double from, double to) {
+  constexpr int kDistances = 100, kTries = 2000;
+  const double near_enough = (to - from) / 20.0;
+  for (int distance = 0; distance < kDistances; ++distance) {
+    const Touch first = next();
+    const double wanted = from + (to - from) * uniform();
+    for (int i = 0; i < kTries; ++i) {
+      const Touch second = next();
+      const double apart = (second.position - first.position).norm();
+      if (apart >= from && apart <= to && std::abs(apart - wanted) < near_enough) return {first, second};
+    }
+  }
+  throw CertifyError("the organ has no two places that are " + std::to_string(from) + " to " +
+                     std::to_string(to) + " m apart");
 }
 
 // Not std::uniform_real_distribution, whose numbers are each library's own.

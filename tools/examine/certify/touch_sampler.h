@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -33,6 +34,9 @@ class TouchSampler {
   /// Borrows the model. @throw CertifyError  nothing of the surface is accessible
   TouchSampler(const MetaModel& model, const TouchRange& range, std::uint64_t seed);
   [[nodiscard]] Touch next();
+  /// Two touches whose places are apart by a distance that is uniform in [from, to], as far as the organ has such places.
+  /// @param from, to  straight, m  @throw CertifyError  it has none
+  [[nodiscard]] std::array<Touch, 2> nextPair(double from, double to);
 
  private:
   double uniform();  // [0, 1)

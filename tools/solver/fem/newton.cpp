@@ -160,18 +160,6 @@ NewtonResult NewtonSolver::solvePatch(const Patch& patch, const Vec3& d, const N
   return solvePatches(std::span(&tool, 1), options);
 }
 
-std::optional<NewtonResult> NewtonSolver::solvePatchFrom(const Eigen::VectorXd& start, const Patch& patch,
-                                                         const Vec3& d, const NewtonOptions& options) {
-  const ImposedPatch tool{patch, d};
-  PatchProblem problem{model_, factor_, std::span(&tool, 1), 0.0, {}, {}};
-  NewtonResult state;
-  state.u = start;
-  problem.aim(1.0, state);
-  if (!converge(problem, state, options)) return std::nullopt;
-  state.force = state.forces.front();
-  return state;
-}
-
 NewtonResult NewtonSolver::solvePatches(std::span<const ImposedPatch> tools, const NewtonOptions& options) {
   const auto rests = [](const ImposedPatch& tool) { return tool.d.norm() == 0.0; };
   NewtonResult result;
@@ -183,6 +171,18 @@ NewtonResult NewtonSolver::solvePatches(std::span<const ImposedPatch> tools, con
   result = walk(PatchProblem{model_, factor_, tools, 0.0, {}, {}}, options);
   result.force = result.forces.front();
   return result;
+}
+
+std::optional<NewtonResult> NewtonSolver::solvePatchesFrom(const Eigen::VectorXd& start,
+                                                           std::span<const ImposedPatch> tools,
+                                                           const NewtonOptions& options) {
+  PatchProblem problem{model_, factor_, tools, 0.0, {}, {}};
+  NewtonResult state;
+  state.u = start;
+  problem.aim(1.0, state);
+  if (!converge(problem, state, options)) return std::nullopt;
+  state.force = state.forces.front();
+  return state;
 }
 
 }  // namespace palpate::solver

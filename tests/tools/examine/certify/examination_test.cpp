@@ -54,7 +54,7 @@ TEST_F(Box, ReferenceIsTheFullSolution) {
   ReferenceSolver reference(box_->organ, box_->model.attributes().patch_radius, 2);
   const std::vector<Eigen::VectorXd> starts = reference.starts(asked);
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto found = reference.solve(asked[i], starts[i], static_cast<int>(i % 2));
+    const auto found = reference.solve(std::span(&asked[i], 1), starts[i], static_cast<int>(i % 2));
     ASSERT_TRUE(found);
     const query::FullSolution truth = box_->solve({asked[i].s, asked[i].position, 0}, asked[i].d);
     EXPECT_LT((found->state.u - truth.state.u).cwiseAbs().maxCoeff(), 1e-7 * asked[i].d.norm());
@@ -69,7 +69,7 @@ TEST_F(Box, ASolutionThatCannotBeFoundIsNone) {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(3 * box_->organ.body.nodeCount());
   touch.d = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   ReferenceSolver reference(box_->organ, box_->model.attributes().patch_radius, 1);
-  EXPECT_FALSE(reference.solve(touch, rest, 0));
+  EXPECT_FALSE(reference.solve(std::span(&touch, 1), rest, 0));
 }
 
 TEST_F(Box, AGoodModelIsFoundGood) {

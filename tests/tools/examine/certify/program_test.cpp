@@ -61,7 +61,7 @@ TEST(CertifyProgram, AMeasurementLeavesTheFileAsItIs) {
     const ProgramResult run = certify(box.path, arguments);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_FALSE(nlohmann::json::parse(run.out)["written"]) << only.front();
-    EXPECT_EQ(contentOf(box.path), before) << only.front();
+    EXPECT_TRUE(contentOf(box.path) == before) << only.front();
   }
   const ProgramResult shown = runProgram("palpate-inspect", {box.path.string()});
   EXPECT_THAT(shown.out, HasSubstr("certificate               not certified"));
@@ -91,6 +91,7 @@ TEST(CertifyProgram, RefusesWrongArguments) {
   for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--samples", "0"},
                                                                                       {"--travel", "0"},
                                                                                       {"--travel", "nan"},
+                                                                                      {"--length", "nan"},
                                                                                       {"--length", "1"},
                                                                                       {"--threads", "0"},
                                                                                       {"--seed", "-1"}}) {
@@ -98,7 +99,7 @@ TEST(CertifyProgram, RefusesWrongArguments) {
     EXPECT_NE(run.exit_code, 0) << option;
     EXPECT_THAT(run.err, HasSubstr(option)) << value;
   }
-  EXPECT_EQ(contentOf(box.path), before);
+  EXPECT_TRUE(contentOf(box.path) == before);
   EXPECT_NE(certify(box.folder / "none.h5", {}).exit_code, 0);
 }
 

@@ -84,7 +84,8 @@ TEST_F(TwoPatches, BeginningNearTheSolutionLeadsToIt) {
   NewtonOptions holding;
   holding.held = 0.3;
   for (const NewtonOptions& options : {NewtonOptions{}, holding}) {
-    const auto result = newton_.solvePatchFrom(0.97 * from_rest.u, patch, d, options);
+    const ImposedPatch tool{patch, d};
+    const auto result = newton_.solvePatchesFrom(0.97 * from_rest.u, std::span(&tool, 1), options);
     ASSERT_TRUE(result);
     EXPECT_LT((result->u - from_rest.u).cwiseAbs().maxCoeff(), 1e-9 * d.norm());
     EXPECT_LT((result->force - from_rest.force).norm(), 1e-7 * from_rest.force.norm());
@@ -103,11 +104,11 @@ TEST_F(TwoPatches, AFactorThatIsHeldLeadsToTheSameSolutionMoreSlowly) {
 }
 
 TEST_F(TwoPatches, ABeginningThatLeadsNowhereGivesNothing) {
-  const Patch patch = patchAt(3, 2);
+  const ImposedPatch tool{patchAt(3, 2), Vec3(0.0, 0.0, -0.001)};
   const Eigen::VectorXd wild = Eigen::VectorXd::Random(3 * model_.nodeCount());  // metres
   NewtonOptions options;
   options.max_iterations = 3;
-  EXPECT_FALSE(newton_.solvePatchFrom(wild, patch, {0.0, 0.0, -0.001}, options));
+  EXPECT_FALSE(newton_.solvePatchesFrom(wild, std::span(&tool, 1), options));
 }
 
 }  // namespace
