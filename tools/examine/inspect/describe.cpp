@@ -142,7 +142,7 @@ Json describe(const MetaModel& model) {
 std::string table(const Json& description) {
   std::ostringstream out;
   const auto line = [&](const std::string& key, const std::string& value) {
-    out << std::left << std::setw(26) << key << value << '\n';
+    out << std::left << std::setw(26) << key + ' ' << value << '\n';
   };
   for (const auto& [key, value] : description.members()) {
     if (key == "certificate") line(key, program::certificateLine(value.isNull() ? "" : value.dump()));
