@@ -63,7 +63,7 @@ endfunction()
 palpate_install_programs(programs palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
   palpate-viewer palpate-inspect palpate-feel palpate-replay)
 # What links Gmsh or CHOLMOD: README.md, Licence.
-palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpate-reproduce)
+palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpate-certify palpate-reproduce)
 
 # The page, if it was built (clients/viewer/web).
 install(DIRECTORY clients/viewer/web/dist/ DESTINATION ${PALPATE_DATA_DIR}/viewer COMPONENT programs OPTIONAL)

@@ -40,8 +40,9 @@ set(CPACK_DEBIAN_SOLVER_PACKAGE_SUGGESTS "calculix-ccx, gnuplot-nox | gnuplot")
 set(CPACK_COMPONENT_SOLVER_DESCRIPTION "makes organs and their models for palpate-server
 palpate-organ makes and imports tetrahedral meshes of organs, palpate-solve
 computes their models, palpate-query checks single touches against a full
-nonlinear solution, and palpate-reproduce repeats the benchmarks of the paper
-that the method comes from.
+nonlinear solution, palpate-certify states a model's errors in its file, and
+palpate-reproduce repeats the benchmarks of the paper that the method comes
+from.
 
 These programs link Gmsh and SuiteSparse, so they are distributed under the
 GPL.")

@@ -10,6 +10,7 @@
 #include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
+#include "tools/program/certificate_line.h"
 #include "tools/program/run.h"
 
 namespace palpate::server {
@@ -45,6 +46,7 @@ void logModel(const MetaModel& model, const ServerConfig& config) {
       "id {}",
       config.model.string(), toString(model.attributes().parameters), view.surfaceNodes(), view.positions(),
       view.modes(), model.functions().size(), 1e-6 * static_cast<double>(model.bytes()), model.id());
+  spdlog::info(program::certificateLine(model.attributes().certificate));
 }
 
 void logContact(const Facts& facts) {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/modelfile/write_model.h"
 
-#include <fcntl.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,14 +12,13 @@
 #include "core/data/hdf5_handle.h"
 #include "core/data/model_content.h"
 #include "tools/modelfile/check_sizes.h"
+#include "tools/modelfile/file_parts.h"
 #include "tools/modelfile/pack_fields.h"
 #include "tools/program/write_file.h"
 
 namespace palpate::modelfile {
 
 namespace {
-
-constexpr hsize_t kAlignment = 4096;
 
 /// Types of the file, which are those in memory too: little-endian.
 Hdf5Handle copyOf(hid_t type) {
@@ -54,15 +49,9 @@ Hdf5Handle typeOf(const RegionName&) {
   return text;
 }
 
-void require(bool good, const std::string& what) {
-  if (!good) throw ModelFileError("cannot write " + what);
-}
-
 /// Creates the temporary file, all of whose objects begin on a page.
 Hdf5Handle createFile(const std::string& path) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  require(access.valid() && H5Pset_alignment(access.get(), 0, kAlignment) >= 0, path);
-  Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+  Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, aligned().get()), H5Fclose);
   require(file.valid(), path);
   return file;
 }
@@ -127,18 +116,6 @@ void writeNumbers(const Hdf5Handle& file, const char* name, std::span<const doub
   require(attribute.valid() && H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, values.data()) >= 0, name);
 }
 
-/// Variable length, so that a long provenance does not meet the 64 KiB limit of an object header.
-void writeText(const Hdf5Handle& file, const char* name, const std::string& text) {
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  require(type.valid() && H5Tset_size(type.get(), H5T_VARIABLE) >= 0, name);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
-  const Hdf5Handle attribute(H5Acreate2(file.get(), name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                             H5Aclose);
-  const char* const start = text.c_str();
-  require(attribute.valid() && H5Awrite(attribute.get(), type.get(), &start) >= 0, name);
-}
-
 /// Writes an attribute by its type.
 struct AttributeWriter {
   const Hdf5Handle& file;
@@ -152,12 +129,6 @@ struct AttributeWriter {
   }
 };
 
-/// A text that is not in the content's digest, and its own.
-void writeWithDigest(const Hdf5Handle& file, const std::string& name, const std::string& text) {
-  writeText(file, name.c_str(), text);
-  writeText(file, (name + "_digest").c_str(), sha256(std::as_bytes(std::span<const char>(text))).hex());
-}
-
 void writeContent(const Hdf5Handle& file, const ModelAttributes& a, const ModelView& v) {
   const LengthTable lengths = lengthsOf(a, v);
   forEachAttribute(a, AttributeWriter{file});
@@ -168,8 +139,7 @@ void writeContent(const Hdf5Handle& file, const ModelAttributes& a, const ModelV
   writeText(file, "digest", digest);
   writeWithDigest(file, "provenance", a.provenance);
   if (a.certificate.empty()) return;
-  writeWithDigest(file, "certificate", a.certificate);
-  writeText(file, "certificate_of", digest);
+  writeCertificateTexts(file, a.certificate, digest);
 }
 
 ModelView viewOf(const ModelData& d, const PackedFields& fields) {
@@ -224,16 +194,6 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   return v;
 }
 
-/// The data have to be on the disk before the name points to them: else a crash could leave a name without a
-/// model.
-void sync(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!good) throw ModelFileError(path + " cannot be synced: " + std::strerror(error));
-}
-
 void writeAll(const std::string& path, const ModelData& data) {
   Hdf5Handle file = createFile(path);
   ModelAttributes attributes = data.attributes;
@@ -254,7 +214,7 @@ void writeModel(const std::filesystem::path& path, const ModelData& data) {
   try {
     writeAll(beside.path(), data);
     beside.takePlace();
-    sync(path.has_parent_path() ? path.parent_path().string() : ".");
+    syncFolder(path);
   } catch (const program::WriteError& error) {
     throw ModelFileError(path.string() + ": cannot be written: " + error.reason());
   } catch (const ModelFileError& error) {

@@ -8,6 +8,7 @@
 
 #include "core/data/model_view.h"
 #include "tools/modelfile/reach.h"
+#include "tools/program/certificate_line.h"
 #include "tools/program/printed.h"
 
 namespace palpate::inspect {
@@ -86,7 +87,8 @@ void describeMaterial(const ModelView& v, Json& out) {
       {"stiffness", std::accumulate(v.spring_stiffness.begin(), v.spring_stiffness.end(), 0.0)}};
 }
 
-Json provenanceOf(const std::string& text) {
+/// A text of the file that holds an object.
+Json objectOf(const std::string& text) {
   if (auto parsed = Json::read(text); parsed && parsed->isObject()) return *std::move(parsed);
   return {{"text", text}};
 }
@@ -132,22 +134,24 @@ Json describe(const MetaModel& model) {
   describeMaterial(v, out);
   out["file_bytes"] = model.bytes();
   out["bytes"] = bytesOfParts(v);
-  out["provenance"] = provenanceOf(a.provenance);
+  out["certificate"] = a.certificate.empty() ? Json(nullptr) : objectOf(a.certificate);
+  out["provenance"] = objectOf(a.provenance);
   return out;
 }
 
 std::string table(const Json& description) {
   std::ostringstream out;
   const auto line = [&](const std::string& key, const std::string& value) {
-    out << std::left << std::setw(26) << key << value << '\n';
+    out << std::left << std::setw(26) << key + ' ' << value << '\n';
   };
   for (const auto& [key, value] : description.members()) {
+    if (key == "certificate") line(key, program::certificateLine(value.isNull() ? "" : value.dump()));
     if (key == "reach") {
       for (const Json& r : value.entries())
         line("reach." + program::printed("%.0f_mm", 1e3 * r["travel"].get<double>()), reachText(r));
     } else if (value.isObject()) {
       for (const auto& [inner, number] : value.members()) line(key + "." + inner, valueText(number));
-    } else {
+    } else if (key != "certificate") {
       line(key, valueText(value));
     }
   }

@@ -9,7 +9,7 @@
 namespace palpate::inspect {
 
 /// All that palpate-inspect says about a model: kind, sizes, material, bytes of each part, quantiles over the
-/// accessible positions of what is trusted (m, N, or a load level), provenance. SI units.
+/// accessible positions of what is trusted (m, N, or a load level), certificate, provenance. SI units.
 [[nodiscard]] program::Json describe(const MetaModel& model);
 
 /// The same for a person to read, several lines.

@@ -74,18 +74,6 @@ solver::Patch pointPatch(const Organ& organ, const ContactPoint& s) {
   return patch;
 }
 
-/// @throw QueryError when the patch is all clamped
-solver::Patch patchAt(const Organ& organ, const Anchor& anchor, double patch_radius) {
-  constexpr double kLeastRadius = 1e-9;  // m; below, its square vanishes, and no mesh is that fine
-  solver::Patch patch =
-      solver::makePatch(organ.body, organ.surface, anchor.s, std::max(patch_radius, kLeastRadius));
-  if (patch.nodes.empty()) patch = pointPatch(organ, anchor.s);
-  if (patch.nodes.empty())
-    throw QueryError("the contact patch at " + text(anchor.position) +
-                     " lies on clamped nodes only: nothing to solve");
-  return patch;
-}
-
 solver::NewtonOptions stepsOf(int steps) {
   solver::NewtonOptions options;
   options.steps = steps;
@@ -103,6 +91,17 @@ Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh) {
   solver::PatchSurface surface(body, mesh.surface_node, tuples<3>(model.view().surface_triangles),
                                tuples<3>(model.view().contact_triangles));
   return {std::move(body), std::move(surface), std::move(mesh)};
+}
+
+solver::Patch patchAt(const Organ& organ, const Anchor& anchor, double patch_radius) {
+  constexpr double kLeastRadius = 1e-9;  // m; below, its square vanishes, and no mesh is that fine
+  solver::Patch patch =
+      solver::makePatch(organ.body, organ.surface, anchor.s, std::max(patch_radius, kLeastRadius));
+  if (patch.nodes.empty()) patch = pointPatch(organ, anchor.s);
+  if (patch.nodes.empty())
+    throw QueryError("the contact patch at " + text(anchor.position) +
+                     " lies on clamped nodes only: nothing to solve");
+  return patch;
 }
 
 FullSolution solveFully(const Organ& organ, const Anchor& anchor, double patch_radius, const Vec3& d,

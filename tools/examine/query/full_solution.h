@@ -23,6 +23,10 @@ struct Organ {
 /// @param mesh  of the same file as `model`  @throw QueryError when a tetrahedron has no volume
 [[nodiscard]] Organ organOf(const MetaModel& model, modelfile::VolumeMesh mesh);
 
+/// The patch centred at s itself. One narrower than the mesh is the point load's own, see solveUnderLoad().
+/// @throw QueryError when it is all clamped
+[[nodiscard]] solver::Patch patchAt(const Organ& organ, const Anchor& anchor, double patch_radius);
+
 /// The truth about one touch: f_int(u) = G_s f, G_s^T u = d, the patch centred at s itself.  docs/design.md, Series
 struct FullSolution {
   solver::Patch patch;         ///< volume nodes and their w_i

@@ -40,8 +40,8 @@ struct LoadProblem {
     internal = model.internalForce(state.u);
     return imbalance(model, internal, external);
   }
-  void improve(NewtonResult& state) {
-    factor.factorize(state.u);
+  void improve(NewtonResult& state, bool held) {
+    if (!held) factor.factorize(state.u);
     addDofs(model, factor.solve(toDofs(model, external - internal)), state.u);
   }
   Eigen::VectorXd external, internal;
@@ -69,8 +69,8 @@ struct PatchProblem {
   }
   /// [K -G; G^T 0] [du; df] = [G f - f_int; d - G^T u], by the Schur complement of K, 3 x 3 for each pair of
   /// tools.
-  void improve(NewtonResult& state) {
-    factor.factorize(state.u);
+  void improve(NewtonResult& state, bool held) {
+    if (!held) factor.factorize(state.u);
     const auto count = static_cast<Eigen::Index>(3 * tools.size());
     Eigen::MatrixXd b(model.dofCount(), count + 1);
     b.col(count) = toDofs(model, external - internal);
@@ -101,9 +101,10 @@ struct PatchProblem {
 template <typename Problem>
 bool converge(Problem& problem, NewtonResult& state, const NewtonOptions& options) {
   double previous = problem.error(state);
+  bool held = false;  // the factor of an earlier iteration
   for (int i = 0; i < options.max_iterations; ++i) {
     try {
-      problem.improve(state);
+      problem.improve(state, held);
     } catch (const std::runtime_error&) {
       return false;  // singular tangent: the caller takes a smaller step
     }
@@ -112,8 +113,10 @@ bool converge(Problem& problem, NewtonResult& state, const NewtonOptions& option
     state.residual = problem.error(state);
     if (!std::isfinite(state.residual) || state.residual > 1e6) return false;
     // Rounding may keep the residual just above the tolerance; then it stops falling.
-    const bool stagnated = state.residual < 1e3 * options.tolerance && state.residual > 0.5 * previous;
+    const bool stagnated =
+        !held && state.residual < 1e3 * options.tolerance && state.residual > 0.5 * previous;
     if (state.residual <= options.tolerance || stagnated) return true;
+    held = state.residual < options.held * previous;
     previous = state.residual;
   }
   return false;
@@ -168,6 +171,18 @@ NewtonResult NewtonSolver::solvePatches(std::span<const ImposedPatch> tools, con
   result = walk(PatchProblem{model_, factor_, tools, 0.0, {}, {}}, options);
   result.force = result.forces.front();
   return result;
+}
+
+std::optional<NewtonResult> NewtonSolver::solvePatchesFrom(const Eigen::VectorXd& start,
+                                                           std::span<const ImposedPatch> tools,
+                                                           const NewtonOptions& options) {
+  PatchProblem problem{model_, factor_, tools, 0.0, {}, {}};
+  NewtonResult state;
+  state.u = start;
+  problem.aim(1.0, state);
+  if (!converge(problem, state, options)) return std::nullopt;
+  state.force = state.forces.front();
+  return state;
 }
 
 }  // namespace palpate::solver

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct NewtonOptions {
   int max_halvings{10};     ///< in a row
   int extra_steps{100};     ///< tried after `steps` before the solver gives up, failed ones included
   double tolerance{1e-10};  ///< of the residual, relative to the largest internal nodal force
+  double held{
+      0.0};  ///< a factor serves on while iterations leave less than this part of the residual; 0: one each
 };
 
 struct NewtonResult {
@@ -48,11 +51,15 @@ class NewtonSolver {
   /// @param patch  weights of the contact patch at s  @param d  patch-averaged displacement, m
   /// @throw std::runtime_error with the fraction of d at which no step converges
   [[nodiscard]] NewtonResult solvePatch(const Patch& patch, const Vec3& d, const NewtonOptions& options);
-
   /// Several tools at once: f_int(u) = sum_A G_A f_A, G_A^T u = d_A for every A, all d growing together.
   /// @param tools  at least one; two patches on the same single node have no solution
   /// @throw std::runtime_error with the fraction of the d at which no step converges
   [[nodiscard]] NewtonResult solvePatches(std::span<const ImposedPatch> tools, const NewtonOptions& options);
+  /// The same from a state near the solution, the d at once. @param start  3 N, m
+  /// @return nothing where it does not converge from there
+  [[nodiscard]] std::optional<NewtonResult> solvePatchesFrom(const Eigen::VectorXd& start,
+                                                             std::span<const ImposedPatch> tools,
+                                                             const NewtonOptions& options);
 
  private:
   template <typename Problem>

@@ -55,9 +55,11 @@ struct BoxCase {
   static constexpr double kBed = 2e5;  ///< N/m^3
 };
 
-/// Writes the model of the box. Its near field covers the box whole: what the modes miss is all in there.
-inline void writeBoxModel(const std::filesystem::path& path, const std::string& law = "stvk",
-                          int element_order = 1, BoxCase::Kind kind = BoxCase::kPlain) {
+/// The model of the box. Its near field covers the box whole: what the modes miss is all in there.
+/// @param scratch  folder for the solver's
+inline modelfile::ModelData boxModelData(const std::filesystem::path& scratch,
+                                         const std::string& law = "stvk", int element_order = 1,
+                                         BoxCase::Kind kind = BoxCase::kPlain) {
   solver::Case c;
   c.mesh = "box";
   c.accessible = "accessible";
@@ -75,9 +77,14 @@ inline void writeBoxModel(const std::filesystem::path& path, const std::string& 
   c.sweeps = 2;
   solver::BuildReport report;
   modelfile::ModelData data =
-      solver::buildModel(c, solver::raised(c, BoxMesh::make()), {1, path.parent_path(), true}, report);
+      solver::buildModel(c, solver::raised(c, BoxMesh::make()), {1, scratch, true}, report);
   data.attributes.provenance = "{}";
-  modelfile::writeModel(path, data);
+  return data;
+}
+
+inline void writeBoxModel(const std::filesystem::path& path, const std::string& law = "stvk",
+                          int element_order = 1, BoxCase::Kind kind = BoxCase::kPlain) {
+  modelfile::writeModel(path, boxModelData(path.parent_path(), law, element_order, kind));
 }
 
 /// The model of the box, loaded, and its full problem.

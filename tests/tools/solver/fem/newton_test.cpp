@@ -77,5 +77,39 @@ TEST_F(TwoPatches, AtOnePlaceThatShouldMoveApartHaveNoSolution) {
   EXPECT_THROW((void)newton_.solvePatches(tools, {}), std::runtime_error);
 }
 
+TEST_F(TwoPatches, BeginningNearTheSolutionLeadsToIt) {
+  const Patch patch = patchAt(3, 2);
+  const Vec3 d(0.001, 0.0, -0.008);
+  const NewtonResult from_rest = newton_.solvePatch(patch, d, {});
+  NewtonOptions holding;
+  holding.held = 0.3;
+  for (const NewtonOptions& options : {NewtonOptions{}, holding}) {
+    const ImposedPatch tool{patch, d};
+    const auto result = newton_.solvePatchesFrom(0.97 * from_rest.u, std::span(&tool, 1), options);
+    ASSERT_TRUE(result);
+    EXPECT_LT((result->u - from_rest.u).cwiseAbs().maxCoeff(), 1e-9 * d.norm());
+    EXPECT_LT((result->force - from_rest.force).norm(), 1e-7 * from_rest.force.norm());
+    EXPECT_LE(result->residual, options.tolerance);
+  }
+}
+
+TEST_F(TwoPatches, AFactorThatIsHeldLeadsToTheSameSolutionMoreSlowly) {
+  const Patch patch = patchAt(3, 2);
+  const Vec3 d(0.001, 0.0, -0.008);
+  NewtonOptions holding;
+  holding.held = 0.3;
+  const NewtonResult own = newton_.solvePatch(patch, d, {}), held = newton_.solvePatch(patch, d, holding);
+  EXPECT_LT((own.u - held.u).cwiseAbs().maxCoeff(), 1e-8 * d.norm());
+  EXPECT_GT(held.iterations, own.iterations);
+}
+
+TEST_F(TwoPatches, ABeginningThatLeadsNowhereGivesNothing) {
+  const ImposedPatch tool{patchAt(3, 2), Vec3(0.0, 0.0, -0.001)};
+  const Eigen::VectorXd wild = Eigen::VectorXd::Random(3 * model_.nodeCount());  // metres
+  NewtonOptions options;
+  options.max_iterations = 3;
+  EXPECT_FALSE(newton_.solvePatchesFrom(wild, std::span(&tool, 1), options));
+}
+
 }  // namespace
 }  // namespace palpate::solver

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/modelfile/write_certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/model/meta_model.h"
+#include "palpate/testing/synthetic_model.h"
+#include "tools/modelfile/write_model.h"
+
+namespace palpate::testing {
+
+namespace {
+
+constexpr const char* kText = R"({"samples": 59})";
+
+class WriteCertificate : public ::testing::Test {
+ protected:
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_{folder_ / "model.h5"};
+  const MetaModel model_{written()};
+
+  [[nodiscard]] MetaModel written() const {
+    writeSyntheticModel(path_, {.subdivisions = 1, .modes = 2});
+    return MetaModel::load(path_);
+  }
+  [[nodiscard]] std::size_t filesBeside() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()),
+                                                  std::filesystem::directory_iterator()));
+  }
+};
+
+}  // namespace
+
+TEST_F(WriteCertificate, ComesBackAndTheModelStaysTheSame) {
+  modelfile::writeCertificate(path_, kText, model_.digest());
+  const MetaModel certified = MetaModel::load(path_);
+  EXPECT_EQ(certified.attributes().certificate, kText);
+  EXPECT_EQ(certified.digest(), model_.digest());
+  EXPECT_EQ(certified.attributes().provenance, model_.attributes().provenance);
+  EXPECT_EQ(filesBeside(), 1U);
+}
+
+TEST_F(WriteCertificate, ArraysStayWhereTheyLie) {
+  const std::string before = contentOf(path_);
+  modelfile::writeCertificate(path_, kText, model_.digest());
+  const std::string after = contentOf(path_);
+  ASSERT_GE(after.size(), before.size());
+  const auto bytes = std::as_bytes(model_.view().mesh_nodes);
+  const std::string numbers(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_EQ(before.find(numbers) % 4096, 0U);
+  EXPECT_EQ(after.find(numbers), before.find(numbers));
+  // What differs is what HDF5 keeps about the root, far less than the numbers.
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) different += before[i] != after[i];
+  EXPECT_LT(different, 4096U);
+}
+
+TEST_F(WriteCertificate, TakesThePlaceOfTheOneBefore) {
+  modelfile::writeCertificate(path_, kText, model_.digest());
+  const auto size = std::filesystem::file_size(path_);
+  const std::string other = R"({"samples": 93, "note": ")" + std::string(100'000, 'x') + R"("})";
+  modelfile::writeCertificate(path_, other, model_.digest());
+  EXPECT_EQ(MetaModel::load(path_).attributes().certificate, other);
+  for (int again = 0; again < 5; ++again) modelfile::writeCertificate(path_, kText, model_.digest());
+  EXPECT_EQ(MetaModel::load(path_).attributes().certificate, kText);
+  EXPECT_LT(std::filesystem::file_size(path_), size + 5 * 16384 + 2 * other.size());
+}
+
+TEST_F(WriteCertificate, WhoHasTheFileOpenKeepsTheOldOne) {
+  const std::string before = contentOf(path_);
+  std::ifstream open(path_, std::ios::binary);
+  modelfile::writeCertificate(path_, kText, model_.digest());
+  EXPECT_TRUE(std::string(std::istreambuf_iterator<char>(open), {}) == before);
+  EXPECT_TRUE(contentOf(path_) != before);
+}
+
+TEST_F(WriteCertificate, RefusesAFileWhoseContentIsAnother) {
+  writeSyntheticModel(folder_ / "other.h5", {.subdivisions = 1, .modes = 2, .stiffness = 301.0});
+  const MetaModel other = MetaModel::load(folder_ / "other.h5");
+  const std::string before = contentOf(path_);
+  try {
+    modelfile::writeCertificate(path_, kText, other.digest());
+    FAIL() << "a certificate of another model was written";
+  } catch (const modelfile::ModelFileError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(path_.string() + ": not certified: ", 0), 0U) << error.what();
+    EXPECT_NE(std::string(error.what())
+                  .find("the certificate belongs to the content " + other.digest().hex() +
+                        ", the digest of this content is " + model_.digest().hex()),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(contentOf(path_) == before);
+  EXPECT_EQ(filesBeside(), 2U);
+}
+
+TEST_F(WriteCertificate, AFlippedByteOfTheCertifiedModelIsRefused) {
+  modelfile::writeCertificate(path_, kText, model_.digest());
+  std::string bytes = contentOf(path_);
+  const auto nodes = std::as_bytes(model_.view().mesh_nodes);
+  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(nodes.data()), nodes.size()));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] = static_cast<char>(bytes[at] ^ 1);
+  std::ofstream(path_, std::ios::binary) << bytes;
+  EXPECT_THROW((void)MetaModel::load(path_), LoadError);
+}
+
+TEST_F(WriteCertificate, SaysWhatCannotBeWritten) {
+  const auto missing = folder_ / "missing.h5";
+  try {
+    modelfile::writeCertificate(missing, kText, model_.digest());
+    FAIL() << "no error";
+  } catch (const modelfile::ModelFileError& error) {
+    EXPECT_EQ(error.what(), missing.string() + ": cannot be written: No such file or directory");
+  }
+}
+
+}  // namespace palpate::testing

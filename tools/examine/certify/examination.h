@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/model/meta_model.h"
+#include "tools/examine/certify/reference_solver.h"
+#include "tools/examine/certify/touch_sampler.h"
+
+namespace palpate::certify {
+
+/// What became of one touch.
+enum class Outcome : std::uint8_t {
+  kWithin,       ///< in the domain and solved
+  kBeyond,       ///< flagged by the model, and solved
+  kNotSolved,    ///< Newton's method did not converge
+  kNotExamined,  ///< flagged, and not solved, since enough of those were
+};
+
+/// One touch, model against full solution.
+struct Finding {
+  Touch touch;
+  Outcome outcome{Outcome::kNotExamined};
+  bool flagged{false};      ///< abs(d) > d_max(s)
+  double force_error{0.0};  ///< forceError()
+  double field_error{0.0};  ///< largest |u - u_Newton| over the surface nodes / abs(d)
+  double min_det_f{1.0};    ///< of the full solution
+  double asymmetry{0.0};    ///< |K - K^T| / |K| of the model's K = df/dd
+};
+
+/// All touches, in the order in which they were drawn.
+struct Examination {
+  std::vector<Finding> findings;
+
+  [[nodiscard]] std::vector<Finding> of(Outcome outcome) const;
+  [[nodiscard]] std::size_t count(Outcome outcome) const;
+};
+
+/// How much is examined.
+struct Extent {
+  std::size_t samples{59};  ///< touches within the domain, >= 1
+  int threads{1};
+};
+
+/// Draws touches until as many as asked for are in the domain and solved, at most 20 times as many. Those beyond the domain are
+/// solved too, up to as many as samples. Prints progress on standard error.
+/// @param travel  m, of the force error's floor  @throw query::QueryError, std::runtime_error
+[[nodiscard]] Examination examine(const MetaModel& model, const query::Organ& organ, TouchSampler& touches,
+                                  double travel, const Extent& extent);
+
+/// abs(d) > d_max(s): the model flags its answer.
+[[nodiscard]] bool isBeyond(const MetaModel& model, const Touch& touch);
+
+/// |f - f_Newton| / max(|f_Newton|, 5 % of the model's |f| at the travel, for the same s and direction).
+/// @param force  what the model answers, N  @param truth  N  @param travel  m
+[[nodiscard]] double forceError(const MetaModel& model, const Touch& touch, const Vec3& force,
+                                const Vec3& truth, double travel);
+
+/// Compares the model's answer with the full solution. @param[in,out] finding  with its touch
+void compare(const MetaModel& model, const query::Organ& organ, const query::FullSolution& truth,
+             double travel, Finding& finding);
+
+}  // namespace palpate::certify

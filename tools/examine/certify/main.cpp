@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// palpate-certify: how far a model is off, found by fresh touches that full Newton solves, and written into its file.
+//
+// Sample runs:  palpate-certify liver.h5
+//               palpate-certify liver.h5 --samples 93 --json --plot errors.svg
+//               palpate-certify liver.h5 --seed 7 --samples 100 --json    # measures only
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <optional>
+
+#include "core/data/model_view.h"
+#include "tools/examine/certify/certificate.h"
+#include "tools/examine/certify/certify_error.h"
+#include "tools/examine/certify/error_plot.h"
+#include "tools/examine/certify/examination.h"
+#include "tools/examine/certify/pair_examination.h"
+#include "tools/modelfile/write_certificate.h"
+#include "tools/program/certificate_line.h"
+#include "tools/program/command_line.h"
+#include "tools/program/printed.h"
+#include "tools/program/run.h"
+#include "tools/program/write_file.h"
+#include "tools/solver/base/parallel.h"
+
+namespace palpate::certify {
+namespace {
+
+struct Options {
+  std::string model, plot;
+  int samples{59}, threads{solver::machineThreads()};
+  std::optional<double> travel, length;
+  std::optional<std::int64_t> seed;
+  bool two_tools{false}, inward{false}, json{false}, no_write{false};
+
+  /// What is drawn otherwise than a certificate's touches is a measurement only.
+  [[nodiscard]] bool writes() const { return !no_write && !seed && !inward && !length; }
+};
+
+void describe(program::Options line, Options& options) {
+  constexpr double kShortest = 1e-9, kLongest = 0.1;  // m
+  line.add("model", &options.model, "model file (.h5), driven by displacement").required();
+  line.add("--samples", &options.samples, "touches within the domain; a bound takes 59").range(1, 100000);
+  line.add("--travel", &options.travel,
+           "how far tools press, m (default: the case's, else 0.007 below 50 kPa, 0.005 above)")
+      .range(kShortest, kLongest);
+  line.flag("--two-tools", &options.two_tools,
+            "certify pairs of tools too, 1.5 to 8 patch radii apart: twice as many");
+  line.add("--plot", &options.plot, "draw the errors over the length of d (.svg)");
+  line.flag("--no-write", &options.no_write, "leave the file as it is");
+  line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.add("--threads", &options.threads, "worker threads").range(1, 1024);
+  line.add("--seed", &options.seed,
+           "draw other touches than those of the content's digest; writes no certificate");
+  line.flag("--inward", &options.inward,
+            "draw only directions against the outward normal; writes no certificate");
+  line.add("--length", &options.length, "length of all touches, m; writes no certificate")
+      .range(kShortest, kLongest);
+}
+
+void checkKind(const MetaModel& model, const std::string& path) {
+  if (!model.isDisplacementDriven())
+    throw CertifyError(path + " is driven by " + std::string(toString(model.attributes().parameters)) +
+                       "; certify takes displacement models");
+}
+
+/// A range lets NaN through. @throw CertifyError
+void checkNumber(const char* option, const std::optional<double>& value) {
+  if (value && std::isnan(*value))
+    throw CertifyError(std::string(option) + " is nan, expected a length in m");
+}
+
+Drawing drawingOf(const MetaModel& model, const Options& options) {
+  checkNumber("--travel", options.travel);
+  checkNumber("--length", options.length);
+  if (options.seed && *options.seed < 0)
+    throw CertifyError("--seed is " + std::to_string(*options.seed) + ", expected 0 or more");
+  const Travel travel = travelOf(model.attributes(), options.travel);
+  return {travel,
+          {travel.length, options.length, options.inward},
+          options.seed ? static_cast<std::uint64_t>(*options.seed) : seedOf(model)};
+}
+
+void run(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  // 1. The model, and the organ that it was made from.
+  const MetaModel model = MetaModel::load(options.model);
+  checkKind(model, options.model);
+  const query::Organ organ = query::organOf(model, modelfile::readVolumeMesh(options.model));
+  // 2. Touches that no fit has seen, each beside its full solution.
+  const Drawing drawing = drawingOf(model, options);
+  TouchSampler touches(model, drawing.range, drawing.seed);
+  const Extent extent{static_cast<std::size_t>(options.samples), options.threads};
+  const Examination found = examine(model, organ, touches, drawing.travel.length, extent);
+  // 3. What that says, in the file and as a picture.
+  program::Json certificate = certificateOf(model, drawing, found);
+  if (options.two_tools)
+    certificate["two_tools"] =
+        pairsOf(model, examinePairs(model, organ, touches, drawing.travel.length, extent));
+  const std::string text = certificate.dump();
+  if (options.writes()) modelfile::writeCertificate(options.model, text, model.digest());
+  if (!options.plot.empty())
+    program::writeFile(options.plot,
+                       errorPlot("Errors of " + std::filesystem::path(options.model).filename().string() +
+                                     " against full Newton",
+                                 found.findings));
+  // 4. The report.
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.json) {
+    certificate["model"] = options.model;
+    certificate["model_id"] = model.id();
+    certificate["travel_from"] = drawing.travel.from;
+    certificate["written"] = options.writes();
+    certificate["seconds"] = seconds;
+    certificate["touches"] = touchesOf(found);
+    std::cout << certificate.dump(2, program::Keys::kAsWritten) << '\n';
+    return;
+  }
+  std::cout << toText(certificate, drawing) << program::certificateLine(text) << '\n'
+            << (options.writes() ? "written into " : "not written into ") << options.model
+            << program::printed(", %.1f s\n", seconds);
+}
+
+int body(int argc, char** argv) {
+  program::CommandLine line(
+      "palpate-certify",
+      "Certifies a model: its errors against full nonlinear solutions of fresh random touches.");
+  Options options;
+  describe(line.options(), options);
+  if (!line.read(argc, argv)) return 0;
+  run(options);
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::certify
+
+int main(int argc, char** argv) {
+  return palpate::program::runProgram("palpate-certify", &palpate::certify::body, argc, argv);
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/data/model_view.h"
+
+namespace palpate::certify {
+
+/// How far tools press, and who says so.
+struct Travel {
+  double length;     ///< m
+  std::string from;  ///< for people: "asked for", "the case's", "the default below 50 kPa", ..
+};
+
+/// @param asked  of the command line, m; else the travel of the model's provenance, else 7 mm where E < 50 kPa and 5 mm elsewhere
+[[nodiscard]] Travel travelOf(const ModelAttributes& attributes, std::optional<double> asked);
+
+}  // namespace palpate::certify

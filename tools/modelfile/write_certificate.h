@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/data/sha256.h"
+
+namespace palpate::modelfile {
+
+/// Puts a certificate into a model file, for the one that it has. The arrays stay where they lie, byte for byte.
+/// Written to `path.tmp-PID` beside the file, synced, renamed: a reader sees the old file or the new one, and who has the old
+/// one open keeps it. docs/design.md, Certificate
+/// @param certificate  text of a JSON object  @param content  MetaModel::digest() of what was examined
+/// @throw ModelFileError naming the file that cannot be written, or whose content is another one by now
+void writeCertificate(const std::filesystem::path& path, const std::string& certificate,
+                      const Digest& content);
+
+}  // namespace palpate::modelfile
