@@ -24,11 +24,13 @@ void setDirection(const std::string& text, solver::LoadCase& load) {
   load.direction = x.stableNormalized();
 }
 
-/// In the place of what the case says of size and exactness.
+/// In the place of what a case for another target says of size and exactness.
 void setTarget(const std::string& name, solver::Case& c) {
   if (name != "server" && name != "handheld")
     throw solver::CaseError("--target " + name + " is not known (known: server, handheld)");
-  c.target = name == "handheld" ? solver::Target::kHandheld : solver::Target::kServer;
+  const solver::Target target = name == "handheld" ? solver::Target::kHandheld : solver::Target::kServer;
+  if (target == c.target) return;
+  c.target = target;
   for (std::optional<double>* key : {&c.travel, &c.size_limit, &c.near_radius, &c.field_error}) key->reset();
   for (std::optional<int>* key : {&c.order, &c.force_order, &c.modes}) key->reset();
 }
