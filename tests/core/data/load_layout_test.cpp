@@ -112,7 +112,7 @@ std::vector<WrongLayout> layouts() {
                {.creation = allocateLate, .write = false}),
       replaced("External", "/contact/force lies in another file",
                {.creation = storeElsewhere, .write = false}),
-      replaced("Unaligned", "expected a multiple of 64", {.alignment = 1}),
+      replaced("Unaligned", "expected a multiple of 64", {.alignment = 1000}),
       replaced("WrongShape", "/contact/force has shape " + M + " x 9 x 3, expected M = " + M + " x 19 x 3",
                {.shape = {forceShape()[0], 9, 3}}),
       replaced("WrongRank", "/contact/force has shape 57, expected", {.shape = {57}}),
