@@ -53,9 +53,11 @@ const ArrayReader::Array& ArrayReader::array(const std::string& path) const {
   return found->second;
 }
 
-std::vector<std::uint64_t> ArrayReader::shape(const std::string& path, NumberType type) const {
-  if (array(path).type != type) fail("/" + path + " has numbers of another type than expected");
-  return array(path).shape;
+ArrayShape ArrayReader::shape(const std::string& path, NumberType wanted) const {
+  const Array& found = array(path);
+  if (found.type != wanted && !isNarrower(found.type, wanted))
+    fail("/" + path + " has numbers of another type than expected");
+  return {found.type, found.shape};
 }
 
 const std::byte* ArrayReader::place(const std::string& path, std::uint64_t bytes) const {

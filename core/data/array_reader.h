@@ -45,7 +45,7 @@ class ArrayReader final : public ModelSource {
     std::size_t bytes{0};
   };
 
-  [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& path, NumberType type) const override;
+  [[nodiscard]] ArrayShape shape(const std::string& path, NumberType wanted) const override;
   [[nodiscard]] const std::byte* place(const std::string& path, std::uint64_t bytes) const override;
   [[nodiscard]] const Array& array(const std::string& path) const;
   template <typename T>

@@ -38,7 +38,8 @@ struct Dataset {
 /// All datasets: the only place that spells their paths, types, shapes and units. Ns surface nodes, T triangles, M contact
 /// positions, C coefficients of the fields, Cm of those that modes and near fields have (of a "displacement" model without the
 /// first degree, which nodal Green's functions give), Cf of the contact's force, G nodes that carry load, P places of the
-/// patch's stiffness, E = P - M edges between contact positions, Ce coefficients of these, n modes, K near nodes of a position,
+/// patch's stiffness, E = P - M edges between contact positions, Ce coefficients of these, n modes, of which positions have the
+/// first nY, K near nodes of a position,
 /// N volume nodes, V tetrahedra, F fixed nodes, R regions, S springs.
 namespace dataset {
 inline constexpr Dataset<double> kSurfacePositions{"surface/positions", {"Ns", "3"}, "m"};
@@ -64,7 +65,7 @@ inline constexpr Dataset<double> kLevelsZ{"levels/Z", {"C", "L + 1"}, ""};
 // Fields are whole numbers; a number is its block's scale times these, and has the scale's unit.
 inline constexpr Dataset<std::int16_t> kModesX{"modes/X", {"n", "3 Ns"}, ""};
 inline constexpr Dataset<float> kModesXScale{"modes/X_scale", {"n"}, ""};
-inline constexpr Dataset<std::int16_t> kModesY{"modes/Y", {"M", "Cm", "n"}, ""};
+inline constexpr Dataset<std::int16_t> kModesY{"modes/Y", {"M", "Cm", "nY"}, ""};
 inline constexpr Dataset<float> kModesYScale{"modes/Y_scale", {"M", "Cm"}, "m"};
 
 inline constexpr Dataset<std::int64_t> kNearOffset{"near/offset", {"M + 1"}, ""};

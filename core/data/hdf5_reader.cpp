@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/data/available_memory.h"
 #include "core/data/load_error.h"
 
 namespace palpate {
@@ -22,7 +23,7 @@ static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>
 static_assert(std::endian::native == std::endian::little,
               "the model file is mapped as it is: little-endian only");
 
-constexpr std::uint64_t kAlignment = 4096;
+constexpr std::uint64_t kAlignment = 64;
 /// What HDF5 says about its last error, at the place where it met it.
 std::string lastError() {
   std::string reason = "unknown reason";
@@ -59,6 +60,8 @@ Hdf5Handle fileType(NumberType type) {
       return of(H5T_IEEE_F64LE);
     case NumberType::kF32:
       return of(H5T_IEEE_F32LE);
+    case NumberType::kI8:
+      return of(H5T_STD_I8LE);
     case NumberType::kI16:
       return of(H5T_STD_I16LE);
     case NumberType::kI32:
@@ -191,16 +194,22 @@ Hdf5Handle Hdf5Reader::openDataset(const std::string& path) const {
   return handle;
 }
 
-std::vector<std::uint64_t> Hdf5Reader::shape(const std::string& path, NumberType type) const {
+ArrayShape Hdf5Reader::shape(const std::string& path, NumberType wanted) const {
   const Hdf5Handle dataset = openDataset(path);
-  const Hdf5Handle found(H5Dget_type(dataset.get()), H5Tclose), wanted = fileType(type);
-  if (!found.valid() || H5Tequal(found.get(), wanted.get()) <= 0)
-    fail("/" + path + " is " + describeType(found.get()) + ", expected " + describeType(wanted.get()));
+  const Hdf5Handle found(H5Dget_type(dataset.get()), H5Tclose);
+  ArrayShape out{wanted, {}};
+  const auto is = [&](NumberType type) { return H5Tequal(found.get(), fileType(type).get()) > 0; };
+  for (const NumberType type : {NumberType::kI8, NumberType::kI16, NumberType::kI32, NumberType::kF32})
+    if (isNarrower(type, wanted) && is(type)) out.type = type;
+  if (!found.valid() || !is(out.type))
+    fail("/" + path + " is " + describeType(found.get()) + ", expected " +
+         describeType(fileType(wanted).get()));
   const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.get());
   std::array<hsize_t, H5S_MAX_RANK> lengths{};
   if (rank > 0) H5Sget_simple_extent_dims(space.get(), lengths.data(), nullptr);
-  return {lengths.begin(), lengths.begin() + std::max(rank, 0)};
+  out.lengths.assign(lengths.begin(), lengths.begin() + std::max(rank, 0));
+  return out;
 }
 
 void Hdf5Reader::checkLayout(const std::string& path, hid_t dataset) const {
@@ -218,6 +227,10 @@ void Hdf5Reader::checkLayout(const std::string& path, hid_t dataset) const {
          ", expected contiguous");
   if (H5Pget_external_count(creation.get()) != 0)
     fail("/" + path + " lies in another file, expected the data in this file");
+}
+
+void Hdf5Reader::requireRoom(std::uint64_t bytes) const {
+  requireMemory(name(), "a copy of what it has in fewer bytes", bytes);
 }
 
 const std::byte* Hdf5Reader::place(const std::string& path, std::uint64_t bytes) const {

@@ -39,9 +39,10 @@ class Hdf5Reader final : public ModelSource {
   [[nodiscard]] std::string text(const char* attribute) const override;
 
  private:
-  [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& path, NumberType type) const override;
+  [[nodiscard]] ArrayShape shape(const std::string& path, NumberType wanted) const override;
   [[nodiscard]] const std::byte* place(const std::string& path, std::uint64_t bytes) const override;
   [[nodiscard]] std::uint64_t bytes() const override { return image_.bytes().size(); }
+  void requireRoom(std::uint64_t bytes) const override;
   [[nodiscard]] Hdf5Handle openImage() const;
   [[nodiscard]] Hdf5Handle openAttribute(const char* attribute, int values) const;
   [[nodiscard]] Hdf5Handle openDataset(const std::string& path) const;

@@ -86,6 +86,7 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
                    {"M + 1", M + 1},
                    {"C", C},
                    {"n", v.modes()},
+                   {"nY", v.positionModes()},
                    {"sum K", v.near_node.size()},
                    {"3 Cm sum K", v.near_field.size()},
                    {"N", v.mesh_node_tag.size()},

@@ -105,6 +105,9 @@ void readFields(const ModelSource& file, Lengths& size, ModelView& v) {
   v.modes_X = file.dataset(dataset::kModesX, size);
   v.modes_X_scale = file.dataset(dataset::kModesXScale, size);
   v.modes_Y = file.dataset(dataset::kModesY, size);
+  if (size.value("nY") > size.value("n"))
+    file.fail(dataset::kModesY.name() + " has " + std::to_string(size.value("nY")) +
+              " modes, expected at most n = " + std::to_string(size.value("n")));
   v.modes_Y_scale = file.dataset(dataset::kModesYScale, size);
   size.define("M + 1", size.value("M") + 1);
   v.near_offset = file.dataset(dataset::kNearOffset, size);
@@ -195,6 +198,7 @@ ModelContents readModel(const ModelSource& file, const std::string& name) {
   readMesh(file, size, contents.view);
   readRegions(file, size, contents.view);
   readSprings(file, size, contents.view);
+  contents.copies = file.copies();
   return contents;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "core/data/model_source.h"
@@ -21,6 +22,7 @@ struct ModelContents {
   ModelAttributes attributes;
   StoredDigests stored;
   ModelView view;
+  std::shared_ptr<const void> copies{};  ///< what the view needs beside where the arrays lie
 };
 
 /// Format, attributes and each array's type, shape and place, all of them checked. The numbers in the arrays are not looked at:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/data/model_source.h"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <type_traits>
 
@@ -24,7 +26,28 @@ constexpr NumberType typeOf() {
   if constexpr (std::is_same_v<T, RegionName>) return NumberType::kRegionName;
 }
 
+std::size_t bytesOf(NumberType type) {
+  constexpr std::array<std::size_t, 8> kBytes{8, 4, 2, 4, 8, 1, sizeof(RegionName), 1};
+  return kBytes.at(static_cast<std::size_t>(type));
+}
+
+/// Calls work(a number of the type), of those that are ever narrower than others.
+template <class Work>
+void asNumber(NumberType type, const Work& work) {
+  if (type == NumberType::kI8) return work(std::int8_t{});
+  if (type == NumberType::kI16) return work(std::int16_t{});
+  if (type == NumberType::kI32) return work(std::int32_t{});
+  if (type == NumberType::kF32) return work(float{});
+}
+
 }  // namespace
+
+bool isNarrower(NumberType stored, NumberType wanted) noexcept {
+  if (wanted == NumberType::kF64) return stored == NumberType::kF32;
+  constexpr std::array kSigned{NumberType::kI8, NumberType::kI16, NumberType::kI32, NumberType::kI64};
+  const auto* const to = std::find(kSigned.begin(), kSigned.end(), wanted);
+  return to != kSigned.end() && std::find(kSigned.begin(), to, stored) != to;
+}
 
 void ModelSource::fail(const std::string& what) const {
   throw LoadError(name_ + ": " + what);
@@ -36,9 +59,8 @@ double ModelSource::number(const char* attribute) const {
   return value;
 }
 
-std::vector<Length*> ModelSource::shapeOf(const std::string& path, NumberType type,
+std::vector<Length*> ModelSource::checked(const std::string& path, const std::vector<std::uint64_t>& found,
                                           std::span<const char* const> symbols, Lengths& lengths) const {
-  const std::vector<std::uint64_t> found = shape(path, type);
   std::vector<Length*> wanted;
   for (const char* symbol : symbols)
     if (symbol != nullptr) wanted.push_back(&lengths[symbol]);
@@ -57,16 +79,32 @@ std::vector<Length*> ModelSource::shapeOf(const std::string& path, NumberType ty
 template <typename T>
 std::span<const T> ModelSource::dataset(const Dataset<T>& what, Lengths& lengths) const {
   const std::string path = what.path;
-  const std::uint64_t limit = bytes() / sizeof(T);
+  const ArrayShape found = shape(path, typeOf<T>());
+  const std::uint64_t limit = bytes() / bytesOf(found.type);
   std::uint64_t count = 1;
-  for (const Length* length : shapeOf(path, typeOf<T>(), what.shape, lengths)) {
+  for (const Length* length : checked(path, found.lengths, what.shape, lengths)) {
     if (length->value != 0 && count > limit / length->value)
       fail("/" + path + " has more numbers than the file's " + std::to_string(bytes()) + " bytes can hold");
     count *= length->value;
   }
-  const std::byte* const first = place(path, count * sizeof(T));
+  const std::byte* const first = place(path, count * bytesOf(found.type));
   if (count == 0) return {};
+  if (found.type != typeOf<T>()) return widened<T>(found.type, first, static_cast<std::size_t>(count));
   return {static_cast<const T*>(static_cast<const void*>(first)), static_cast<std::size_t>(count)};
+}
+
+/// A copy in as many bytes as tables want.
+template <typename T>
+std::span<const T> ModelSource::widened(NumberType stored, const std::byte* first, std::size_t count) const {
+  requireRoom(count * sizeof(T));
+  std::vector<double>& room = copies_->emplace_back(count * sizeof(T) / sizeof(double) + 1);
+  T* const to = static_cast<T*>(static_cast<void*>(room.data()));
+  if constexpr (std::is_arithmetic_v<T>)
+    asNumber(stored, [&]<class Stored>(Stored) {
+      const auto* const from = static_cast<const Stored*>(static_cast<const void*>(first));
+      std::transform(from, from + count, to, [](Stored number) { return static_cast<T>(number); });
+    });
+  return {to, count};
 }
 
 template std::span<const double> ModelSource::dataset(const Dataset<double>&, Lengths&) const;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,7 +41,16 @@ class Lengths {
 };
 
 /// What numbers of an array are.
-enum class NumberType { kF64, kF32, kI16, kI32, kI64, kU8, kRegionName };
+enum class NumberType { kF64, kF32, kI16, kI32, kI64, kU8, kRegionName, kI8 };
+
+/// Whether numbers of one type are all numbers of the other, which has more bytes: an array may be stored in fewer.
+[[nodiscard]] bool isNarrower(NumberType stored, NumberType wanted) noexcept;
+
+/// What is known of an array before its numbers are looked at.
+struct ArrayShape {
+  NumberType type{};  ///< as stored
+  std::vector<std::uint64_t> lengths;
+};
 
 /// Attributes and arrays of a model, wherever they come from: a file by HDF5 (Hdf5Reader), or bytes that a page has read
 /// (ArrayReader). Types, shapes and places are checked, the numbers are not. Every refusal is a LoadError: file, dataset,
@@ -59,25 +69,35 @@ class ModelSource {
   [[nodiscard]] double number(const char* attribute) const;
   [[nodiscard]] virtual int integer(const char* attribute) const = 0;
   [[nodiscard]] virtual std::string text(const char* attribute) const = 0;
-  /// A dataset where it lies in memory. Unknown lengths are filled in.
+  /// A dataset where it lies in memory, or a copy where it is stored in fewer bytes. Unknown lengths are filled in.
   template <typename T>
   [[nodiscard]] std::span<const T> dataset(const Dataset<T>& what, Lengths& lengths) const;
+  /// What keeps the copies; they live as long as any copy of it.
+  [[nodiscard]] std::shared_ptr<const void> copies() const { return copies_; }
 
  protected:
   /// @param name  how the file is called in messages
   explicit ModelSource(std::string name) : name_(std::move(name)) {}
+  [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
-  /// @throw LoadError  there is no such array, or it has another type
-  [[nodiscard]] virtual std::vector<std::uint64_t> shape(const std::string& path, NumberType type) const = 0;
+  /// @throw LoadError  there is no such array, or it has another type, and not a narrower one
+  [[nodiscard]] virtual ArrayShape shape(const std::string& path, NumberType wanted) const = 0;
   /// Where the numbers of an array are that has this many bytes; null without any. @throw LoadError  it does not lie there whole
   [[nodiscard]] virtual const std::byte* place(const std::string& path, std::uint64_t bytes) const = 0;
   /// Of everything.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
-  [[nodiscard]] std::vector<Length*> shapeOf(const std::string& path, NumberType type,
+  /// Before so much memory is taken for copies. @throw LoadError  there is not enough
+  virtual void requireRoom(std::uint64_t bytes) const { (void)bytes; }
+  [[nodiscard]] std::vector<Length*> checked(const std::string& path, const std::vector<std::uint64_t>& found,
                                              std::span<const char* const> symbols, Lengths& lengths) const;
+  template <typename T>
+  [[nodiscard]] std::span<const T> widened(NumberType stored, const std::byte* first,
+                                           std::size_t count) const;
 
   std::string name_;
+  std::shared_ptr<std::vector<std::vector<double>>> copies_{
+      std::make_shared<std::vector<std::vector<double>>>()};
 };
 
 }  // namespace palpate

@@ -94,7 +94,7 @@ struct ModelView {
   std::size_t level_functions{0};                 ///< C of a "level" model, else 0
   std::span<const std::int16_t> modes_X;          ///< [n][Ns][3] dimensionless, over their scale
   std::span<const float> modes_X_scale;           ///< [n]
-  std::span<const std::int16_t> modes_Y;          ///< [M][C][n] scaled, over their scale
+  std::span<const std::int16_t> modes_Y;          ///< [M][C][nY] scaled, over their scale
   std::span<const float> modes_Y_scale;           ///< [M][C] m
   std::span<const std::int64_t> near_offset;      ///< [M+1] prefix sums of the near nodes' counts
   std::span<const std::int32_t> near_node;        ///< [sum K] surface nodes
@@ -133,6 +133,10 @@ struct ModelView {
   /// Contact positions and edges between them, of a "displacement" model.
   [[nodiscard]] std::size_t places() const noexcept { return contact_stiffness.size() / kStiffnessNumbers; }
   [[nodiscard]] std::size_t modes() const noexcept { return modes_X_scale.size(); }
+  /// nY, how many modes, the first, contact positions have amplitudes of.
+  [[nodiscard]] std::size_t positionModes() const noexcept {
+    return modes_Y_scale.empty() ? modes() : modes_Y.size() / modes_Y_scale.size();
+  }
 };
 
 }  // namespace palpate

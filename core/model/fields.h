@@ -16,12 +16,12 @@ namespace palpate {
 /// Amplitudes of the modes, a block of rows for each source: Y of contact positions, or of nodes under unit loads. Borrows.
 class Amplitudes {
  public:
-  /// @param Y  [sources][rows][n]  @param scale  [sources][rows]
+  /// @param Y  [sources][rows][modes], of the first modes  @param scale  [sources][rows]
   Amplitudes(std::span<const std::int16_t> Y, std::span<const float> scale, std::size_t rows,
              std::size_t modes)
       : Y_(Y), scale_(scale), rows_(rows), modes_(modes) {}
 
-  /// y += factor * sum_r weight[r] * row r. @param weight  [rows]  @param y  [n]. Real-time: yes.
+  /// y += factor * sum_r weight[r] * row r. @param weight  [rows]  @param y  [n], at least `modes`. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor,
            std::span<float> y) const noexcept PALPATE_NONBLOCKING;
 

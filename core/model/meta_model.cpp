@@ -51,15 +51,15 @@ ContactPatches patchesOf(const ModelView& view, const ModelAttributes& attribute
           freeNodes(view), std::max(attributes.patch_radius, kLeastRadius), centresOf(view)};
 }
 
-/// Each node that a patch may load has its Green's function: without it the field would lack what it carries.
-void checkLoadedNodes(const ModelView& view, const ContactPatches& patches) {
+/// Each node that a patch may load has its Green's function, or both ends of its edge have: without it the field would lack
+/// what it carries.
+void checkLoadedNodes(const ModelView& view, const ContactPatches& patches, const LinearField& field) {
   std::vector<std::uint8_t> loaded(view.surfaceNodes(), 0);
   for (const std::int32_t centre : view.contact_node) patches.markNear(centre, loaded);
-  for (const std::int32_t node : view.green_node) loaded[index(node)] = 0;
-  const auto without = std::find(loaded.begin(), loaded.end(), 1) - loaded.begin();
-  if (without < std::ssize(loaded))
-    throw std::invalid_argument(dataset::kGreenNode.name() + " lacks node " + std::to_string(without) +
-                                ", expected every node that contact patches load");
+  for (std::size_t node = 0; node < loaded.size(); ++node)
+    if (loaded[node] != 0 && !field.carries(static_cast<std::int32_t>(node)))
+      throw std::invalid_argument(dataset::kGreenNode.name() + " lacks node " + std::to_string(node) +
+                                  ", expected every node that contact patches load, or the ends of its edge");
 }
 
 /// Dimples are summed from the amplitudes of all patches: some seconds at this most, 50,000 nodes of 216 in a patch and 370
@@ -120,7 +120,7 @@ MetaModel MetaModel::of(ModelImage image, ModelContents contents, const std::str
   const Digest digest = verified(contents, name);
   checkContents(contents.attributes, contents.view, name);
   try {
-    return MetaModel(std::move(image), std::move(contents.attributes), contents.view, digest);
+    return MetaModel(std::move(image), std::move(contents), digest);
   } catch (const std::invalid_argument& error) {
     throw LoadError(name + ": " + error.what());
   }
@@ -154,11 +154,11 @@ std::vector<std::uint8_t> MetaModel::clampedNodes() const {
   return clamped;
 }
 
-MetaModel::MetaModel(ModelImage image, ModelAttributes attributes, const ModelView& view,
-                     const Digest& digest)
+MetaModel::MetaModel(ModelImage image, ModelContents contents, const Digest& digest)
     : image_(std::move(image)),
-      attributes_(std::move(attributes)),
-      view_(view),
+      copies_(std::move(contents.copies)),
+      attributes_(std::move(contents.attributes)),
+      view_(contents.view),
       digest_(digest),
       functions_(view_, attributes_, attributes_.order),
       surface_(view_),
@@ -169,7 +169,7 @@ MetaModel::MetaModel(ModelImage image, ModelAttributes attributes, const ModelVi
       mixing_(view_, surface_),
       patches_(patchesOf(view_, attributes_)),
       far_field_(view_),
-      amplitudes_(view_.modes_Y, view_.modes_Y_scale, modeRows(view_), view_.modes()),
+      amplitudes_(view_.modes_Y, view_.modes_Y_scale, modeRows(view_), view_.positionModes()),
       near_field_({view_.near_offset, view_.near_node, view_.near_field, view_.near_scale}, modeRows(view_)),
       near_reach_(
           near_field_.reach(pointsOf(view_.surface_positions, view_.contact_node), view_.surface_positions)),
@@ -179,7 +179,7 @@ MetaModel::MetaModel(ModelImage image, ModelAttributes attributes, const ModelVi
       edge_reach_(edge_field_.reach(edgeMidpoints(surface_, places_, view_), view_.surface_positions)),
       linear_field_(view_) {
   if (!isDisplacementDriven()) return;
-  checkLoadedNodes(view_, patches_);
+  checkLoadedNodes(view_, patches_, linear_field_);
   checkDimpleWork(view_, attributes_, patches_);
   dimple_ = ContactDimple({view_, surface_, places_, patches_, stiffness_, mixing_, far_field_, amplitudes_,
                            near_field_, edge_field_, linear_field_, index(functions_.size()),

@@ -100,9 +100,10 @@ class MetaModel {
   [[nodiscard]] bool locked() const noexcept { return image_.locked; }
 
  private:
-  MetaModel(ModelImage image, ModelAttributes attributes, const ModelView& view, const Digest& digest);
+  MetaModel(ModelImage image, ModelContents contents, const Digest& digest);
 
   ModelImage image_;
+  std::shared_ptr<const void> copies_;  // of arrays that are stored in fewer bytes
   ModelAttributes attributes_;
   ModelView view_;
   Digest digest_;

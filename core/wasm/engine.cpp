@@ -53,8 +53,8 @@ const char* inWords(Work&& work) {
 }
 
 NumberType typeOf(int number) {
-  constexpr std::array kTypes{NumberType::kF64, NumberType::kF32, NumberType::kI16,       NumberType::kI32,
-                              NumberType::kI64, NumberType::kU8,  NumberType::kRegionName};
+  constexpr std::array kTypes{NumberType::kF64, NumberType::kF32, NumberType::kI16,        NumberType::kI32,
+                              NumberType::kI64, NumberType::kU8,  NumberType::kRegionName, NumberType::kI8};
   return kTypes.at(static_cast<std::size_t>(number));
 }
 
@@ -79,7 +79,7 @@ EMSCRIPTEN_KEEPALIVE void palpate_numbers(const char* name, const double* values
   reader->addAttribute(name, std::vector<double>(values, values + count));
 }
 
-/// Room for an array. @param type  0 f64, 1 f32, 2 i16, 3 i32, 4 i64, 5 u8, 6 names of regions  @param shape  `rank` lengths
+/// Room for an array. @param type  0 f64, 1 f32, 2 i16, 3 i32, 4 i64, 5 u8, 6 names of regions, 7 i8  @param shape  `rank` lengths
 /// @return where its bytes belong; null without memory
 EMSCRIPTEN_KEEPALIVE void* palpate_array(const char* path, int type, int rank, const double* shape,
                                          std::size_t bytes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An organ in a page or in node: core as WebAssembly, with a model file that h5wasm has opened.
-const TYPES = { '<d': 0, '<f': 1, '<h': 2, '<i': 3, '<q': 4, '<B': 5 };
+const TYPES = { '<d': 0, '<f': 1, '<h': 2, '<i': 3, '<q': 4, '<B': 5, '<b': 7 };
 const OTHER = 6; // of a region's name, text of a fixed length; core refuses what is neither
 const MOST_AT_ONCE = 4e6; // bytes that h5wasm holds beside the file and core
 

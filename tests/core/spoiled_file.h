@@ -32,7 +32,7 @@ inline void expectRefused(const std::filesystem::path& path, const std::string& 
 }
 
 /// Opens a good file for spoiling, with the alignment of the writer.
-inline Hdf5Handle openForSpoiling(const std::filesystem::path& path, hsize_t alignment = 4096) {
+inline Hdf5Handle openForSpoiling(const std::filesystem::path& path, hsize_t alignment = 64) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_alignment(access.get(), 0, alignment);
   return {H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose};

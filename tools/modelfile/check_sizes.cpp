@@ -67,7 +67,7 @@ void checkLevels(const ModelData& d, std::size_t C) {
 void checkFields(const ModelData& d, std::size_t Ns, std::size_t M, std::size_t C) {
   expectTuples(dataset::kModesX.name(), d.modes_X.size(), 3 * Ns);
   const std::size_t n = modeCount(d), Cm = modeCoefficients(d.attributes, C);
-  expectSize(dataset::kModesY.name(), d.modes_Y.size(), M * Cm * n);
+  expectSize(dataset::kModesY.name(), d.modes_Y.size(), M * Cm * positionModes(d));
   expectSize(dataset::kNearOffset.name(), d.near_offset.size(), M + 1);
   expectSize(dataset::kNearField.name(), d.near_field.size(), 3 * Cm * d.near_node.size());
   const bool displaced = d.attributes.parameters == Parameters::kDisplacement;

@@ -19,9 +19,9 @@ void require(bool good, const std::string& what) {
 }
 
 Hdf5Handle aligned() {
-  constexpr hsize_t kAlignment = 4096;
+  constexpr hsize_t kAlignment = 64;
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  require(access.valid() && H5Pset_alignment(access.get(), 0, kAlignment) >= 0, "pages");
+  require(access.valid() && H5Pset_alignment(access.get(), 0, kAlignment) >= 0, "aligned arrays");
   return access;
 }
 

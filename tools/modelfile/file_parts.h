@@ -11,7 +11,7 @@ namespace palpate::modelfile {
 
 void require(bool good, const std::string& what);
 
-/// How a model file is opened for writing: all of its objects begin on a page.
+/// How a model file is opened for writing: its objects begin at multiples of 64 bytes.
 [[nodiscard]] Hdf5Handle aligned();
 
 /// A text attribute of the root, of variable length: a long one does not meet the 64 KiB limit of an object header.

@@ -28,6 +28,8 @@ class ModelFileError : public std::runtime_error {
 /// true coefficient * d_ref^|alpha|, or f_ref^|alpha|. Indices are 0-based.
 struct ModelData {
   ModelAttributes attributes;  ///< law: one of kLaws; provenance is the text of a JSON object
+  /// Fields in whole numbers of 8 bits, and each array in the fewest bytes that hold its numbers: for small machines
+  bool compact{false};
 
   std::vector<double> surface_positions;         ///< [Ns][3] m
   std::vector<std::int32_t> surface_triangles;   ///< [T][3] counter-clockwise from outside
@@ -51,7 +53,8 @@ struct ModelData {
   std::vector<double> contact_series_radius;       ///< [M] of a "displacement" model: r_max, m
   std::vector<double> levels_Z;                    ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::vector<float> modes_X;                      ///< [n][3 Ns]
-  std::vector<float> modes_Y;                      ///< [M][Cm][n] m
+  std::vector<float> modes_Y;                      ///< [M][Cm][nY] m, nY = positionModes()
+  std::size_t position_modes{0};                   ///< nY; 0: all n
   std::vector<std::int64_t> near_offset;           ///< [M+1]
   std::vector<std::int32_t> near_node;             ///< [sum K]
   std::vector<float> near_field;                   ///< per position [Cm][K_m][3] m
@@ -84,6 +87,11 @@ struct ModelData {
 /// n, the number of modes; 0 without a surface.
 [[nodiscard]] inline std::size_t modeCount(const ModelData& d) {
   return d.surface_mesh_tag.empty() ? 0 : d.modes_X.size() / (3 * d.surface_mesh_tag.size());
+}
+
+/// nY, the modes, the first, that contact positions have amplitudes of.
+[[nodiscard]] inline std::size_t positionModes(const ModelData& d) {
+  return d.position_modes == 0 ? modeCount(d) : d.position_modes;
 }
 
 }  // namespace palpate::modelfile

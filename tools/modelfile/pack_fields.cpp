@@ -11,20 +11,20 @@ namespace palpate::modelfile {
 
 namespace {
 
-float scaleFor(std::span<const float> block) {
-  float most = 0.0F;
+float scaleFor(std::span<const float> block, float most) {
+  float largest = 0.0F;
   for (const float number : block) {
     if (!std::isfinite(number)) return number;
-    most = std::max(most, std::abs(number));
+    largest = std::max(largest, std::abs(number));
   }
-  return std::max(most / 32767.0F, std::numeric_limits<float>::min());
+  return std::max(largest / most, std::numeric_limits<float>::min());
 }
 
-/// Raises the share of each mode to its largest amplitude over the largest of all.
-void raiseShares(std::span<const float> Y, std::span<float> share) {
+/// Raises the share of each mode to its largest amplitude over the largest of all. @param n  modes that Y has
+void raiseShares(std::span<const float> Y, std::size_t n, std::span<float> share) {
   std::vector<float> largest(share.size(), 0.0F);
   for (std::size_t i = 0; i < Y.size(); ++i)
-    if (std::isfinite(Y[i])) largest[i % share.size()] = std::max(largest[i % share.size()], std::abs(Y[i]));
+    if (std::isfinite(Y[i])) largest[i % n] = std::max(largest[i % n], std::abs(Y[i]));
   const float most = largest.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
   for (std::size_t k = 0; k < share.size() && most > 0.0F; ++k)
     share[k] = std::max(share[k], largest[k] / most);
@@ -33,7 +33,7 @@ void raiseShares(std::span<const float> Y, std::span<float> share) {
 /// Y_k / share_k. Without modes too, each row has its scale.
 void addAmplitudes(std::span<const float> Y, std::size_t rows, std::span<const float> share,
                    PackedNumbers& to) {
-  const std::size_t n = share.size();
+  const std::size_t n = share.size();  // modes that Y has
   std::vector<float> row(n);
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t k = 0; k < n; ++k) row[k] = Y[r * n + k] / share[k];
@@ -43,17 +43,17 @@ void addAmplitudes(std::span<const float> Y, std::size_t rows, std::span<const f
 
 /// X_k share_k and Y_k / share_k: a row of Y has one scale, and would round weak modes as coarsely as strong ones.
 void packModes(const ModelData& data, PackedFields& to) {
-  const std::size_t n = modeCount(data), numbers = 3 * data.surface_mesh_tag.size();
+  const std::size_t n = modeCount(data), nY = positionModes(data), numbers = 3 * data.surface_mesh_tag.size();
   std::vector<float> share(n, 0.0F), mode(numbers);
-  raiseShares(data.modes_Y, share);
-  raiseShares(data.green_Y, share);
+  raiseShares(data.modes_Y, nY, share);
+  raiseShares(data.green_Y, n, share);
   for (float& s : share) s = s > 0.0F ? s : 1.0F;  // of a mode without amplitudes
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t i = 0; i < numbers; ++i) mode[i] = share[k] * data.modes_X[k * numbers + i];
     to.X.add(mode);
   }
   const std::size_t Cm = modeCoefficients(data.attributes, fieldCoefficients(data));
-  addAmplitudes(data.modes_Y, data.contact_node.size() * Cm, share, to.Y);
+  addAmplitudes(data.modes_Y, data.contact_node.size() * Cm, std::span(share).first(nY), to.Y);
   addAmplitudes(data.green_Y, data.green_node.size() * kLinearCoefficients, share, to.green_Y);
 }
 
@@ -79,15 +79,19 @@ void packNear(std::span<const float> near, std::span<const std::int64_t> offset,
 }  // namespace
 
 void PackedNumbers::add(std::span<const float> block) {
-  scale.push_back(scaleFor(block));
+  scale.push_back(scaleFor(block, most));
   for (const float number : block) {
     const float steps = std::isfinite(scale.back()) ? std::nearbyint(number / scale.back()) : 0.0F;
-    whole.push_back(static_cast<std::int16_t>(std::clamp(steps, -32767.0F, 32767.0F)));
+    whole.push_back(static_cast<std::int16_t>(std::clamp(steps, -most, most)));
   }
 }
 
 PackedFields packFields(const ModelData& data) {
   PackedFields packed;
+  if (data.compact)
+    for (PackedNumbers* part :
+         {&packed.X, &packed.Y, &packed.near, &packed.green_Y, &packed.green_near, &packed.edges})
+      part->most = 127.0F;
   packModes(data, packed);
   packNear(data.near_field, data.near_offset, modeCoefficients(data.attributes, fieldCoefficients(data)),
            packed.near);

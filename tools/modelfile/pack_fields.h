@@ -11,10 +11,11 @@ namespace palpate::modelfile {
 
 /// Whole numbers with a scale for each block: number = scale * whole.
 struct PackedNumbers {
+  float most{32767.0F};  ///< what the largest number of a block becomes
   std::vector<std::int16_t> whole;
   std::vector<float> scale;  ///< > 0; infinity or NaN where the block has one
 
-  /// Adds a block, its largest number as 32767: the rounding is at most half its scale.
+  /// Adds a block: the rounding is at most half its scale.
   void add(std::span<const float> block);
 };
 
@@ -25,6 +26,7 @@ struct PackedFields {
   PackedNumbers X, Y, near, green_Y, green_near, edges;
 };
 
+/// Of compact data whole numbers are of 8 bits, -127 to 127.
 /// @param data  of sizes that fit each other
 [[nodiscard]] PackedFields packFields(const ModelData& data);
 

@@ -3,9 +3,12 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/data/datasets.h"
@@ -39,6 +42,9 @@ Hdf5Handle typeOf(std::int32_t) {
 Hdf5Handle typeOf(std::int64_t) {
   return copyOf(H5T_STD_I64LE);
 }
+Hdf5Handle typeOf(std::int8_t) {
+  return copyOf(H5T_STD_I8LE);
+}
 Hdf5Handle typeOf(std::uint8_t) {
   return copyOf(H5T_STD_U8LE);
 }
@@ -49,7 +55,30 @@ Hdf5Handle typeOf(const RegionName&) {
   return text;
 }
 
-/// Creates the temporary file, all of whose objects begin on a page.
+/// Whether numbers stay what they are in another type.
+template <typename Narrow, typename T>
+bool fit(std::span<const T> values) {
+  return std::all_of(values.begin(), values.end(), [](T number) {
+    return number >= static_cast<T>(std::numeric_limits<Narrow>::lowest()) &&
+           number <= static_cast<T>(std::numeric_limits<Narrow>::max()) &&
+           static_cast<T>(static_cast<Narrow>(number)) == number;
+  });
+}
+
+/// Calls with(a number of the type that an array is stored in): of fewest bytes, where data are compact.
+template <typename T, class With>
+auto asStored(std::span<const T> values, bool compact, const With& with) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (compact && fit<float>(values)) return with(float{});
+  } else if constexpr (std::is_integral_v<T> && sizeof(T) > 1) {
+    if (compact && fit<std::int8_t>(values)) return with(std::int8_t{});
+    if (compact && sizeof(T) > 2 && fit<std::int16_t>(values)) return with(std::int16_t{});
+    if (compact && sizeof(T) > 4 && fit<std::int32_t>(values)) return with(std::int32_t{});
+  }
+  return with(T{});
+}
+
+/// Creates the temporary file.
 Hdf5Handle createFile(const std::string& path) {
   Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, aligned().get()), H5Fclose);
   require(file.valid(), path);
@@ -80,7 +109,7 @@ void makeGroups(const Hdf5Handle& file, const ModelData& data) {
 
 template <typename T>
 void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, std::span<const T> values,
-                  const LengthTable& lengths) {
+                  const LengthTable& lengths, bool compact) {
   const char* const name = what.path;
   const std::vector<std::uint64_t> numbers = shapeOf(what.shape, lengths);
   const std::vector<hsize_t> shape(numbers.begin(), numbers.end());
@@ -90,9 +119,10 @@ void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, std::span<cons
   H5Pset_layout(creation.get(), H5D_CONTIGUOUS);
   H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(creation.get(), H5D_FILL_TIME_NEVER);  // every number is written below
-  const Hdf5Handle type = typeOf(T{});
+  const Hdf5Handle type = typeOf(T{}),
+                   stored = asStored(values, compact, [](const auto&number) { return typeOf(number); });
   const Hdf5Handle dataset(
-      H5Dcreate2(file.get(), name, type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+      H5Dcreate2(file.get(), name, stored.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
       H5Dclose);
   require(dataset.valid(), name);
   if (values.empty()) return;
@@ -129,11 +159,11 @@ struct AttributeWriter {
   }
 };
 
-void writeContent(const Hdf5Handle& file, const ModelAttributes& a, const ModelView& v) {
+void writeContent(const Hdf5Handle& file, const ModelAttributes& a, const ModelView& v, bool compact) {
   const LengthTable lengths = lengthsOf(a, v);
   forEachAttribute(a, AttributeWriter{file});
   forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, std::span<const T> values) {
-    writeDataset(file, what, values, lengths);
+    writeDataset(file, what, values, lengths, compact);
   });
   const std::string digest = contentDigest(a, v).hex();
   writeText(file, "digest", digest);
@@ -200,12 +230,26 @@ void writeAll(const std::string& path, const ModelData& data) {
   attributes.force_order = forceOrder(attributes);
   makeGroups(file, data);
   const PackedFields fields = packFields(data);
-  writeContent(file, attributes, viewOf(data, fields));
+  writeContent(file, attributes, viewOf(data, fields), data.compact);
   require(file.closeNow(), path);
   sync(path);
 }
 
 }  // namespace
+
+std::uint64_t storedBytes(const ModelData& data) {
+  const PackedFields fields = packFields(data);
+  const ModelView view = viewOf(data, fields);
+  constexpr std::uint64_t kFile = 20000, kDataset = 512;  // of HDF5's own
+  std::uint64_t bytes = kFile + data.attributes.provenance.size();
+  forEachDataset(data.attributes, view, [&]<class T>(const Dataset<T>&, std::span<const T> values) {
+    const std::uint64_t size = values.size() * asStored(values, data.compact, [](const auto& number) {
+                                 return std::uint64_t{sizeof number};
+                               });
+    bytes += (size + kAlignment - 1) / kAlignment * kAlignment + kDataset;
+  });
+  return bytes;
+}
 
 void writeModel(const std::filesystem::path& path, const ModelData& data) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out

@@ -8,11 +8,14 @@
 namespace palpate::modelfile {
 
 /// Writes a model file (docs/model_file.md).
-/// Contiguous, early-allocated, aligned to 4096 bytes.
+/// Contiguous, early-allocated, aligned to 64 bytes.
 /// Written to `path.tmp-PID` beside the target, synced, renamed: a reader sees the old file or the new one,
 /// never a part.
 /// @throw ModelFileError naming the dataset when sizes do not fit each other, or the file that cannot be
 /// written
 void writeModel(const std::filesystem::path& path, const ModelData& data);
+
+/// About what writeModel() makes of it, bytes: arrays, and what HDF5 adds to them. @param data  parts may be empty
+[[nodiscard]] std::uint64_t storedBytes(const ModelData& data);
 
 }  // namespace palpate::modelfile

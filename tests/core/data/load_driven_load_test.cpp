@@ -211,10 +211,10 @@ INSTANTIATE_TEST_SUITE_P(
                   [](const auto& p) { setNumber(p, "load_direction", H5T_NATIVE_DOUBLE, 1.0); }},
         WrongFile{"NoLevels", Parameters::kLevel, "/levels is missing",
                   [](const auto& p) { deleteThing(p, nullptr, "levels"); }},
-        WrongFile{"LevelsInSinglePrecision", Parameters::kLevel,
-                  "/levels/Z is little-endian 32-bit float, expected little-endian 64-bit float",
+        WrongFile{"LevelsInWholeNumbers", Parameters::kLevel,
+                  "/levels/Z is little-endian 32-bit integer, expected little-endian 64-bit float",
                   [](const auto& p) {
-                    replaceWith(p, "levels/Z", H5T_IEEE_F32LE, {3, 11});
+                    replaceWith(p, "levels/Z", H5T_STD_I32LE, {3, 11});
                   }},
         WrongFile{"LevelsOfRankOne", Parameters::kLevel, "/levels/Z has shape 33, expected C x L + 1",
                   [](const auto& p) { replaceWith(p, "levels/Z", H5T_IEEE_F64LE, {33}); }},

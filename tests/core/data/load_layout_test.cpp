@@ -18,7 +18,7 @@ struct Replacement {
   std::vector<hsize_t> shape{};  ///< empty: that of the good /contact/force
   std::function<void(hid_t)> creation{[](hid_t) {}};
   bool write{true};
-  hsize_t alignment{4096};
+  hsize_t alignment{64};
   const char* dataset{"contact/force"};
 };
 
@@ -99,9 +99,11 @@ std::vector<WrongLayout> layouts() {
   return {
       replaced("BigEndian", "/contact/force is big-endian 64-bit float, expected little-endian 64-bit float",
                {.type = H5T_IEEE_F64BE}),
-      replaced("SinglePrecision",
-               "/contact/force is little-endian 32-bit float, expected little-endian 64-bit float",
-               {.type = H5T_IEEE_F32LE}),
+      replaced("MoreBytesThanWanted",
+               "/near/node is little-endian 64-bit integer, expected little-endian 32-bit integer",
+               {.type = H5T_STD_I64LE, .dataset = "near/node"}),
+      replaced("Unsigned", "/near/node is little-endian 16-bit unsigned integer, expected",
+               {.type = H5T_STD_U16LE, .dataset = "near/node"}),
       replaced("Integers", "/contact/force is little-endian 64-bit integer, expected",
                {.type = H5T_STD_I64LE}),
       replaced("Chunked", "/contact/force is chunked, expected contiguous", {.creation = chunk}),
@@ -110,7 +112,7 @@ std::vector<WrongLayout> layouts() {
                {.creation = allocateLate, .write = false}),
       replaced("External", "/contact/force lies in another file",
                {.creation = storeElsewhere, .write = false}),
-      replaced("Unaligned", "expected a multiple of 4096", {.alignment = 1}),
+      replaced("Unaligned", "expected a multiple of 64", {.alignment = 1000}),
       replaced("WrongShape", "/contact/force has shape " + M + " x 9 x 3, expected M = " + M + " x 19 x 3",
                {.shape = {forceShape()[0], 9, 3}}),
       replaced("WrongRank", "/contact/force has shape 57, expected", {.shape = {57}}),

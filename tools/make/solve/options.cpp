@@ -24,6 +24,17 @@ void setDirection(const std::string& text, solver::LoadCase& load) {
   load.direction = x.stableNormalized();
 }
 
+/// In the place of what a case for another target says of size and exactness.
+void setTarget(const std::string& name, solver::Case& c) {
+  if (name != "server" && name != "handheld")
+    throw solver::CaseError("--target " + name + " is not known (known: server, handheld)");
+  const solver::Target target = name == "handheld" ? solver::Target::kHandheld : solver::Target::kServer;
+  if (target == c.target) return;
+  c.target = target;
+  for (std::optional<double>* key : {&c.travel, &c.size_limit, &c.near_radius, &c.field_error}) key->reset();
+  for (std::optional<int>* key : {&c.order, &c.force_order, &c.modes}) key->reset();
+}
+
 void override(const Options& options, solver::Case& c) {
   if (options.method) {
     try {
@@ -42,6 +53,8 @@ void override(const Options& options, solver::Case& c) {
   }
   c.mesh_error = c.mesh_error || options.mesh_error;
   if (options.element_order) c.element_order = options.element_order;
+  if (options.target) setTarget(*options.target, c);
+  if (options.size_limit) c.size_limit = options.size_limit;
   if (options.modes) {
     c.modes = options.modes;
     c.field_error.reset();
@@ -87,6 +100,14 @@ void describe(program::Options line, Options& options) {
            "series-displacement: how far tools press, m; chooses the degrees of fields and force, for those "
            "of the case")
       .range(1e-9, solver::kLargestRadius);
+  line.add("--target", &options.target,
+           "server (the default), or handheld: a small file for a phone or a page, of order 3 and 4 mm of "
+           "travel, or of "
+           "order 5 where the travel is longer; for what the case says of these");
+  line.add(
+          "--size-limit", &options.size_limit,
+          "handheld: of the file, bytes (default: 8e6 at order 3, 20e6 above); chooses modes and near fields")
+      .range(1e5, 1e12);
   line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
   line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);

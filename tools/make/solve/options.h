@@ -24,6 +24,8 @@ struct Options {
   std::optional<int> element_order;
   bool mesh_error{false};
   std::optional<int> modes, order, steps;
+  std::optional<std::string> target;
+  std::optional<double> size_limit;
   std::optional<double> travel;          ///< m
   std::optional<std::string> direction;  ///< "x,y,z" or "any"
   std::optional<double> load;            ///< N

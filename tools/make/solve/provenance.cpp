@@ -46,6 +46,10 @@ void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solv
                            {"seconds", stages(c.method, report)}};
   if (report.mesh_error) provenance["mesh_error"] = meshErrorOf(report);
   if (report.travel) provenance["travel"] = report.travel->travel;
+  if (report.size) {
+    provenance["target"] = "handheld";
+    provenance["size"] = sizeOf(report);
+  }
   if (report.fit_errors.empty()) {
     provenance["load"] = loadOf(c, report);
     provenance["pairs"] = report.greedy_pairs;

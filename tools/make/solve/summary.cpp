@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -159,6 +160,32 @@ void printTravel(const Json& s) {
                  mm, 100.0 * share);
 }
 
+/// What a size limit chose, and what would make a file fit that does not.
+void printSize(const Json& s) {
+  const Json* const size = s.find("size");
+  if (size == nullptr) return;
+  const auto mb = [&](const char* key) { return 1e-6 * size->at(key).get<double>(); };
+  const double bytes = 1e-6 * s["file_bytes"].get<double>();
+  std::fprintf(
+      stderr,
+      "handheld, at most %.4g MB: modes take %.2f MB, near fields %.2f MB, all else %.2f MB; near fields "
+      "leave out nodes that one position or load, by itself, moves by less than %.2f %% of d\n",
+      mb("limit"), mb("modes"), mb("near_fields"), mb("fixed"), 100.0 * size->at("left_out").get<double>());
+  if (bytes > mb("limit"))
+    std::fprintf(
+        stderr,
+        "warning: the file has %.4g MB, more than the asked %.4g: --size-limit %.3g fits, and so may larger "
+        "elements (%zu surface nodes), a smaller accessible part (%zu contact positions) or a lower order\n",
+        bytes, mb("limit"), 1e6 * std::ceil(10.0 * bytes) / 10.0, s["surface_nodes"].get<std::size_t>(),
+        s["contact_positions"].get<std::size_t>());
+  constexpr double kMuch = 0.05;
+  if (s["fit_p95"].get<double>() > kMuch)
+    std::fprintf(
+        stderr,
+        "warning: at this size the field that is shown may be off by more than 5 %% of d (the force is not "
+        "touched by it): a larger --size-limit, or what makes a file fit, helps\n");
+}
+
 /// How far tools may press.
 void printReach(const Json& s) {
   if (!s.contains("reach")) return;
@@ -181,6 +208,13 @@ Json meshErrorOf(const solver::BuildReport& report) {
   error["mean"] = e.points > 0 ? Json(e.mean) : Json();
   error["max"] = e.points > 0 ? Json(e.largest) : Json();
   return error;
+}
+
+Json sizeOf(const solver::BuildReport& report) {
+  const solver::SizeChoice& size = *report.size;
+  return {{"limit", size.limit},       {"fixed", size.fixed},
+          {"modes", size.modes},       {"near_fields", size.near_fields},
+          {"left_out", size.left_out}, {"shared_loads", report.shared_loads}};
 }
 
 Json stages(Method method, const solver::BuildReport& report) {
@@ -243,6 +277,8 @@ Json summarize(const std::filesystem::path& output, const solver::Case& c, const
   }
   if (report.median_edge > 0.0) s["median_surface_edge"] = report.median_edge;
   if (report.mesh_error) s["mesh_error"] = meshErrorOf(report);
+  s["target"] = c.handheld() ? "handheld" : "server";
+  if (report.size) s["size"] = sizeOf(report);
   if (const auto& travel = report.travel)
     s["travel"] = {
         {"travel", travel->travel},
@@ -280,6 +316,7 @@ void print(const Json& s) {
   printFit(s);
   printRadius(s);
   printTravel(s);
+  printSize(s);
   printReach(s);
   std::fprintf(stderr, "model: %s, %.1f MB; peak memory %.0f MiB\n", s["model"].get<std::string>().c_str(),
                1e-6 * s["file_bytes"].get<double>(), s["peak_memory_MiB"].get<double>());

@@ -13,6 +13,9 @@ namespace palpate::solve_program {
 /// mean, max, points. @param report  with a mesh error
 [[nodiscard]] program::Json meshErrorOf(const solver::BuildReport& report);
 
+/// What of a handheld file goes where. @param report  with a size
+[[nodiscard]] program::Json sizeOf(const solver::BuildReport& report);
+
 /// Seconds by what was done, in the method's own stages.
 [[nodiscard]] program::Json stages(solver::Method method, const solver::BuildReport& report);
 

@@ -31,6 +31,15 @@ struct TravelOrders {
   int places;    ///< that were tried
 };
 
+/// What a size limit chose.
+struct SizeChoice {
+  double limit;             ///< bytes
+  double fixed;             ///< bytes of all but modes and near fields
+  double modes;             ///< bytes of the modes
+  double near_fields{0.0};  ///< bytes of the near fields
+  double left_out{0.0};     ///< near fields leave out what moves a node by less than this part of abs(d)
+};
+
 /// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
 struct BuildReport {
   double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
@@ -41,6 +50,8 @@ struct BuildReport {
   double median_edge{0};                  ///< of the surface, corner to corner, m
   std::optional<MeshError> mesh_error{};  ///< where the case asks for it
   std::optional<TravelOrders> travel{};   ///< where it chose the orders
+  std::optional<SizeChoice> size{};       ///< where the case has a limit
+  double shared_loads{0};                 ///< SharedLoads::error, where loads are shared
   double fit_asked{0};                    ///< of fit_p95, where it chose the modes: the case's field_error
   int greedy_pairs{0};                    ///< PGD methods: pairs before recompression
   double residual{0};         ///< PGD methods: of the last enrichment, dual norm, relative, an estimate

@@ -73,6 +73,16 @@ SpringCase readSpring(Section& section) {
   return spring;
 }
 
+/// One of two words. @return whether it is the second
+std::optional<bool> choice(Section& section, const std::string& key, const std::string& no,
+                           const std::string& yes) {
+  const std::optional<std::string> word = section.take<std::string>(key, "a string");
+  if (word && *word != no && *word != yes)
+    section.refuse(section.node(key), key,
+                   "= \"" + *word + "\" is not known (known: " + no + ", " + yes + ")");
+  return word ? std::optional<bool>(*word == yes) : std::nullopt;
+}
+
 void readModel(const std::string& file, const toml::table& table, Case& c) {
   Section section(file, "model", table);
   if (const auto name = section.take<std::string>("method", "a string")) {
@@ -90,17 +100,9 @@ void readModel(const std::string& file, const toml::table& table, Case& c) {
   c.near_radius = section.number("near_radius", 0.0, true, 1.0);
   c.field_error = section.number("field_error", 0.0, false, 0.999);
   c.sweeps = section.integer("sweeps", 1, 1000);
+  if (choice(section, "target", "server", "handheld").value_or(false)) c.target = Target::kHandheld;
+  c.size_limit = section.number("size_limit", 1e5, true, 1e12);
   section.refuseTheRest();
-}
-
-/// One of two words. @return whether it is the second
-std::optional<bool> choice(Section& section, const std::string& key, const std::string& no,
-                           const std::string& yes) {
-  const std::optional<std::string> word = section.take<std::string>(key, "a string");
-  if (word && *word != no && *word != yes)
-    section.refuse(section.node(key), key,
-                   "= \"" + *word + "\" is not known (known: " + no + ", " + yes + ")");
-  return word ? std::optional<bool>(*word == yes) : std::nullopt;
 }
 
 /// Three numbers, not all zero, or "any".

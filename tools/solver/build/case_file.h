@@ -67,6 +67,12 @@ struct SpringCase {
   std::string place;      ///< file, line and key of the group, for messages
 };
 
+/// Who the model is for.
+enum class Target : std::uint8_t {
+  kServer,    ///< as exact as it is asked for, whatever its size
+  kHandheld,  ///< a phone, a page: a small file, whose field is less exact than its force
+};
+
 /// What to solve: the contents of a case file, or the defaults for a bare mesh. SI units. Absent keys have
 /// defaults that depend on the method.
 struct Case {
@@ -88,6 +94,8 @@ struct Case {
   std::optional<int> modes;            ///< n, 1 to 2000; absent: by field_error beside a near field, else 167
   std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a
   std::optional<double> field_error;   ///< largest error of the field over abs(d), (0, 1); absent: 0.01
+  Target target{Target::kServer};
+  std::optional<double> size_limit;  ///< of the file, bytes, [1e5, 1e12]; handheld only; absent: 8 or 20 MB
   std::optional<int> sweeps;  ///< of the fit of the modes, 1 to 1000; absent: 2 beside a near field, else 6
   LoadCase load;
   PgdCase pgd;
@@ -99,7 +107,16 @@ struct Case {
   }
   /// Of the load-driven methods.
   [[nodiscard]] int modesOrDefault() const { return modes.value_or(167); }
+  [[nodiscard]] bool handheld() const { return target == Target::kHandheld; }
   [[nodiscard]] double nearRadiusOrDefault(double a) const { return near_radius.value_or(4.5 * a); }
+  /// Of a handheld model: how far a tool presses at order 3 and less, and at more, m.
+  [[nodiscard]] double travelOrDefault() const {
+    return travel.value_or(order.value_or(3) <= 3 ? kHandheldTravel : kHandheldLongTravel);
+  }
+  [[nodiscard]] double sizeLimitOrDefault() const {
+    return size_limit.value_or(order.value_or(3) <= 3 && travelOrDefault() <= kHandheldTravel ? 8e6 : 20e6);
+  }
+  static constexpr double kHandheldTravel = 0.004, kHandheldLongTravel = 0.007;
   [[nodiscard]] double fieldErrorOrDefault() const { return field_error.value_or(0.01); }
   [[nodiscard]] int sweepsOrDefault() const {
     return sweeps.value_or(method == Method::kSeriesDisplacement ? 2 : 6);

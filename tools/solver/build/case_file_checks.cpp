@@ -49,6 +49,8 @@ void checkKeys(const Case& c) {
            {"model.near_radius", c.near_radius.has_value(), kDisplacement, "its model is modes only"},
            {"model.field_error", c.field_error.has_value(), kDisplacement,
             "its modes are as many as model.modes"},
+           {"model.target", c.handheld(), kDisplacement, "its size is that of its modes"},
+           {"model.size_limit", c.size_limit.has_value(), kDisplacement, "its size is that of its modes"},
            {"model.sweeps", c.sweeps.has_value(), kSeries,
             "it fits no table of fields; pgd.sweeps sets the sweeps of a pair"},
            {"load.direction", direction, kPgd, any_load},
@@ -109,6 +111,11 @@ void checkCase(const Case& c) {
     throw CaseError("model.force_order = " + std::to_string(orders.answer) +
                     " does not go with fields of order " + std::to_string(orders.fields) + ": expected " +
                     std::to_string(orders.leastAnswer()) + " to " + std::to_string(orders.mostAnswer()));
+  if (c.size_limit && !c.handheld())
+    throw CaseError("model.size_limit does not go with model.target = \"server\": it is for handheld");
+  if (c.handheld() && c.field_error)
+    throw CaseError(
+        "model.field_error does not go with model.target = \"handheld\": model.size_limit chooses the modes");
   if (c.modes && c.field_error)
     throw CaseError("model.field_error does not go with model.modes: it chooses their number");
   if (c.nodalLoad() && c.patch_radius)

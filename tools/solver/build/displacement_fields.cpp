@@ -11,6 +11,25 @@
 
 namespace palpate::solver {
 
+namespace {
+
+/// The monomials from degree 2 on at abs(d) = x d_ref in 26 directions, C - 3 x 26.
+Eigen::MatrixXf bentDirections(const MonomialBasis& basis, double x) {
+  Eigen::MatrixXf out(basis.size() - 3, 26);
+  std::vector<double> values(static_cast<std::size_t>(basis.size()));
+  for (int cell = 0, q = 0; cell < 27; ++cell) {
+    const Vec3 way(cell / 9 - 1, cell / 3 % 3 - 1, cell % 3 - 1);
+    if (way.isZero()) continue;
+    basis.evaluate(x * way.normalized(), values);
+    for (Eigen::Index k = 0; k < out.rows(); ++k)
+      out(k, q) = static_cast<float>(values[static_cast<std::size_t>(k) + 3]);
+    ++q;
+  }
+  return out;
+}
+
+}  // namespace
+
 void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const NearNodes> near,
                  int workers, modelfile::ModelData& data) {
   const Eigen::MatrixXf amplitudes = amplitudesOf(greens, X, workers);
@@ -43,16 +62,15 @@ void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<c
   });
 }
 
-void storeNearField(const FitProblem& problem, const FarField& far, std::span<const NearNodes> near,
-                    int workers, modelfile::ModelData& data) {
-  constexpr double kUnseen = 2e-4;  // of the travel: what is less at a node is left out
+std::vector<float> storeNearField(const FitProblem& problem, const FarField& far,
+                                  std::span<const NearNodes> near, int workers, modelfile::ModelData& data) {
   const FieldTable& table = problem.table;
   const MonomialBasis& basis = problem.basis;
   const std::size_t M = problem.sources.size(), n = static_cast<std::size_t>(far.X.cols());
   const Eigen::Index C = basis.size(), linear = 3;
   data.modes_Y.resize(M * static_cast<std::size_t>(C - linear) * n);
   std::vector<std::vector<std::int32_t>> nodes(M);
-  std::vector<std::vector<float>> blocks(M);
+  std::vector<std::vector<float>> blocks(M), sizes(M);
   parallelFor(workers, M, [&](int, std::size_t position) {
     std::vector<float> fields(static_cast<std::size_t>(C) * table.rows());
     table.read(position, fields);
@@ -60,8 +78,8 @@ void storeNearField(const FitProblem& problem, const FarField& far, std::span<co
     Eigen::Map<Eigen::MatrixXf>(data.modes_Y.data() + position * static_cast<std::size_t>(C - linear) * n,
                                 Y.rows(), Y.cols()) = Y;
     Eigen::Map<const Eigen::MatrixXf> U(fields.data(), static_cast<Eigen::Index>(table.rows()), C);
-    const double least = kUnseen * problem.sources[position].ball_radius;
-    const double x = problem.sources[position].ball_radius / problem.reference;
+    const double ball = problem.sources[position].ball_radius, x = ball / problem.reference;
+    const Eigen::MatrixXf directions = bentDirections(basis, x);
     std::vector<Eigen::Matrix3Xf> kept;
     const NearNodes& own = near[position];
     for (std::size_t j = 0; j < own.nodes.size(); ++j) {
@@ -74,20 +92,25 @@ void storeNearField(const FitProblem& problem, const FarField& far, std::span<co
         u.col(k) += U.block<3, 1>(row, alpha) * static_cast<float>(std::pow(problem.reference, degree));
         size += static_cast<double>(u.col(k).norm()) * std::pow(x, degree);
       }
-      if (static_cast<double>(own.window[j]) * size < least) continue;
+      if (static_cast<double>(own.window[j]) * size < kUnseen * ball) continue;
       nodes[position].push_back(own.nodes[j]);
+      sizes[position].push_back(own.window[j] * (u * directions).colwise().norm().maxCoeff() /
+                                static_cast<float>(ball));
       kept.emplace_back(own.window[j] * u);
     }
     for (Eigen::Index k = 0; k < C - linear; ++k)
       for (const Eigen::Matrix3Xf& u : kept)
         blocks[position].insert(blocks[position].end(), u.col(k).data(), u.col(k).data() + 3);
   });
+  std::vector<float> all;
   data.near_offset.push_back(0);
   for (std::size_t p = 0; p < M; ++p) {
     data.near_offset.push_back(data.near_offset.back() + static_cast<std::int64_t>(nodes[p].size()));
     data.near_node.insert(data.near_node.end(), nodes[p].begin(), nodes[p].end());
     data.near_field.insert(data.near_field.end(), blocks[p].begin(), blocks[p].end());
+    all.insert(all.end(), sizes[p].begin(), sizes[p].end());
   }
+  return all;
 }
 
 }  // namespace palpate::solver

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "core/base/types.h"
 #include "tools/modelfile/model_data.h"
@@ -18,10 +19,14 @@ namespace palpate::solver {
 void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const NearNodes> near,
                  int workers, modelfile::ModelData& data);
 
+/// What near fields leave out that is not seen: a part of the travel at a node.
+inline constexpr double kUnseen = 2e-4;
+
 /// /modes/Y and /near of a model, of orders of two and more: amplitudes of the modes, and window (U_alpha - what the modes
 /// give) at the nodes near each position where that is more than a small part of the travel.   docs/design.md, Parts
 /// @param near  nodes of each source
-void storeNearField(const FitProblem& problem, const FarField& far, std::span<const NearNodes> near,
-                    int workers, modelfile::ModelData& data);
+/// @return by node of the near fields, how far it is moved over abs(d) at most, in 26 directions, abs(d) the ball's radius
+std::vector<float> storeNearField(const FitProblem& problem, const FarField& far,
+                                  std::span<const NearNodes> near, int workers, modelfile::ModelData& data);
 
 }  // namespace palpate::solver

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,6 +22,8 @@
 #include "tools/solver/build/edge_fields.h"
 #include "tools/solver/build/linear_answers.h"
 #include "tools/solver/build/mesh_error.h"
+#include "tools/solver/build/shared_loads.h"
+#include "tools/solver/build/size_budget.h"
 #include "tools/solver/build/travel_orders.h"
 #include "tools/solver/fit/far_field.h"
 #include "tools/solver/series/nodal_greens.h"
@@ -52,6 +55,11 @@ class Builder {
   void storePosition(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii);
   void solveGreens(FieldTable& greens);
   void fit(const FieldTable& table, const FieldTable& greens);
+  [[nodiscard]] FitOptions fitOptions() const;
+  void storeFields(const FitProblem& problem, const FarField& far, const FieldTable& greens);
+  [[nodiscard]] std::unique_ptr<FieldTable> shareLoads(const FieldTable& greens);
+  void makeCompact();
+  [[nodiscard]] std::vector<float> greenSizes() const;
   [[nodiscard]] std::vector<NearNodes> nearOf(std::span<const std::int32_t> nodes) const;
   [[nodiscard]] std::vector<FitSource> fitSources(std::span<const std::int32_t> nodes,
                                                   std::span<const double> travel) const;
@@ -73,6 +81,7 @@ class Builder {
   std::vector<std::int32_t> loaded_;    ///< surface nodes that patches load
   std::vector<NearNodes> near_;         ///< of each contact position
   std::vector<NearNodes> near_loaded_;  ///< of each loaded node
+  std::optional<SizeBudget> budget_;    ///< of a handheld model
   modelfile::ModelData data_;
 };
 
@@ -169,32 +178,105 @@ std::vector<FitSource> Builder::fitSources(std::span<const std::int32_t> nodes,
   return sources;
 }
 
-/// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.
-void Builder::fit(const FieldTable& table, const FieldTable& greens) {
-  const std::vector<FitSource> sources = fitSources(setup_.positions.nodes, data_.contact_domain_radius);
-  const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
+FitOptions Builder::fitOptions() const {
   FitOptions options;
-  report_.fit_asked = case_.modes ? 0.0 : case_.fieldErrorOrDefault();
   options.error = report_.fit_asked;
-  options.modes = case_.modes.value_or(kFewModes);
+  options.modes = case_.modes.value_or(budget_ ? budget_->modes() : kFewModes);
   options.head_start = 3;
   options.sweeps = case_.sweepsOrDefault();
   options.reweighted = std::min(2, options.sweeps);
   options.workers = options_.workers;
   options.quiet = options_.quiet;
-  const FarField far = fitFarField(problem, options);
+  return options;
+}
+
+/// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.
+void Builder::fit(const FieldTable& table, const FieldTable& greens) {
+  const std::vector<FitSource> sources = fitSources(setup_.positions.nodes, data_.contact_domain_radius);
+  const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
+  report_.fit_asked = case_.modes || budget_ ? 0.0 : case_.fieldErrorOrDefault();
+  const FarField far = fitFarField(problem, fitOptions());
   report_.fit_errors = far.errors;
   std::vector<float> largest = far.largest;
   std::sort(largest.begin(), largest.end());
   report_.fit_p95 = largest[largest.size() - 1 - largest.size() / 20];
   report_.fit_max = largest.back();
   data_.modes_X.assign(far.X.data(), far.X.data() + far.X.size());
+  storeFields(problem, far, greens);
+}
+
+/// By node of the near fields of loads, how far the whole force of a patch there moves it over abs(d).
+std::vector<float> Builder::greenSizes() const {
+  std::vector<float> sizes;
+  for (std::size_t g = 0; g < loaded_.size(); ++g) {
+    const Vec3& place = setup_.surface.positions[at(loaded_[g])];
+    const auto apart = [&](std::int32_t node) {
+      return (setup_.surface.positions[at(node)] - place).squaredNorm();
+    };
+    const auto nearest =
+        std::min_element(setup_.positions.nodes.begin(), setup_.positions.nodes.end(),
+                         [&](std::int32_t l, std::int32_t r) { return apart(l) < apart(r); });
+    const double* const K =
+        data_.contact_stiffness.data() +
+        kStiffnessNumbers * static_cast<std::size_t>(nearest - setup_.positions.nodes.begin());
+    const double stiffest = Mat3{{K[0], K[4], K[8]}, {K[4], K[12], K[16]}, {K[8], K[16], K[20]}}.norm();
+    const auto count = data_.green_offset[g + 1] - data_.green_offset[g];
+    const float* const near = data_.green_near.data() + 9 * data_.green_offset[g];
+    for (std::int64_t j = 0; j < count; ++j) {
+      double square = 0.0;
+      for (std::int64_t load = 0; load < 3; ++load)
+        square = std::max(
+            square, double{Eigen::Map<const Eigen::Vector3f>(near + 3 * (load * count + j)).squaredNorm()});
+      sizes.push_back(static_cast<float>(stiffest * std::sqrt(square)));
+    }
+  }
+  return sizes;
+}
+
+void Builder::storeFields(const FitProblem& problem, const FarField& far, const FieldTable& greens) {
   const std::vector<FitSource> loaded = fitSources(loaded_, {});
   const MonomialBasis linear(1);
   const FitProblem by_load{greens, linear, setup_.surface.areas, setup_.surface.positions, loaded, d_ref_};
   data_.green_node = loaded_;
   storeGreens(by_load, far.X, near_loaded_, options_.workers, data_);
-  storeNearField(problem, far, near_, options_.workers, data_);
+  if (!budget_) {
+    (void)storeNearField(problem, far, near_, options_.workers, data_);
+    return;
+  }
+  std::vector<FitSource> pressed(problem.sources.begin(), problem.sources.end());
+  for (std::size_t p = 0; p < pressed.size(); ++p)
+    pressed[p].ball_radius = std::min(case_.travelOrDefault(), data_.contact_series_radius[p]);
+  const FitProblem travelled{problem.table, problem.basis, problem.areas, problem.places, pressed, d_ref_};
+  FarField bent;  // orders of two and more are smaller: fewer modes do
+  bent.X = far.X.leftCols(SizeBudget::positionModes(far.X.cols()));
+  bent.Y = amplitudesOf(problem, bent.X, options_.workers);
+  data_.position_modes = static_cast<std::size_t>(bent.X.cols());
+  NearSizes sizes;
+  sizes.positions = storeNearField(travelled, bent, near_, options_.workers, data_);
+  sizes.greens = greenSizes();
+  report_.size = budget_->leaveOut(sizes, data_);
+}
+
+/// A third as many sources of the linear field, where elements are quadratic. @return their fields, or null
+std::unique_ptr<FieldTable> Builder::shareLoads(const FieldTable& greens) {
+  const SharedLoads shared = sharedLoads(setup_, patches_, loaded_);
+  if (shared.nodes.empty()) return nullptr;
+  auto fields =
+      std::make_unique<FieldTable>(options_.scratch, shared.nodes.size(), std::size_t{3}, greens.rows());
+  superpose(greens, shared, options_.workers, *fields);
+  report_.shared_loads = shared.error;
+  loaded_ = shared.nodes;
+  near_loaded_ = nearOf(loaded_);
+  return fields;
+}
+
+/// What a small file has in fewer digits: floats are enough for a force, a stiffness and a radius.
+void Builder::makeCompact() {
+  data_.compact = true;
+  for (std::vector<double>* const numbers : {&data_.contact_force, &data_.contact_stiffness,
+                                             &data_.contact_domain_radius, &data_.contact_series_radius})
+    for (double& number : *numbers) number = double{static_cast<float>(number)};
+  budget_.emplace(data_, loaded_.size(), case_.sizeLimitOrDefault());
 }
 
 modelfile::ModelData Builder::run() {
@@ -207,14 +289,6 @@ modelfile::ModelData Builder::run() {
                  });
   FieldTable greens(options_.scratch, loaded_.size(), 3, rows);
   solveGreens(greens);
-  report_.series_seconds = series_watch.seconds();
-
-  const Stopwatch fit_watch;
-  fit(table, greens);  // by each position's own radius
-  report_.fit_seconds = fit_watch.seconds();
-  data_.contact_domain_radius =
-      leastWithinTwoRings(setup_.surface.faces, setup_.positions.nodes, data_.contact_domain_radius);
-
   storeOrgan(setup_, mesh_, data_);
   ModelAttributes& a = data_.attributes;
   storeAttributes(case_, setup_, a);
@@ -222,16 +296,54 @@ modelfile::ModelData Builder::run() {
   a.force_order = force_basis_.order();
   a.near_radius = near_radius_;
   a.reference_displacement = d_ref_;
+  std::unique_ptr<FieldTable> shared;
+  if (case_.handheld()) shared = shareLoads(greens);
+  report_.series_seconds = series_watch.seconds();
+
+  const Stopwatch fit_watch;
+  if (case_.handheld()) makeCompact();
+  fit(table, shared ? *shared : greens);  // by each position's own radius
+  report_.fit_seconds = fit_watch.seconds();
+  data_.contact_domain_radius =
+      leastWithinTwoRings(setup_.surface.faces, setup_.positions.nodes, data_.contact_domain_radius);
+
+  if (case_.handheld()) return std::move(data_);  // edges are for fields that are more exact
   const Stopwatch edge_watch;
   storeEdgeFields(setup_, factor_, patches_, basis_.order(), options_, data_);
   report_.series_seconds += edge_watch.seconds();
   return std::move(data_);
 }
 
+/// Nodes where floats can say that they are, so that the file's mesh is the one that is solved. Moves them by less than 1e-7 of
+/// the organ's size: floats have 24 bits, of which the middle of an edge needs one more than its ends.
+mesh::TetMesh inFloats(mesh::TetMesh mesh) {
+  double largest = 0.0;
+  for (const Vec3& X : mesh.nodes) largest = std::max(largest, X.cwiseAbs().maxCoeff());
+  int exponent = 0;
+  (void)std::frexp(largest, &exponent);
+  const double step = std::ldexp(1.0, exponent - 23);
+  for (Vec3& X : mesh.nodes) X = step * (X / step).array().round().matrix();
+  for (std::size_t t = 0; t < mesh.midsides.size(); ++t)
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [one, other] = mesh::kTetEdges[e];
+      mesh.nodes[at(mesh.midsides[t][e])] =
+          0.5 * (mesh.nodes[at(mesh.tetrahedra[t][at(one)])] + mesh.nodes[at(mesh.tetrahedra[t][at(other)])]);
+    }
+  return mesh;
+}
+
+std::vector<SeriesOrders> triedOrders(const Case& c) {
+  if (!c.handheld()) return {kTravelOrders.begin(), kTravelOrders.end()};
+  if (!c.travel) return {c.orders()};
+  if (*c.travel <= Case::kHandheldTravel) return {SeriesOrders::of(3)};
+  return {SeriesOrders::of(5), {5, 8}};
+}
+
 }  // namespace
 
-modelfile::ModelData buildDisplacementSeries(const Case& c, const mesh::TetMesh& mesh,
+modelfile::ModelData buildDisplacementSeries(const Case& c, const mesh::TetMesh& organ,
                                              const BuildOptions& options, BuildReport& report) {
+  const mesh::TetMesh mesh = c.handheld() ? inFloats(organ) : organ;
   const SolverSetup setup(c, mesh);
   const Stopwatch factor_watch;
   Cholesky factor(setup.model);
@@ -243,9 +355,9 @@ modelfile::ModelData buildDisplacementSeries(const Case& c, const mesh::TetMesh&
     report.mesh_error_seconds = mesh_watch.seconds();
   }
   Case chosen = c;
-  if (c.travel) {
+  if (c.travel || c.handheld()) {
     const Stopwatch orders_watch;
-    report.travel = ordersFor(*c.travel, setup, factor, options);
+    report.travel = ordersFor(c.travelOrDefault(), setup, factor, options, triedOrders(c));
     chosen.order = report.travel->orders.fields;
     chosen.force_order = report.travel->orders.answer;
     report.orders_seconds = orders_watch.seconds();

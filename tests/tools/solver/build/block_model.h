@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,8 +23,8 @@ namespace palpate::solver {
 
 /// A block held at x = 0, solved, in a model file as the server loads it.
 struct BlockModel {
-  BlockModel(mesh::TetMesh block, Case of_block)
-      : organ(heldAtX0(std::move(block))), c(named(std::move(of_block))), setup(c, organ) {
+  BlockModel(mesh::TetMesh block, Case of_block, const std::string& name = "block.h5")
+      : file(name), organ(heldAtX0(std::move(block))), c(named(std::move(of_block))), setup(c, organ) {
     BuildReport report;
     data = buildModel(c, organ, {2, std::filesystem::temp_directory_path(), true}, report);
     data.attributes.provenance = "{}";
@@ -51,13 +52,13 @@ struct BlockModel {
     return {(response.force - truth.force).norm() / truth.force.norm(), largest / d.norm()};
   }
 
+  palpate::testing::TemporaryFile file;
   mesh::TetMesh organ;
   Case c;
   SolverSetup setup;
   const FeModel& fe{setup.model};
   const PatchSurface& surface{setup.surface};
   modelfile::ModelData data;
-  palpate::testing::TemporaryFile file{"block.h5"};
 
  private:
   static mesh::TetMesh heldAtX0(mesh::TetMesh block) {

@@ -54,6 +54,27 @@ TEST_F(CaseCheck, TheOrdersFitEachOtherAndATravelChoosesBoth) {
   EXPECT_EQ(travel.travel, 0.05);
   for (const Case& c : {orders, travel}) EXPECT_NO_THROW(checkCase(c));
 }
+TEST_F(CaseCheck, ASizeIsThatOfAHandheldModel) {
+  const char* const method = "series-displacement";
+  expectRefused(method, "model.size_limit = 8e6", "model.size_limit", "it is for handheld");
+  expectRefused(method, "model.target = \"handheld\"\nmodel.field_error = 0.02", "model.field_error",
+                "model.size_limit chooses the modes");
+  for (const char* other : {"series-force", "pgd-linear"}) {
+    expectRefused(other, "model.target = \"handheld\"", "model.target", "it is for series-displacement");
+    expectRefused(other, "model.size_limit = 8e6", "model.size_limit", "it is for series-displacement");
+  }
+  EXPECT_THROW((void)readCase(write("mesh = \"a\"\nmodel.target = \"phone\"\n")), CaseError);
+  EXPECT_THROW((void)readCase(write("mesh = \"a\"\nmodel.size_limit = 1000\n")), CaseError);
+  const Case alone = readCase(write("mesh = \"a\"\nmodel.target = \"handheld\"\n"));
+  EXPECT_NO_THROW(checkCase(alone));
+  EXPECT_EQ(alone.orders().fields, 3);
+  EXPECT_EQ(alone.travelOrDefault(), 0.004);
+  EXPECT_EQ(alone.sizeLimitOrDefault(), 8e6);
+  const Case longer = readCase(write("mesh = \"a\"\n[model]\ntarget = \"handheld\"\ntravel = 0.007\n"));
+  EXPECT_EQ(longer.sizeLimitOrDefault(), 20e6);
+  const Case limited = readCase(write("mesh = \"a\"\n[model]\ntarget = \"handheld\"\nsize_limit = 5e6\n"));
+  EXPECT_EQ(limited.sizeLimitOrDefault(), 5e6);
+}
 TEST_F(CaseCheck, ALinearForceWouldLeaveNothingToJudgeItsDomainBy) {
   expectRefused("series-displacement", "model.order = 1\nmodel.force_order = 3", "model.force_order = 3",
                 "expected 2 to 2");
