@@ -9,6 +9,9 @@
 
 namespace palpate {
 
+/// Where arrays of a model file begin: at multiples of this, bytes.
+inline constexpr std::uint64_t kArrayAlignment = 64;
+
 /// UTF-8, zeros behind it.
 using RegionName = std::array<char, 64>;
 [[nodiscard]] inline std::string textOf(const RegionName& name) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/data/available_memory.h"
+#include "core/data/datasets.h"
 #include "core/data/load_error.h"
 
 namespace palpate {
@@ -23,7 +24,6 @@ static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>
 static_assert(std::endian::native == std::endian::little,
               "the model file is mapped as it is: little-endian only");
 
-constexpr std::uint64_t kAlignment = 64;
 /// What HDF5 says about its last error, at the place where it met it.
 std::string lastError() {
   std::string reason = "unknown reason";
@@ -246,9 +246,9 @@ const std::byte* Hdf5Reader::place(const std::string& path, std::uint64_t bytes)
          ", expected within the file's " + std::to_string(size));
   if (const std::uint64_t stored = H5Dget_storage_size(dataset.get()); stored != bytes)
     fail("/" + path + " stores " + std::to_string(stored) + " bytes, expected " + std::to_string(bytes));
-  if (offset % kAlignment != 0)
+  if (offset % kArrayAlignment != 0)
     fail("/" + path + " begins at byte " + std::to_string(offset) + ", expected a multiple of " +
-         std::to_string(kAlignment));
+         std::to_string(kArrayAlignment));
   return image_.bytes().data() + offset;
 }
 

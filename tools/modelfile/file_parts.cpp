@@ -9,6 +9,7 @@
 #include <cstring>
 #include <span>
 
+#include "core/data/datasets.h"
 #include "core/data/sha256.h"
 #include "tools/modelfile/model_data.h"
 
@@ -19,9 +20,8 @@ void require(bool good, const std::string& what) {
 }
 
 Hdf5Handle aligned() {
-  constexpr hsize_t kAlignment = 64;
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  require(access.valid() && H5Pset_alignment(access.get(), 0, kAlignment) >= 0, "aligned arrays");
+  require(access.valid() && H5Pset_alignment(access.get(), 0, kArrayAlignment) >= 0, "aligned arrays");
   return access;
 }
 

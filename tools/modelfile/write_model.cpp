@@ -246,7 +246,7 @@ std::uint64_t storedBytes(const ModelData& data) {
     const std::uint64_t size = values.size() * asStored(values, data.compact, [](const auto& number) {
                                  return std::uint64_t{sizeof number};
                                });
-    bytes += (size + kAlignment - 1) / kAlignment * kAlignment + kDataset;
+    bytes += (size + kArrayAlignment - 1) / kArrayAlignment * kArrayAlignment + kDataset;
   });
   return bytes;
 }
