@@ -58,7 +58,7 @@ void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solv
   } else {
     provenance["sweeps"] = c.sweepsOrDefault();
     provenance["fit_errors"] = report.fit_errors;
-    if (c.method == solver::Method::kSeriesDisplacement) {
+    if (c.method == solver::Method::kSeriesDisplacement && !report.size) {
       provenance["fit_p95"] = report.fit_p95;
       provenance["fit_max"] = report.fit_max;
     }
