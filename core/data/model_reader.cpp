@@ -38,12 +38,23 @@ void readKind(const ModelSource& file, ModelAttributes& a) {
   if (a.parameters == Parameters::kForce) a.reference_force = file.number("reference_force");
 }
 
+/// Empty without one. Programs parse it at their start, so its length is bounded.
+std::string readCertificate(const ModelSource& file) {
+  constexpr std::size_t kMostBytes = 65536;
+  if (!file.hasAttribute("certificate")) return {};
+  std::string text = file.text("certificate");
+  if (text.size() > kMostBytes)
+    file.fail("attribute certificate is " + std::to_string(text.size()) + " bytes, expected at most " +
+              std::to_string(kMostBytes));
+  return text;
+}
+
 ModelAttributes readAttributes(const ModelSource& file) {
   ModelAttributes a;
   a.parameters = readParameters(file);
   a.law = file.text("law");
   a.provenance = file.text("provenance");
-  if (file.hasAttribute("certificate")) a.certificate = file.text("certificate");
+  a.certificate = readCertificate(file);
   a.E = file.number("E");
   a.nu = file.number("nu");
   a.patch_radius = file.number("patch_radius");

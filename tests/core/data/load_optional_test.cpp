@@ -160,6 +160,15 @@ TEST(LoadCertificate, ComesBackAndIsNotInTheModelsId) {
   EXPECT_EQ(model.id(), MetaModel::load(bare.path()).id());
 }
 
+TEST(LoadCertificate, HasAtMost64KiB) {
+  const TemporaryFile file("long.h5");
+  const std::string longest(65536, 'x');
+  modelfile::writeModel(file.path(), certified(longest));
+  EXPECT_EQ(MetaModel::load(file.path()).attributes().certificate, longest);
+  modelfile::writeModel(file.path(), certified(longest + 'x'));
+  expectRefused(file.path(), "attribute certificate is 65537 bytes, expected at most 65536");
+}
+
 TEST(LoadCertificate, OfAnotherContentIsRefused) {
   const TemporaryFile other("other.h5"), file("this.h5");
   ModelData data = certified("{}");
