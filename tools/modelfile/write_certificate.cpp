@@ -22,19 +22,29 @@ void replaceTexts(const std::filesystem::path& path, const std::string& certific
   require(file.closeNow(), path);
 }
 
+/// @param file  no symbolic link: it would be replaced, and not what it leads to
+void replaceFile(const std::filesystem::path& file, const std::string& certificate, const Digest& content) {
+  using std::filesystem::perms;
+  program::FileBeside beside(file);
+  // What a process of the same number left behind is of no use.
+  std::filesystem::copy_file(file, beside.path(), std::filesystem::copy_options::overwrite_existing);
+  const perms mode = std::filesystem::status(file).permissions();
+  std::filesystem::permissions(beside.path(), mode | perms::owner_read | perms::owner_write);
+  replaceTexts(beside.path(), certificate, content);
+  (void)MetaModel::load(beside.path());  // refuses it where the file became another one meanwhile
+  std::filesystem::permissions(beside.path(), mode);
+  sync(beside.path());
+  beside.takePlace();
+  syncFolder(file);
+}
+
 }  // namespace
 
 void writeCertificate(const std::filesystem::path& path, const std::string& certificate,
                       const Digest& content) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out
-  program::FileBeside beside(path);
   try {
-    std::filesystem::copy_file(path, beside.path());
-    replaceTexts(beside.path(), certificate, content);
-    (void)MetaModel::load(beside.path());  // refuses it where the file became another one meanwhile
-    sync(beside.path());
-    beside.takePlace();
-    syncFolder(path);
+    replaceFile(std::filesystem::canonical(path), certificate, content);
   } catch (const std::filesystem::filesystem_error& error) {
     throw ModelFileError(path.string() + ": cannot be written: " + error.code().message());
   } catch (const LoadError& error) {

@@ -8,9 +8,9 @@
 
 namespace palpate::modelfile {
 
-/// Puts a certificate into a model file, for the one that it has. The arrays stay where they lie, byte for byte.
+/// Puts a certificate into a model file; the one before goes. The arrays stay where they lie, byte for byte.
 /// Written to `path.tmp-PID` beside the file, synced, renamed: a reader sees the old file or the new one, and who has the old
-/// one open keeps it. docs/design.md, Certificate
+/// one open keeps it. Of a symbolic link, the file that it leads to. docs/design.md, Certificate
 /// @param certificate  text of a JSON object  @param content  MetaModel::digest() of what was examined
 /// @throw ModelFileError naming the file that cannot be written, or whose content is another one by now
 void writeCertificate(const std::filesystem::path& path, const std::string& certificate,

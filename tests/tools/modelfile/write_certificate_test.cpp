@@ -2,12 +2,14 @@
 #include "tools/modelfile/write_certificate.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "core/data/datasets.h"
 #include "core/model/meta_model.h"
 #include "palpate/testing/synthetic_model.h"
 #include "tools/modelfile/write_model.h"
@@ -52,7 +54,7 @@ TEST_F(WriteCertificate, ArraysStayWhereTheyLie) {
   ASSERT_GE(after.size(), before.size());
   const auto bytes = std::as_bytes(model_.view().mesh_nodes);
   const std::string numbers(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  EXPECT_EQ(before.find(numbers) % 4096, 0U);
+  EXPECT_EQ(before.find(numbers) % kArrayAlignment, 0U);
   EXPECT_EQ(after.find(numbers), before.find(numbers));
   // What differs is what HDF5 keeps about the root, far less than the numbers.
   std::size_t different = 0;
@@ -107,6 +109,30 @@ TEST_F(WriteCertificate, AFlippedByteOfTheCertifiedModelIsRefused) {
   bytes[at] = static_cast<char>(bytes[at] ^ 1);
   std::ofstream(path_, std::ios::binary) << bytes;
   EXPECT_THROW((void)MetaModel::load(path_), LoadError);
+}
+
+TEST_F(WriteCertificate, ASymbolicLinkStaysOne) {
+  const auto link = folder_ / "link.h5";
+  std::filesystem::create_symlink(path_, link);
+  modelfile::writeCertificate(link, kText, model_.digest());
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(MetaModel::load(path_).attributes().certificate, kText);
+}
+
+TEST_F(WriteCertificate, WhatAnEarlierProcessLeftIsOverwritten) {
+  std::ofstream(path_.string() + ".tmp-" + std::to_string(getpid())) << "half a file";
+  modelfile::writeCertificate(path_, kText, model_.digest());
+  EXPECT_EQ(MetaModel::load(path_).attributes().certificate, kText);
+  EXPECT_EQ(filesBeside(), 1U);
+}
+
+TEST_F(WriteCertificate, AReadOnlyFileIsCertifiedAndStaysReadOnly) {
+  using std::filesystem::perms;
+  const perms read_only = perms::owner_read | perms::group_read | perms::others_read;
+  std::filesystem::permissions(path_, read_only);
+  modelfile::writeCertificate(path_, kText, model_.digest());
+  EXPECT_EQ(std::filesystem::status(path_).permissions(), read_only);
+  EXPECT_EQ(MetaModel::load(path_).attributes().certificate, kText);
 }
 
 TEST_F(WriteCertificate, SaysWhatCannotBeWritten) {
