@@ -93,6 +93,22 @@ Json objectOf(const std::string& text) {
   return {{"text", text}};
 }
 
+/// Texts of a file go to a terminal, which obeys control characters: those of one byte become \xNN, C1 in UTF-8 too.
+std::string printable(const std::string& text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0x20U;
+  };
+  const auto isC1 = [&](std::size_t i) {
+    return byte(i) == 0xc2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xa0;
+  };
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool control = byte(i) < 0x20 || byte(i) == 0x7f || isC1(i) || (i > 0 && isC1(i - 1));
+    out += control ? program::printed("\\x%02x", byte(i)) : text.substr(i, 1);
+  }
+  return out;
+}
+
 std::string valueText(const Json& value) {
   return value.isString() ? value.text() : value.dump(-1, program::Keys::kAsWritten);
 }
@@ -142,7 +158,7 @@ Json describe(const MetaModel& model) {
 std::string table(const Json& description) {
   std::ostringstream out;
   const auto line = [&](const std::string& key, const std::string& value) {
-    out << std::left << std::setw(26) << key + ' ' << value << '\n';
+    out << std::left << std::setw(26) << printable(key) + ' ' << printable(value) << '\n';
   };
   for (const auto& [key, value] : description.members()) {
     if (key == "certificate") line(key, program::certificateLine(value.isNull() ? "" : value.dump()));

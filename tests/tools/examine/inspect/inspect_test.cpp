@@ -134,6 +134,18 @@ TEST(Inspect, TableIsForPeople) {
                         "series_radius\n"));
 }
 
+TEST(Inspect, ControlCharactersOfAFileDoNotReachTheTerminal) {
+  const TemporaryFile file("inspect-control.h5");
+  modelfile::ModelData data = syntheticModel({.subdivisions = 1});
+  data.attributes.certificate = R"({"note\u001b[2J": "a\u0007b\u009bc\u00e4\r", "list": ["\u001b"]})";
+  modelfile::writeModel(file.path(), data);
+  const ProgramResult run = inspect({file.path().string()});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("certificate.note\\x1b[2J   a\\x07b\\xc2\\x9bc\u00e4\\x0d\n"));
+  for (const char control : {'\x1b', '\a', '\r', '\x9b'})
+    EXPECT_EQ(run.out.find(control), std::string::npos) << static_cast<int>(control);
+}
+
 TEST(Inspect, TruncatedModelGivesOneClearLineAndFails) {
   const TemporaryFile file("inspect-truncated.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 1});
