@@ -15,6 +15,7 @@
 #include "core/response/patch_response.h"
 #include "core/response/response.h"
 #include "server_fixture.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::server::testing {
 namespace {
@@ -36,6 +37,24 @@ TEST_F(ServerEndToEnd, PushesBackAndEchoesThePose) {
   EXPECT_GT(force.pose_stamp_ns, 0);
   EXPECT_NEAR(force.penetration, 0.001, 1e-4);
   EXPECT_EQ(client_->waitForDisplacement(1e-4), 3 * target_.nodes);
+}
+
+// As long as it may be, and as many keys as there is room for.
+TEST_F(ServerEndToEnd, ACertificateThatIsMadeToCostTimeDelaysNoStart) {
+  modelfile::ModelData data = palpate::testing::syntheticModel();
+  std::string& text = data.attributes.certificate;
+  text = "{\"\":0";
+  for (int key = 0; text.size() < 65500; ++key) text += ",\"" + std::to_string(key) + "\":0";
+  text += '}';
+  ASSERT_LE(text.size(), 65536U);
+  modelfile::writeModel(model_, data);
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  EXPECT_NE(
+      server_->log().find("not certified: the certificate in the file has a form that this program does "
+                          "not know\n"),
+      std::string::npos)
+      << server_->log();
 }
 
 // A model that is driven by force is searched for the force; the client sees no difference.

@@ -9,6 +9,7 @@
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
+#include "tools/modelfile/write_model.h"
 
 namespace palpate::server::testing {
 namespace {
@@ -38,6 +39,14 @@ TEST_F(ServerRefuses, ATruncatedModel) {
   palpate::testing::writeSyntheticModel(file_);
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
   EXPECT_NE(refusal({"--model", file_.string()}).find(file_.string()), std::string::npos);
+}
+
+TEST_F(ServerRefuses, ACertificateThatIsTooLong) {
+  modelfile::ModelData data = palpate::testing::syntheticModel({.subdivisions = 1, .modes = 2});
+  data.attributes.certificate = std::string(65537, 'x');
+  modelfile::writeModel(file_, data);
+  EXPECT_EQ(refusal({"--model", file_.string()}),
+            file_.string() + ": attribute certificate is 65537 bytes, expected at most 65536");
 }
 
 TEST_F(ServerRefuses, AFileThatIsNoModel) {
