@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "tools/examine/certify/energy_asymmetry.h"
 #include "tools/examine/certify/quantile_bound.h"
 #include "tools/program/certificate_line.h"
 #include "tools/program/printed.h"
@@ -47,13 +48,6 @@ Json leastDetF(const std::vector<One>& findings) {
       ->min_det_f;
 }
 
-Json largestAsymmetry(const std::vector<Finding>& findings) {
-  if (findings.empty()) return nullptr;
-  return std::max_element(findings.begin(), findings.end(),
-                          [](const Finding& a, const Finding& b) { return a.asymmetry < b.asymmetry; })
-      ->asymmetry;
-}
-
 Json meshErrorOf(const MetaModel& model) {
   const auto provenance = Json::read(model.attributes().provenance);
   const Json* const error = provenance ? provenance->find("mesh_error") : nullptr;
@@ -77,6 +71,7 @@ std::string pairsText(const Json& two) {
       printed("two tools, %.1f to %.1f mm apart, %d pairs:\n", 1e3 * two["distance"]["from"].get<double>(),
               1e3 * two["distance"]["to"].get<double>(), two["samples"].get<int>());
   text += errorText("  force", two["force_error"]) + errorText("  field", two["field_error"]);
+  if (two["samples"].get<std::size_t>() < kLeastSamples) return text + "  too few pairs for a bound\n";
   if (two["least_distance"].isNull()) return text + "  at no distance 1 % holds for 95 % of pairs\n";
   return text + printed("  from %.1f mm on 1 %% holds for 95 %% of pairs, with 95 %% confidence\n",
                         1e3 * two["least_distance"].get<double>());
@@ -100,7 +95,7 @@ Json certificateOf(const MetaModel& model, const Drawing& drawing, const Examina
   c["field_error"] = quantiles(within, &Finding::field_error, true);
   c["min_det_f"] = leastDetF(within);
   c["certified_area_fraction"] = static_cast<double>(within.size()) / static_cast<double>(drawn);
-  c["energy_asymmetry"] = largestAsymmetry(within);
+  c["energy_asymmetry"] = energyAsymmetry(model);
   c["mesh_error"] = meshErrorOf(model);
   c["flagged"] = {{"count", beyond.size()},
                   {"force_error", quantiles(beyond, &Finding::force_error, false)},
@@ -117,8 +112,8 @@ Json pairsOf(const MetaModel& model, const std::vector<PairFinding>& pairs) {
                [](const PairFinding& pair) { return pair.solved; });
   const auto flagged =
       std::count_if(pairs.begin(), pairs.end(), [](const PairFinding& pair) { return pair.flagged; });
-  const std::optional<double> least = leastDistance(solved, kAsked);
   const double a = model.attributes().patch_radius;
+  const std::optional<double> least = leastDistance(solved, a, kAsked);
   return {{"samples", solved.size()},
           {"drawn", pairs.size()},
           {"beyond_domain", flagged},
@@ -138,6 +133,7 @@ Json touchesOf(const Examination& found) {
     list.push_back({{"position", f.touch.position},
                     {"displacement", f.touch.d},
                     {"beyond_domain", f.flagged},
+                    {"outcome", toString(f.outcome)},
                     {"force_error", ofSolved(f.force_error)},
                     {"field_error", ofSolved(f.field_error)},
                     {"min_det_f", ofSolved(f.min_det_f)}});
@@ -158,9 +154,8 @@ std::string toText(const Json& c, const Drawing& drawing) {
   if (flagged["count"].get<int>() > 0)
     text += printed("beyond the domain, %d touches:\n", flagged["count"].get<int>()) +
             errorText("  force", flagged["force_error"]) + errorText("  field", flagged["field_error"]);
-  if (!c["min_det_f"].isNull())
-    text += printed("min det F %.3f; asymmetry of df/dd %.1e\n", c["min_det_f"].get<double>(),
-                    c["energy_asymmetry"].get<double>());
+  if (!c["min_det_f"].isNull()) text += printed("min det F %.3f\n", c["min_det_f"].get<double>());
+  text += printed("energy    %.1e of the file's forces have none\n", c["energy_asymmetry"].get<double>());
   if (const Json* const mean = c["mesh_error"].find("mean"); mean != nullptr && mean->isNumber())
     text += printed("mesh      %.1f %% too stiff or too soft in the mean, beside the errors above\n",
                     100.0 * mean->get<double>());

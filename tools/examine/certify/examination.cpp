@@ -2,11 +2,15 @@
 #include "tools/examine/certify/examination.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <span>
 
 #include "core/response/patch_response.h"
+#include "tools/examine/certify/certify_error.h"
 #include "tools/examine/query/answer.h"
+#include "tools/program/printed.h"
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/base/progress.h"
 
@@ -30,7 +34,7 @@ std::vector<Finding> draw(const MetaModel& model, TouchSampler& touches, std::si
   return drawn;
 }
 
-/// Those that are solved: all in the domain, and so many of the others.
+/// Those that are solved: all in the domain, and the first `flagged` of the others.
 std::vector<Finding*> chosen(std::vector<Finding>& drawn, std::size_t flagged) {
   std::vector<Finding*> list;
   for (Finding& finding : drawn) {
@@ -80,6 +84,20 @@ class Examiner {
 
 }  // namespace
 
+const char* toString(Outcome outcome) noexcept {
+  switch (outcome) {
+    case Outcome::kWithin:
+      return "within";
+    case Outcome::kBeyond:
+      return "beyond";
+    case Outcome::kNotSolved:
+      return "not_converged";
+    case Outcome::kNotExamined:
+      break;
+  }
+  return "not_examined";
+}
+
 std::vector<Finding> Examination::of(Outcome outcome) const {
   std::vector<Finding> list;
   std::copy_if(findings.begin(), findings.end(), std::back_inserter(list),
@@ -125,16 +143,32 @@ double forceError(const MetaModel& model, const Touch& touch, const Vec3& force,
   return (force - truth).norm() / std::max(truth.norm(), kFloor * at_travel.force.norm());
 }
 
+double fieldError(std::span<const float> field, const query::FullSolution& truth, const query::Organ& organ,
+                  double length) {
+  // A maximum would miss NaN.
+  if (!std::all_of(field.begin(), field.end(), [](float u) { return std::isfinite(u); }))
+    return std::numeric_limits<double>::infinity();
+  return query::fieldErrors(field, truth, organ, length).max;
+}
+
+void requireFinite(const Touch& touch, double force_error, double field_error) {
+  if (std::isfinite(force_error) && std::isfinite(field_error)) return;
+  const auto text = [](const Vec3& v) { return program::printed("(%g, %g, %g) m", v[0], v[1], v[2]); };
+  throw CertifyError("the touch at " + text(touch.position) + " by " + text(touch.d) +
+                     " has a force error of " + program::printed("%g", force_error) +
+                     " and a field error of " + program::printed("%g", field_error) +
+                     ", expected finite answers");
+}
+
 void compare(const MetaModel& model, const query::Organ& organ, const query::FullSolution& truth,
              double travel, Finding& finding) {
   const Touch& touch = finding.touch;
   const query::Answer answer = query::ask(model, {touch.s, touch.position, 0}, touch.d);
   finding.outcome = finding.flagged ? Outcome::kBeyond : Outcome::kWithin;
   finding.force_error = forceError(model, touch, answer.response.force, truth.state.force, travel);
-  finding.field_error = query::fieldErrors(answer.field, truth, organ, touch.d.norm()).max;
+  finding.field_error = fieldError(answer.field, truth, organ, touch.d.norm());
+  requireFinite(touch, finding.force_error, finding.field_error);
   finding.min_det_f = truth.min_det_f;
-  const Mat3& K = answer.response.stiffness;
-  finding.asymmetry = (K - K.transpose()).norm() / K.norm();
 }
 
 }  // namespace palpate::certify

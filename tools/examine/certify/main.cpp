@@ -4,8 +4,14 @@
 // Sample runs:  palpate-certify liver.h5
 //               palpate-certify liver.h5 --samples 93 --json --plot errors.svg
 //               palpate-certify liver.h5 --seed 7 --samples 100 --json    # measures only
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -15,6 +21,7 @@
 #include "tools/examine/certify/error_plot.h"
 #include "tools/examine/certify/examination.h"
 #include "tools/examine/certify/pair_examination.h"
+#include "tools/examine/certify/quantile_bound.h"
 #include "tools/modelfile/write_certificate.h"
 #include "tools/program/certificate_line.h"
 #include "tools/program/command_line.h"
@@ -34,16 +41,17 @@ struct Options {
   bool two_tools{false}, inward{false}, json{false}, no_write{false};
 
   /// What is drawn otherwise than a certificate's touches is a measurement only.
-  [[nodiscard]] bool writes() const { return !no_write && !seed && !inward && !length; }
+  [[nodiscard]] bool measures() const { return seed || inward || length; }
 };
 
 void describe(program::Options line, Options& options) {
-  constexpr double kShortest = 1e-9, kLongest = 0.1;  // m
   line.add("model", &options.model, "model file (.h5), driven by displacement").required();
-  line.add("--samples", &options.samples, "touches within the domain; a bound takes 59").range(1, 100000);
+  line.add("--samples", &options.samples,
+           "touches within the domain; a bound takes 59, fewer are not written")
+      .range(1, 100000);
   line.add("--travel", &options.travel,
            "how far tools press, m (default: the case's, else 0.007 below 50 kPa, 0.005 above)")
-      .range(kShortest, kLongest);
+      .range(kShortestTravel, kLongestTravel);
   line.flag("--two-tools", &options.two_tools,
             "certify pairs of tools too, 1.5 to 8 patch radii apart: twice as many");
   line.add("--plot", &options.plot, "draw the errors over the length of d (.svg)");
@@ -55,7 +63,7 @@ void describe(program::Options line, Options& options) {
   line.flag("--inward", &options.inward,
             "draw only directions against the outward normal; writes no certificate");
   line.add("--length", &options.length, "length of all touches, m; writes no certificate")
-      .range(kShortest, kLongest);
+      .range(kShortestTravel, kLongestTravel);
 }
 
 void checkKind(const MetaModel& model, const std::string& path) {
@@ -81,16 +89,50 @@ Drawing drawingOf(const MetaModel& model, const Options& options) {
           options.seed ? static_cast<std::uint64_t>(*options.seed) : seedOf(model)};
 }
 
-void run(const Options& options) {
+/// Before the hours that an examination may take. @throw program::WriteError
+void checkWritable(const std::filesystem::path& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  if (access(folder.c_str(), W_OK | X_OK) != 0) throw program::WriteError(file, std::strerror(errno));
+}
+
+/// Before an examination that a missing pair would lose. @param touches  a copy: what it draws is drawn again
+void checkPairs(const MetaModel& model, TouchSampler touches) {
+  const double a = model.attributes().patch_radius;
+  (void)touches.nextPair(kNearestPair * a, kFarthestPair * a);
+}
+
+/// Why nothing is written; empty: it is.
+std::string reasonNotToWrite(const Options& options, const Examination& found) {
+  if (options.measures()) return "a measurement, not a certificate";
+  if (options.no_write) return "--no-write";
+  if (!rankOfBound(found.count(Outcome::kWithin)))
+    return "a certificate takes " + std::to_string(kLeastSamples) + " samples";
+  return {};
+}
+
+/// What a person reads in the last lines.
+std::string summary(const Options& options, const std::string& certificate, const std::string& not_written) {
+  const std::string line = options.measures()
+                               ? "measured, not a certificate: other touches than a certificate's"
+                               : program::certificateLine(certificate);
+  return line + '\n' +
+         (not_written.empty() ? "written into " + options.model
+                              : "not written into " + options.model + " (" + not_written + ")");
+}
+
+void examineModel(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   // 1. The model, and the organ that it was made from.
   const MetaModel model = MetaModel::load(options.model);
   checkKind(model, options.model);
   const query::Organ organ = query::organOf(model, modelfile::readVolumeMesh(options.model));
+  if (!options.measures() && !options.no_write) checkWritable(std::filesystem::canonical(options.model));
+  if (!options.plot.empty()) checkWritable(options.plot);
   // 2. Touches that no fit has seen, each beside its full solution.
   const Drawing drawing = drawingOf(model, options);
   TouchSampler touches(model, drawing.range, drawing.seed);
-  const Extent extent{static_cast<std::size_t>(options.samples), options.threads};
+  if (options.two_tools) checkPairs(model, touches);
+  const Extent extent{static_cast<std::size_t>(options.samples), std::min(options.threads, options.samples)};
   const Examination found = examine(model, organ, touches, drawing.travel.length, extent);
   // 3. What that says, in the file and as a picture.
   program::Json certificate = certificateOf(model, drawing, found);
@@ -98,7 +140,8 @@ void run(const Options& options) {
     certificate["two_tools"] =
         pairsOf(model, examinePairs(model, organ, touches, drawing.travel.length, extent));
   const std::string text = certificate.dump();
-  if (options.writes()) modelfile::writeCertificate(options.model, text, model.digest());
+  const std::string not_written = reasonNotToWrite(options, found);
+  if (not_written.empty()) modelfile::writeCertificate(options.model, text, model.digest());
   if (!options.plot.empty())
     program::writeFile(options.plot,
                        errorPlot("Errors of " + std::filesystem::path(options.model).filename().string() +
@@ -110,15 +153,32 @@ void run(const Options& options) {
     certificate["model"] = options.model;
     certificate["model_id"] = model.id();
     certificate["travel_from"] = drawing.travel.from;
-    certificate["written"] = options.writes();
+    certificate["inward"] = options.inward;
+    certificate["length"] = options.length ? program::Json(*options.length) : program::Json(nullptr);
+    certificate["written"] = not_written.empty();
     certificate["seconds"] = seconds;
     certificate["touches"] = touchesOf(found);
     std::cout << certificate.dump(2, program::Keys::kAsWritten) << '\n';
     return;
   }
-  std::cout << toText(certificate, drawing) << program::certificateLine(text) << '\n'
-            << (options.writes() ? "written into " : "not written into ") << options.model
+  std::cout << toText(certificate, drawing) << summary(options, text, not_written)
             << program::printed(", %.1f s\n", seconds);
+}
+
+/// What a part that knows no file has to say gets the file's name.
+void run(const Options& options) {
+  const auto named = [&](const std::exception& error) {
+    const std::string text = error.what();
+    const bool complete = text.rfind("--", 0) == 0 || text.find(options.model) != std::string::npos;
+    return complete ? text : options.model + ": " + text;
+  };
+  try {
+    examineModel(options);
+  } catch (const program::WriteError&) {
+    throw;  // names what it is about
+  } catch (const std::runtime_error& error) {
+    throw CertifyError(named(error));
+  }
 }
 
 int body(int argc, char** argv) {

@@ -31,6 +31,11 @@ std::vector<PairFinding> draw(const MetaModel& model, TouchSampler& touches, std
   return drawn;
 }
 
+/// NaN is larger than any number.
+double larger(double a, double b) {
+  return b <= a ? a : b;
+}
+
 void comparePair(const MetaModel& model, const query::Organ& organ, const query::FullSolution& truth,
                  double travel, PairFinding& pair) {
   std::vector<query::Touch> touches;
@@ -42,9 +47,10 @@ void comparePair(const MetaModel& model, const query::Organ& organ, const query:
   const query::JointAnswer answer = query::askTogether(model, touches);
   for (std::size_t i = 0; i < touches.size(); ++i)
     pair.force_error =
-        std::max(pair.force_error, forceError(model, pair.touches[i], answer.tools[i].together.response.force,
-                                              truth.state.forces[i], travel));
-  pair.field_error = query::fieldErrors(answer.field, truth, organ, longest).max;
+        larger(pair.force_error, forceError(model, pair.touches[i], answer.tools[i].together.response.force,
+                                            truth.state.forces[i], travel));
+  pair.field_error = fieldError(answer.field, truth, organ, longest);
+  requireFinite(pair.touches[0], pair.force_error, pair.field_error);
   pair.min_det_f = truth.min_det_f;
   pair.solved = true;
 }
@@ -88,16 +94,19 @@ std::vector<PairFinding> examinePairs(const MetaModel& model, const query::Organ
   }
 }
 
-std::optional<double> leastDistance(std::vector<PairFinding> solved, double error) {
-  std::sort(solved.begin(), solved.end(),
-            [](const PairFinding& a, const PairFinding& b) { return a.distance > b.distance; });
-  std::vector<double> force, field;
+std::optional<double> leastDistance(std::span<const PairFinding> solved, double patch_radius, double error) {
   std::optional<double> least;
-  for (const PairFinding& pair : solved) {
-    force.push_back(pair.force_error);
-    field.push_back(pair.field_error);
-    const auto force_bound = statisticsOf(force).bound_95_95, field_bound = statisticsOf(field).bound_95_95;
-    if (force_bound && *force_bound <= error && *field_bound <= error) least = pair.distance;
+  for (const double radii : {kFarthestPair, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, kNearestPair}) {
+    const double distance = radii * patch_radius;
+    std::vector<double> force, field;
+    for (const PairFinding& pair : solved)
+      if (pair.distance >= distance) {
+        force.push_back(pair.force_error);
+        field.push_back(pair.field_error);
+      }
+    if (!rankOfBound(force.size())) continue;
+    if (*statisticsOf(force).bound_95_95 > error || *statisticsOf(field).bound_95_95 > error) return least;
+    least = distance;
   }
   return least;
 }

@@ -7,6 +7,9 @@
 
 namespace palpate::certify {
 
+/// Fewer samples have no such rank.
+inline constexpr std::size_t kLeastSamples = 59;
+
 /// The least rank k, from 1, for which the k-th smallest of n independent samples is at least their distribution's 95 %
 /// quantile with 95 % confidence, whatever the distribution: P(B < k) >= 0.95 for a binomial B of n and 0.95.
 /// Wilks, Ann. Math. Stat. 12 (1941) 91-96. 59 samples: the 59th. @return nothing below 59 samples

@@ -2,7 +2,6 @@
 #include "tools/examine/certify/reference_solver.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "tools/solver/base/lanes.h"
 #include "tools/solver/base/parallel.h"
@@ -36,10 +35,9 @@ ReferenceSolver::ReferenceSolver(const query::Organ& organ, double patch_radius,
     : organ_(organ), patch_radius_(patch_radius), at_rest_(organ.body) {
   at_rest_.factorize(Eigen::VectorXd::Zero(3 * organ.body.nodeCount()));
   at_rest_.requirePositiveDefinite("the stiffness at rest");
-  newton_.resize(static_cast<std::size_t>(threads));
-  solver::parallelFor(threads, newton_.size(), [&](int /*thread*/, std::size_t i) {
-    newton_[i] = std::make_unique<solver::NewtonSolver>(organ.body);
-  });
+  // One after the other: METIS orders by rand(), which threads would take from each other.
+  for (int thread = 0; thread < threads; ++thread)
+    newton_.push_back(std::make_unique<solver::NewtonSolver>(organ.body));
 }
 
 ReferenceSolver::~ReferenceSolver() = default;
@@ -78,15 +76,17 @@ std::optional<query::FullSolution> ReferenceSolver::solve(std::span<const Touch>
   solution.patch = tools.front().patch;
   solution.d = tools.front().d;
   if (auto state = newton.solvePatchesFrom(start, tools, newtonOptions())) {
+    solution.min_det_f = organ_.body.minDetF(state->u);
     solution.state = std::move(*state);
-  } else {
-    try {
-      solution.state = newton.solvePatches(tools, newtonOptions());
-    } catch (const std::runtime_error&) {
-      return std::nullopt;  // the caller counts it
-    }
+    if (solution.min_det_f > 0.0) return solution;
+  }
+  try {
+    solution.state = newton.solvePatches(tools, newtonOptions());
+  } catch (const solver::NoConvergence&) {
+    return std::nullopt;  // the caller counts it
   }
   solution.min_det_f = organ_.body.minDetF(solution.state.u);
+  if (solution.min_det_f <= 0.0) return std::nullopt;  // an element is inside out: no state of an organ
   return solution;
 }
 

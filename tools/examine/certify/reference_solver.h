@@ -14,8 +14,8 @@
 namespace palpate::certify {
 
 /// Touches solved by Newton's method on the mesh in the model file, several at a time. docs/design.md, Certificate
-/// Each starts from the series of its own patch, of which no model keeps anything, and where that does not lead to the solution
-/// from rest in load steps. Its tangent's factor is held while it serves.
+/// Each starts from the series of its own patch. No model stores that series. Where it leads to no solution, or to one with an
+/// element inside out, Newton's method starts at rest, in load steps. Its tangent's factor is held while it serves.
 class ReferenceSolver {
  public:
   /// Borrows the organ. Factorizes K_T(0), and analyses it for each thread. @param threads  at least 1
@@ -24,8 +24,8 @@ class ReferenceSolver {
   ~ReferenceSolver();
 
   /// The full solution of a touch, or of several tools at once. @param start  3 N, m, the sum of their starts()
-  /// @param thread  0-based, each from one thread at once
-  /// @return nothing where Newton's method does not converge; `patch` and `d` are the first tool's
+  /// @param thread  0-based, each from one thread at once  @throw std::bad_alloc
+  /// @return nothing where Newton's method does not converge, or only to an element inside out; `patch` and `d` are the first tool's
   [[nodiscard]] std::optional<query::FullSolution> solve(std::span<const Touch> touches,
                                                          const Eigen::VectorXd& start, int thread);
   /// Where Newton's method begins: the series of degree 3 of each touch, on all threads.

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/examine/certify/travel.h"
 
+#include "tools/examine/certify/certify_error.h"
 #include "tools/program/json.h"
+#include "tools/program/printed.h"
 
 namespace palpate::certify {
+
+namespace {
+
+double checked(const program::Json& travel) {
+  const bool good =
+      travel.isNumber() && travel.get<double>() >= kShortestTravel && travel.get<double>() <= kLongestTravel;
+  if (!good)
+    throw CertifyError("attribute provenance, /travel is " + travel.dump().substr(0, 40) +
+                       program::printed(", expected %g to %g m", kShortestTravel, kLongestTravel));
+  return travel.get<double>();
+}
+
+}  // namespace
 
 Travel travelOf(const ModelAttributes& attributes, std::optional<double> asked) {
   constexpr double kSoft = 50e3;                          // Pa
@@ -11,8 +26,7 @@ Travel travelOf(const ModelAttributes& attributes, std::optional<double> asked) 
   if (asked) return {*asked, "asked for"};
   const auto provenance = program::Json::read(attributes.provenance);
   const program::Json* const travel = provenance ? provenance->find("travel") : nullptr;
-  if (travel != nullptr && travel->isNumber() && travel->get<double>() > 0.0)
-    return {travel->get<double>(), "the case's"};
+  if (travel != nullptr) return {checked(*travel), "the case's"};
   if (attributes.E < kSoft) return {kSoftTravel, "the default below 50 kPa"};
   return {kTravel, "the default from 50 kPa on"};
 }

@@ -14,7 +14,11 @@ struct Travel {
   std::string from;  ///< for people: "asked for", "the case's", "the default below 50 kPa", ..
 };
 
+/// What tools may press by, m: one that is asked for, or a model's.
+inline constexpr double kShortestTravel = 1e-9, kLongestTravel = 0.1;
+
 /// @param asked  of the command line, m; else the travel of the model's provenance, else 7 mm where E < 50 kPa and 5 mm elsewhere
+/// @throw CertifyError  the provenance has a travel that is no number in that range
 [[nodiscard]] Travel travelOf(const ModelAttributes& attributes, std::optional<double> asked);
 
 }  // namespace palpate::certify

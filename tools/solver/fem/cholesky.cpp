@@ -215,9 +215,11 @@ void Cholesky::factorize(const SparseMatrix& K) {
 void Cholesky::State::factorize() {
   // Where a pivot is not positive (L D L^T: zero), CHOLMOD succeeds with a warning and says in which row.
   const auto run = [this](cholmod_factor* factor) -> std::optional<int> {
-    if (cholmod_factorize(&matrix, factor, common.get()) == 0)
+    if (cholmod_factorize(&matrix, factor, common.get()) == 0) {
+      if (common.get()->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
       throw std::runtime_error("CHOLMOD could not factorize the stiffness matrix (code " +
                                std::to_string(common.get()->status) + ")");
+    }
     if (factor->minor == factor->n) return std::nullopt;
     return static_cast<const int*>(factor->Perm)[factor->minor];
   };

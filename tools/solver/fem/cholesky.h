@@ -34,7 +34,7 @@ class Cholesky {
   Cholesky& operator=(const Cholesky&) = delete;
 
   /// Factorizes K_T(u). Falls back to L D L^T when K_T is not positive definite.
-  /// @param u  3 N, m  @throw std::runtime_error naming the unknown where K_T is singular
+  /// @param u  3 N, m  @throw std::runtime_error naming the unknown where K_T is singular, std::bad_alloc
   void factorize(const Eigen::VectorXd& u);
   /// Factorizes a matrix with the pattern of the first.
   /// @throw std::invalid_argument for another pattern, std::runtime_error when K is singular

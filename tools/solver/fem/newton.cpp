@@ -145,8 +145,8 @@ NewtonResult NewtonSolver::walk(Problem problem, const NewtonOptions& options) {
       step *= 0.5;
     }
     if (level < 1.0 && (halvings > options.max_halvings || --attempts_left <= 0))
-      throw std::runtime_error("Newton does not converge beyond " + std::to_string(level) +
-                               " of the prescribed load (step " + std::to_string(step) + ")");
+      throw NoConvergence("Newton does not converge beyond " + std::to_string(level) +
+                          " of the prescribed load (step " + std::to_string(step) + ")");
   }
   return state;
 }

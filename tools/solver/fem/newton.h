@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "tools/solver/fem/cholesky.h"
@@ -11,6 +12,12 @@
 #include "tools/solver/fem/patch.h"
 
 namespace palpate::solver {
+
+/// Newton's method does not converge. what() has the load fraction at which no step does.
+class NoConvergence : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Steps and tolerances of the full solver.
 struct NewtonOptions {
@@ -44,16 +51,16 @@ class NewtonSolver {
   explicit NewtonSolver(const FeModel& model) : model_(model), factor_(model) {}
 
   /// f_int(u) = load on the free nodes. @param load  3 N, N (dead load)
-  /// @throw std::runtime_error with the load fraction at which no step converges
+  /// @throw NoConvergence with the load fraction at which no step converges
   [[nodiscard]] NewtonResult solveLoad(const Eigen::VectorXd& load, const NewtonOptions& options);
 
   /// f_int(u) = G_s f, G_s^T u = d: the displacement-driven problem of docs/design.md, Series.
   /// @param patch  weights of the contact patch at s  @param d  patch-averaged displacement, m
-  /// @throw std::runtime_error with the fraction of d at which no step converges
+  /// @throw NoConvergence with the fraction of d at which no step converges
   [[nodiscard]] NewtonResult solvePatch(const Patch& patch, const Vec3& d, const NewtonOptions& options);
   /// Several tools at once: f_int(u) = sum_A G_A f_A, G_A^T u = d_A for every A, all d growing together.
   /// @param tools  at least one; two patches on the same single node have no solution
-  /// @throw std::runtime_error with the fraction of the d at which no step converges
+  /// @throw NoConvergence with the fraction of the d at which no step converges
   [[nodiscard]] NewtonResult solvePatches(std::span<const ImposedPatch> tools, const NewtonOptions& options);
   /// The same from a state near the solution, the d at once. @param start  3 N, m
   /// @return nothing where it does not converge from there

@@ -8,6 +8,7 @@
 #include "palpate/testing/run_program.h"
 #include "palpate/testing/xml_fault.h"
 #include "tools/examine/certify/touch_sampler.h"
+#include "tools/modelfile/write_certificate.h"
 
 namespace palpate::certify {
 namespace {
@@ -19,6 +20,7 @@ using palpate::testing::runProgram;
 using query::test::BoxModel;
 using query::test::LoadModel;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 ProgramResult certify(const std::filesystem::path& model, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), model.string());
@@ -47,7 +49,8 @@ TEST(CertifyProgram, WritesWhatItPrintsAndInspectShowsIt) {
       nlohmann::json::parse(runProgram("palpate-inspect", {"--json", box.path.string()}).out);
   EXPECT_EQ(inspected["certificate"], kept);
   const ProgramResult table = runProgram("palpate-inspect", {box.path.string()});
-  EXPECT_THAT(table.out, HasSubstr("certificate               certified for touches to 2 mm: force within "));
+  EXPECT_THAT(table.out, HasSubstr("certificate               certified for touches to 2 mm: of touches in "
+                                   "the domain, 95 % are within "));
   EXPECT_THAT(table.out, HasSubstr("certificate.samples       59\n"));
 }
 
@@ -74,7 +77,38 @@ TEST(CertifyProgram, SaysInWordsWhatItFound) {
   EXPECT_THAT(run.out, HasSubstr("travel    5 mm (the default from 50 kPa on), seed " +
                                  std::to_string(seedOf(box.model))));
   EXPECT_THAT(run.out, HasSubstr("too few samples for a bound"));
-  EXPECT_THAT(run.out, HasSubstr("\nwritten into " + box.path.string()));
+  EXPECT_THAT(run.out,
+              HasSubstr("\nnot certified for touches to 5 mm: 3 samples in the domain, a bound takes 59\n"));
+  EXPECT_THAT(run.out,
+              HasSubstr("\nnot written into " + box.path.string() + " (a certificate takes 59 samples)"));
+  const ProgramResult measured = certify(box.path, {"--samples", "1", "--inward"});
+  EXPECT_THAT(measured.out, HasSubstr("\nmeasured, not a certificate: "));
+  EXPECT_THAT(measured.out, Not(HasSubstr("certified for")));
+}
+
+TEST(CertifyProgram, FewSamplesLeaveTheCertificateThatIsThere) {
+  const BoxModel box;
+  modelfile::writeCertificate(box.path, R"({"samples": 93})", box.model.digest());
+  const std::string before = contentOf(box.path);
+  const ProgramResult run = certify(box.path, {"--samples", "2", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(nlohmann::json::parse(run.out)["written"]);
+  EXPECT_TRUE(contentOf(box.path) == before);
+}
+
+TEST(CertifyProgram, ExaminesPairsOfTools) {
+  const BoxModel box("stable-neo-hookean", 2);
+  const ProgramResult run =
+      certify(box.path, {"--samples", "2", "--travel", "0.001", "--two-tools", "--inward", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["two_tools"]["samples"], 4);
+  EXPECT_GT(json["two_tools"]["force_error"]["max"], 0.0);
+  EXPECT_TRUE(json["two_tools"]["least_distance"].is_null());
+  EXPECT_EQ(json["inward"], true);
+  EXPECT_TRUE(json["length"].is_null());
+  EXPECT_EQ(json["touches"].size(), json["drawn"]);
+  EXPECT_EQ(json["touches"][0]["outcome"], json["touches"][0]["beyond_domain"] ? "beyond" : "within");
 }
 
 TEST(CertifyProgram, RefusesModelsThatAreDrivenByALoad) {
@@ -100,7 +134,12 @@ TEST(CertifyProgram, RefusesWrongArguments) {
     EXPECT_THAT(run.err, HasSubstr(option)) << value;
   }
   EXPECT_TRUE(contentOf(box.path) == before);
-  EXPECT_NE(certify(box.folder / "none.h5", {}).exit_code, 0);
+  const auto none = box.folder / "none.h5";
+  expectOneLineError(certify(none, {}), none.string());
+  const auto plot = box.folder / "missing" / "errors.svg";
+  const ProgramResult run = certify(box.path, {"--samples", "2", "--plot", plot.string()});
+  expectOneLineError(run, "cannot write " + plot.string() + ": No such file or directory");
+  EXPECT_THAT(run.err, Not(HasSubstr("full solutions")));  // before anything is solved
 }
 
 }  // namespace
