@@ -42,6 +42,9 @@ struct Options {
 
   /// What is drawn otherwise than a certificate's touches is a measurement only.
   [[nodiscard]] bool measures() const { return seed || inward || length; }
+  [[nodiscard]] bool mayWrite() const {
+    return !measures() && !no_write && samples >= static_cast<int>(kLeastSamples);
+  }
 };
 
 void describe(program::Options line, Options& options) {
@@ -126,7 +129,7 @@ void examineModel(const Options& options) {
   const MetaModel model = MetaModel::load(options.model);
   checkKind(model, options.model);
   const query::Organ organ = query::organOf(model, modelfile::readVolumeMesh(options.model));
-  if (!options.measures() && !options.no_write) checkWritable(std::filesystem::canonical(options.model));
+  if (options.mayWrite()) checkWritable(std::filesystem::canonical(options.model));
   if (!options.plot.empty()) checkWritable(options.plot);
   // 2. Touches that no fit has seen, each beside its full solution.
   const Drawing drawing = drawingOf(model, options);
