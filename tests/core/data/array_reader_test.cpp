@@ -98,7 +98,7 @@ TEST(ArrayReader, RefusesInOneSentence) {
   EXPECT_EQ(complaintOf([&] { (void)reader.number("E"); }), "page.h5: attribute E is missing");
   Lengths lengths;
   EXPECT_EQ(complaintOf([&] {
-              (void)reader.dataset(Dataset<double>{"near/scale", {"M", "Cm"}, ""}, lengths);
+              (void)reader.dataset(Dataset<std::int32_t>{"near/scale", {"M", "Cm"}, ""}, lengths);
             }),
             "page.h5: /near/scale has numbers of another type than expected");
 }
