@@ -14,8 +14,10 @@ class FieldThere {
       : parts_(parts),
         modes_(parts.view.modes()),
         patch_(parts.patches.room()),
+        sources_(parts.linear.room(patch_.node.size())),
         y_(modes_),
         X_(3 * modes_),
+        Z_(3 * modes_),
         one_(parts.rows - kLinearCoefficients, 0.0) {}
 
   /// @param[out] u  rows, of three numbers each, m
@@ -26,11 +28,10 @@ class FieldThere {
     for (std::size_t k = 0; k < 3; ++k)
       if (nodes_.weight[k] > 0.0)
         parts_.modes.addNode(nodes_.node[k], static_cast<float>(nodes_.weight[k]), X_);
-    parts_.patches.at(s, false, patch_);
     PatchStiffness::Value stiffness;
     parts_.stiffness.at(parts_.surface, s, stiffness);
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      store(linear(parts_.reference * stiffness.K.col(axis)), u + 3 * axis);
+    const Mat3 linear = compliance(s) * (parts_.reference * stiffness.K);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) store(linear.col(axis), u + 3 * axis);
     const Stencil stencil = parts_.mixing.at(parts_.surface, s);
     for (std::size_t row = kLinearCoefficients; row < rows; ++row)
       store(bend(place, stencil, row), u + 3 * row);
@@ -55,10 +56,18 @@ class FieldThere {
         .cast<double>();
   }
 
-  [[nodiscard]] Vec3 linear(const Vec3& force) {
-    std::fill(y_.begin(), y_.end(), 0.0F);
-    parts_.linear.addAmplitudes(patch_, force, y_);
-    return modes() + atNodes([&](std::int32_t node) { return parts_.linear.nearAt(patch_, force, node); });
+  /// The place's displacement by unit loads on its patch, column by load, m/N.
+  [[nodiscard]] Mat3 compliance(const ContactPoint& s) {
+    using Columns = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3>>;
+    parts_.patches.at(s, false, patch_);
+    parts_.linear.find(patch_, sources_);
+    std::fill(Z_.begin(), Z_.end(), 0.0F);
+    parts_.linear.addUnitAmplitudes(sources_, Z_);
+    const Columns X(X_.data(), Eigen::Index(modes_), 3), Z(Z_.data(), Eigen::Index(modes_), 3);
+    Mat3 u = (X.transpose() * Z).cast<double>();
+    for (std::size_t k = 0; k < 3; ++k)
+      if (nodes_.weight[k] > 0.0) u += nodes_.weight[k] * parts_.linear.nearAt(sources_, nodes_.node[k]);
+    return u;
   }
 
   [[nodiscard]] Vec3 bend(std::size_t place, const Stencil& stencil, std::size_t row) {
@@ -83,9 +92,11 @@ class FieldThere {
   const ContactDimple::Parts& parts_;
   std::size_t modes_;
   PatchNodes patch_;
+  PatchSources sources_;
   NodeMix nodes_{};
   std::vector<float> y_;     // [n]
   std::vector<float> X_;     // [3][n]
+  std::vector<float> Z_;     // [3][n] of unit loads, m/N
   std::vector<double> one_;  // [Cm]
 };
 

@@ -77,7 +77,7 @@ Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, cons
     const double apart = model.surface().distanceToNodes(point.triangle, model.surface().position(source.s));
     if (apart > model.reachOfPatches() + model.linearField().reach()) continue;
     for (std::size_t k = 0; k < 3; ++k)
-      u += at_point.weight[k] * model.linearField().nearAt(from.nodes(), f, at_point.node[k]);
+      u += at_point.weight[k] * (model.linearField().nearAt(from.sources(), at_point.node[k]) * f);
   }
   for (std::size_t k = 0; k < 3; ++k)
     u += at_point.weight[k] * model.farField().at(scratch.amplitudes, at_point.node[k]);
@@ -91,6 +91,7 @@ FieldScratch::FieldScratch(const MetaModel& model)
       near_block(std::max(
           {model.nearField().blockSize(), model.edgeField().blockSize(), model.linearField().blockSize()})),
       patch(model.patches().room()),
+      loads(model.linearField().room(patch.node.size())),
       weight(index(model.surface().nodes()), Eigen::Vector4f::Zero()),
       touches(touchPatches(model, std::make_index_sequence<kMaxTools + 1>{})) {}
 
@@ -154,7 +155,8 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
                              scratch.amplitudes);
     if (!model.isDisplacementDriven()) continue;
     model.patches().at(source.s, false, scratch.patch);
-    model.linearField().addAmplitudes(scratch.patch, source.gain * loadOf(model, source.s, at.parameter),
+    model.linearField().find(scratch.patch, scratch.loads);
+    model.linearField().addAmplitudes(scratch.loads, source.gain * loadOf(model, source.s, at.parameter),
                                       scratch.amplitudes);
   }
   model.farField().expand(scratch.amplitudes, u);
@@ -166,7 +168,8 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
     });
     if (!model.isDisplacementDriven()) continue;
     model.patches().at(source.s, false, scratch.patch);
-    model.linearField().addNear(scratch.patch, source.gain * loadOf(model, source.s, at.parameter),
+    model.linearField().find(scratch.patch, scratch.loads);
+    model.linearField().addNear(scratch.loads, source.gain * loadOf(model, source.s, at.parameter),
                                 scratch.near_block, u);
   }
 }
@@ -201,10 +204,8 @@ std::array<Mat3, 4> complianceBetween(const MetaModel& model, const TouchPatch& 
   const PatchNodes& nodes = to.nodes();
   for (std::size_t j = 0; j < nodes.count; ++j)
     scratch.weight[index(nodes.node[j])] << static_cast<float>(nodes.weight[j]), nodes.slope[j].cast<float>();
-  for (std::size_t i = 0; i < from.nodes().count; ++i) {
-    const std::array<Mat3, 4> near = model.linearField().nearBetween(from.nodes().node[i], scratch.weight);
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] += from.nodes().weight[i] * near[k];
-  }
+  const std::array<Mat3, 4> near = model.linearField().nearBetween(from.sources(), scratch.weight);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] += near[k];
   for (std::size_t j = 0; j < nodes.count; ++j) scratch.weight[index(nodes.node[j])].setZero();
   return out;
 }

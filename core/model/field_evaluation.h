@@ -35,6 +35,7 @@ struct FieldScratch {
   std::vector<float> amplitudes;        ///< [n] y, m
   std::vector<float> near_block;        ///< the largest of the near fields
   PatchNodes patch;                     ///< of the tool that is being evaluated
+  PatchSources loads;                   ///< of its patch
   std::vector<Eigen::Vector4f> weight;  ///< [Ns] of a patch's nodes; zero between uses
   /// Patches of tools, as they were used last: a tool that sticks finds its own again.
   std::array<TouchPatch, kMaxTools + 1> touches;

@@ -35,7 +35,18 @@ void Amplitudes::add(std::int32_t source, std::span<const double> weight, double
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING {
   const Weights row = scaled(weight, factor);
   const std::size_t first = index(source) * rows_;
-  addRows({Y_.data() + first * modes_, scale_.data() + first, used(weight), modes_}, row.data(), y.data());
+  palpate::addRows({Y_.data() + first * modes_, scale_.data() + first, used(weight), modes_}, row.data(),
+                   y.data());
+}
+
+void Amplitudes::addRows(std::int32_t source, double factor, std::span<float> y) const noexcept {
+  const std::size_t first = index(source) * rows_;
+  for (std::size_t r = 0; r < rows_; ++r) {
+    const float weight = static_cast<float>(factor) * scale_[first + r];
+    const std::int16_t* const from = Y_.data() + (first + r) * modes_;
+    float* const to = y.data() + r * modes_;
+    for (std::size_t k = 0; k < modes_; ++k) to[k] += weight * static_cast<float>(from[k]);
+  }
 }
 
 SeparatedField::SeparatedField(const ModelView& view)
@@ -84,24 +95,40 @@ NearField::Block NearField::block(std::int32_t source, std::span<const double> w
   std::fill(u.begin(), u.end(), 0.0F);
   const Weights row = scaled(weight, factor);
   const std::int16_t* const field = arrays_.field.data() + 3 * rows_ * index(arrays_.offset[m]);
-  addRows({field, arrays_.scale.data() + m * rows_, used(weight), u.size()}, row.data(), u.data());
+  palpate::addRows({field, arrays_.scale.data() + m * rows_, used(weight), u.size()}, row.data(), u.data());
   return {list, u};
+}
+
+std::ptrdiff_t NearField::find(std::int32_t source, std::int32_t node) const noexcept PALPATE_NONBLOCKING {
+  const std::span<const std::int32_t> list = nodes(source);
+  const auto found = std::lower_bound(list.begin(), list.end(), node);
+  return found == list.end() || *found != node ? -1 : found - list.begin();
 }
 
 Vec3 NearField::at(std::int32_t source, std::span<const double> weight,
                    std::int32_t node) const noexcept PALPATE_NONBLOCKING {
-  const std::span<const std::int32_t> list = nodes(source);
-  const auto found = std::lower_bound(list.begin(), list.end(), node);
   Vec3 u = Vec3::Zero();
-  if (found == list.end() || *found != node) return u;
-  const auto place = found - list.begin();
-  const std::size_t m = index(source);
+  const std::ptrdiff_t place = find(source, node);
+  if (place < 0) return u;
+  const std::size_t m = index(source), stride = 3 * nodes(source).size();
   const std::int16_t* field = arrays_.field.data() + 3 * (rows_ * index(arrays_.offset[m]) + index(place));
-  for (std::size_t k = 0; k < used(weight); ++k, field += 3 * list.size()) {
+  for (std::size_t k = 0; k < used(weight); ++k, field += stride) {
     const double factor = weight[k] * double(arrays_.scale[m * rows_ + k]);
     for (Eigen::Index axis = 0; axis < 3; ++axis) u[axis] += factor * field[axis];
   }
   return u;
+}
+
+void NearField::addRows(std::int32_t source, double factor, std::int32_t node,
+                        Mat3& u) const noexcept PALPATE_NONBLOCKING {
+  const std::ptrdiff_t place = find(source, node);
+  if (place < 0) return;
+  const std::size_t m = index(source), stride = 3 * nodes(source).size();
+  const std::int16_t* field = arrays_.field.data() + 3 * (3 * index(arrays_.offset[m]) + index(place));
+  for (std::size_t r = 0; r < 3; ++r, field += stride) {
+    const double weight = factor * double(arrays_.scale[3 * m + r]);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) u(axis, Eigen::Index(r)) += weight * field[axis];
+  }
 }
 
 void NearField::add(std::int32_t source, std::span<const double> weight, double factor,

@@ -24,6 +24,8 @@ class Amplitudes {
   /// y += factor * sum_r weight[r] * row r. @param weight  [rows]  @param y  [n], at least `modes`. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor,
            std::span<float> y) const noexcept PALPATE_NONBLOCKING;
+  /// Each row by itself: y += factor * the source's rows. @param y  [rows][modes]
+  void addRows(std::int32_t source, double factor, std::span<float> y) const noexcept;
 
  private:
   std::span<const std::int16_t> Y_;
@@ -85,6 +87,9 @@ class NearField {
   /// What block() gives at one node, m; zero where the block has it not. Cost O(rows + log K). Real-time: yes.
   [[nodiscard]] Vec3 at(std::int32_t source, std::span<const double> weight,
                         std::int32_t node) const noexcept PALPATE_NONBLOCKING;
+  /// Of three rows, column r: u += factor * row r at one node. Cost O(log K). Real-time: yes.
+  void addRows(std::int32_t source, double factor, std::int32_t node,
+               Mat3& u) const noexcept PALPATE_NONBLOCKING;
   /// u += a block. @param scratch  blockSize(), @param u  [Ns][3]. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;
@@ -95,6 +100,10 @@ class NearField {
   [[nodiscard]] double reach(std::span<const Vec3> source, std::span<const double> positions) const;
 
  private:
+  /// Where a source's block has the node, or -1.
+  [[nodiscard]] std::ptrdiff_t find(std::int32_t source,
+                                    std::int32_t node) const noexcept PALPATE_NONBLOCKING;
+
   Arrays arrays_;
   std::size_t rows_;
   std::size_t block_size_{0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/model/linear_field.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/index.h"
@@ -13,9 +14,9 @@ constexpr std::size_t kLoads = 3;
 
 using Loads = std::array<double, kLoads>;
 
-/// What a patch's node carries, by direction.
-Loads loadOf(const PatchNodes& patch, std::size_t i, const Vec3& f) noexcept PALPATE_NONBLOCKING {
-  const Vec3 load = patch.weight[i] * f;
+/// What a source answers for, by direction.
+Loads loadOf(const PatchSources& from, std::size_t i, const Vec3& f) noexcept PALPATE_NONBLOCKING {
+  const Vec3 load = from.weight[i] * f;
   return {load.x(), load.y(), load.z()};
 }
 
@@ -25,6 +26,7 @@ constexpr std::array<std::int32_t, 2> kNone{-1, -1};
 
 LinearField::LinearField(const ModelView& view)
     : sources_(view.surfaceNodes(), kNone),
+      greens_(view.green_node.size()),
       amplitudes_(view.green_Y, view.green_Y_scale, kLoads, view.modes()),
       near_(
           NearField::Arrays{view.green_offset, view.green_near_node, view.green_near, view.green_near_scale},
@@ -42,40 +44,59 @@ LinearField::LinearField(const ModelView& view)
   reach_ = near_.reach(pointsOf(view.surface_positions, view.green_node), view.surface_positions);
 }
 
-void LinearField::addAmplitudes(const PatchNodes& patch, const Vec3& f,
+PatchSources LinearField::room(std::size_t nodes) const {
+  const std::size_t most = std::min(2 * nodes, greens_);
+  return {0, std::vector<std::int32_t>(most), std::vector<double>(most),
+          std::vector<std::int32_t>(greens_, -1)};
+}
+
+void LinearField::find(const PatchNodes& patch, PatchSources& out) const noexcept PALPATE_NONBLOCKING {
+  out.count = 0;
+  for (std::size_t i = 0; i < patch.count; ++i) {
+    const std::array<std::int32_t, 2>& sources = sources_[index(patch.node[i])];
+    const double share = sources[1] >= 0 ? 0.5 : 1.0;
+    for (const std::int32_t source : sources) {
+      if (source < 0) continue;
+      std::int32_t& place = out.place[index(source)];
+      if (place < 0) {
+        place = static_cast<std::int32_t>(out.count++);
+        out.source[index(place)] = source;
+        out.weight[index(place)] = 0.0;
+      }
+      out.weight[index(place)] += share * patch.weight[i];
+    }
+  }
+  for (std::size_t i = 0; i < out.count; ++i) out.place[index(out.source[i])] = -1;
+}
+
+void LinearField::addAmplitudes(const PatchSources& from, const Vec3& f,
                                 std::span<float> y) const noexcept PALPATE_NONBLOCKING {
-  for (std::size_t i = 0; i < patch.count; ++i)
-    forEachSource(patch.node[i], [&](std::int32_t source, double share) noexcept PALPATE_NONBLOCKING {
-      amplitudes_.add(source, loadOf(patch, i, f), share, y);
-    });
+  for (std::size_t i = 0; i < from.count; ++i) amplitudes_.add(from.source[i], loadOf(from, i, f), 1.0, y);
 }
 
-void LinearField::addNear(const PatchNodes& patch, const Vec3& f, std::span<float> scratch,
+void LinearField::addUnitAmplitudes(const PatchSources& from, std::span<float> y) const noexcept {
+  for (std::size_t i = 0; i < from.count; ++i) amplitudes_.addRows(from.source[i], from.weight[i], y);
+}
+
+void LinearField::addNear(const PatchSources& from, const Vec3& f, std::span<float> scratch,
                           std::span<float> u) const noexcept PALPATE_NONBLOCKING {
-  for (std::size_t i = 0; i < patch.count; ++i)
-    forEachSource(patch.node[i], [&](std::int32_t source, double share) noexcept PALPATE_NONBLOCKING {
-      near_.add(source, loadOf(patch, i, f), share, scratch, u);
-    });
+  for (std::size_t i = 0; i < from.count; ++i) near_.add(from.source[i], loadOf(from, i, f), 1.0, scratch, u);
 }
 
-Vec3 LinearField::nearAt(const PatchNodes& patch, const Vec3& f,
-                         std::int32_t node) const noexcept PALPATE_NONBLOCKING {
-  Vec3 u = Vec3::Zero();
-  for (std::size_t i = 0; i < patch.count; ++i)
-    forEachSource(patch.node[i], [&](std::int32_t source, double share) noexcept PALPATE_NONBLOCKING {
-      u += share * near_.at(source, loadOf(patch, i, f), node);
-    });
+Mat3 LinearField::nearAt(const PatchSources& from, std::int32_t node) const noexcept PALPATE_NONBLOCKING {
+  Mat3 u = Mat3::Zero();
+  for (std::size_t i = 0; i < from.count; ++i) near_.addRows(from.source[i], from.weight[i], node, u);
   return u;
 }
 
 std::array<Mat3, 4> LinearField::nearBetween(
-    std::int32_t node, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING {
+    const PatchSources& from, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING {
   std::array<Mat3, 4> out;
   for (Mat3& part : out) part.setZero();
-  forEachSource(node, [&](std::int32_t source, double share) noexcept PALPATE_NONBLOCKING {
-    const std::array<Mat3, 4> one = near_.weighted(source, weight);
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] += share * one[k];
-  });
+  for (std::size_t i = 0; i < from.count; ++i) {
+    const std::array<Mat3, 4> one = near_.weighted(from.source[i], weight);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] += from.weight[i] * one[k];
+  }
   return out;
 }
 

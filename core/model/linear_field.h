@@ -14,6 +14,16 @@
 
 namespace palpate {
 
+/// The Green's functions that answer for a patch, the first `count` of each. Its memory is made once, so that they can be found
+/// in a tick.
+struct PatchSources {
+  std::size_t count{0};
+  std::vector<std::int32_t> source;  ///< Green's functions, each once
+  std::vector<double> weight;        ///< the part of the patch's load that each answers for
+  std::vector<std::int32_t>
+      place;  ///< [G] of a Green's function, by which it is found again; -1 between uses
+};
+
 /// Degree 1 of a "displacement" model's field: nodal Green's functions W_i, the displacement by a unit load at node i,
 /// superposed over the patch. So it is as exact at any s as at a node.                    docs/design.md, Parts
 ///   u(X; s, f) = sum_i w_i(s) W_i(X) f,   W_i(X) = sum_k X_k(X) Z_i,k + N_i(X),   f = K_s d
@@ -25,35 +35,32 @@ class LinearField {
 
   /// Whether what the node carries is answered for.
   [[nodiscard]] bool carries(std::int32_t node) const noexcept { return sources_[index(node)][0] >= 0; }
-  /// y += sum_i w_i Z_i f. @param y  [n]. Cost O(k n) for k nodes of the patch. Real-time: yes.
-  void addAmplitudes(const PatchNodes& patch, const Vec3& f,
+  /// The sources of a patch's loads. @param[out] out  made by room(). Cost O(k) for k nodes of the patch. Real-time: yes.
+  void find(const PatchNodes& patch, PatchSources& out) const noexcept PALPATE_NONBLOCKING;
+  /// Sources with room for those of any patch. @param nodes  that a patch has, at most. Not real-time.
+  [[nodiscard]] PatchSources room(std::size_t nodes) const;
+  /// y += sum_i w_i Z_i f. @param y  [n]. Cost O(k n) for k sources. Real-time: yes.
+  void addAmplitudes(const PatchSources& from, const Vec3& f,
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
+  /// Of unit loads: y += sum_i w_i Z_i. @param y  [3 loads][n]. Cost O(k n), the third of three single loads'.
+  void addUnitAmplitudes(const PatchSources& from, std::span<float> y) const noexcept;
   /// u += sum_i w_i N_i f. @param scratch  blockSize()  @param u  [Ns][3]. Real-time: yes.
-  void addNear(const PatchNodes& patch, const Vec3& f, std::span<float> scratch,
+  void addNear(const PatchSources& from, const Vec3& f, std::span<float> scratch,
                std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] std::size_t blockSize() const noexcept { return near_.blockSize(); }
-  /// What the near field of a unit load at a node moves other nodes by, weighted: sum_j w_j N_i(X_j) and the same for the
+  /// What the near fields of unit loads on a patch move other nodes by, weighted: sum_ij w_i w_j N_i(X_j) and the same for the
   /// other weights, column by load. @param weight  [Ns], four for each node, 0 for most. Real-time: yes.
   [[nodiscard]] std::array<Mat3, 4> nearBetween(
-      std::int32_t node, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING;
-  /// What the near field of these loads, patch weights times f, moves one node by, m. Cost O(k log K). Real-time: yes.
-  [[nodiscard]] Vec3 nearAt(const PatchNodes& patch, const Vec3& f,
-                            std::int32_t node) const noexcept PALPATE_NONBLOCKING;
+      const PatchSources& from, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING;
+  /// What the near fields of unit loads on a patch move one node by, column by load, m/N. Cost O(k log K). Real-time: yes.
+  [[nodiscard]] Mat3 nearAt(const PatchSources& from, std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   /// The farthest that a near field reaches from its node, m.
   [[nodiscard]] double reach() const noexcept { return reach_; }
 
  private:
-  /// Calls with(Green's function, the share of a load at the node that is its).
-  template <class With>
-  void forEachSource(std::int32_t node, const With& with) const noexcept PALPATE_NONBLOCKING {
-    const std::array<std::int32_t, 2>& sources = sources_[index(node)];
-    const double share = sources[1] >= 0 ? 0.5 : 1.0;
-    for (const std::int32_t source : sources)
-      if (source >= 0) with(source, share);
-  }
-
   std::vector<std::array<std::int32_t, 2>>
       sources_;            // [Ns] a node's Green's function, or those of an edge's ends, or -1
+  std::size_t greens_;     // G
   Amplitudes amplitudes_;  // [G][3][n] Z, m/N
   NearField near_;         // [G], of 3 loads
   double reach_{0.0};

@@ -10,6 +10,7 @@ namespace palpate {
 
 TouchPatch::TouchPatch(const MetaModel& model)
     : nodes_(model.patches().room()),
+      sources_(model.linearField().room(nodes_.node.size())),
       modes_(index(model.farField().modes())),
       X_(12 * modes_),
       Z_(3 * modes_) {}
@@ -29,8 +30,9 @@ void TouchPatch::moveTo(const MetaModel& model, const ContactPoint& s) noexcept 
                                all.subspan(3 * (k + 1) * modes_, 3 * modes_));
   }
   if (!model.isDisplacementDriven()) return;
+  model.linearField().find(nodes_, sources_);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    model.linearField().addAmplitudes(nodes_, Vec3::Unit(Eigen::Index(axis)),
+    model.linearField().addAmplitudes(sources_, Vec3::Unit(Eigen::Index(axis)),
                                       std::span(Z_).subspan(axis * modes_, modes_));
 }
 

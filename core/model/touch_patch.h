@@ -27,6 +27,8 @@ class TouchPatch {
 
   [[nodiscard]] const ContactPoint& s() const noexcept { return s_; }
   [[nodiscard]] const PatchNodes& nodes() const noexcept { return nodes_; }
+  /// What answers for the nodes' loads, of a "displacement" model.
+  [[nodiscard]] const PatchSources& sources() const noexcept { return sources_; }
   /// P_s of the modes sum_k X_k y_k, m. @param y  [n]. Cost O(n). Real-time: yes.
   [[nodiscard]] Averages ofModes(std::span<const float> y) const noexcept PALPATE_NONBLOCKING;
   /// sum_i w_i Z_i, [3 loads][n], m/N: the amplitudes that unit forces on this patch cause.
@@ -37,6 +39,7 @@ class TouchPatch {
  private:
   ContactPoint s_;
   PatchNodes nodes_;
+  PatchSources sources_;
   std::size_t modes_;
   std::vector<float> X_;  // [4][3][n]
   std::vector<float> Z_;  // [3][n]

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace palpate {
 
@@ -23,17 +22,21 @@ float rounded(double x, double way) noexcept PALPATE_NONBLOCKING {
 
 }  // namespace
 
+/// That of no triangles is infinitely far from everywhere.
+struct BoundingVolumes::Box {
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::array<float, 3> low{kInfinity, kInfinity, kInfinity}, high{kInfinity, kInfinity, kInfinity};
+};
+
 BoundingVolumes::BoundingVolumes(std::span<const double> positions, std::span<const std::int32_t> triangles)
     : positions_(positions), triangles_(triangles) {
-  std::vector<std::int32_t> order(triangles.size() / 3);
-  std::iota(order.begin(), order.end(), 0);
-  std::vector<Vec3> centres(order.size());
-  for (std::size_t t = 0; t < centres.size(); ++t) {
+  std::vector<Leaf> leaves(triangles.size() / 3);
+  for (std::size_t t = 0; t < leaves.size(); ++t) {
     const auto triangle = static_cast<std::int32_t>(t);
-    centres[t] = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
+    leaves[t] = {(corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0, triangle};
   }
-  nodes_.reserve(order.size() / 2);
-  if (!order.empty()) (void)build(order, centres);
+  nodes_.reserve(leaves.size() / 2);
+  if (!leaves.empty()) (void)build(leaves);
 }
 
 Vec3 BoundingVolumes::corner(std::int32_t triangle, int k) const noexcept PALPATE_NONBLOCKING {
@@ -41,56 +44,72 @@ Vec3 BoundingVolumes::corner(std::int32_t triangle, int k) const noexcept PALPAT
   return Eigen::Map<const Vec3>(positions_.data() + 3 * static_cast<std::size_t>(triangles_[entry]));
 }
 
-/// Child k's box; that of no triangles is infinitely far from everywhere.
-void BoundingVolumes::setBox(Node& node, std::size_t k, std::span<const std::int32_t> triangles) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low = Vec3::Constant(kInfinity), high = -low;
-  for (const std::int32_t triangle : triangles)
-    for (int i = 0; i < 3; ++i) {
-      low = low.cwiseMin(corner(triangle, i));
-      high = high.cwiseMax(corner(triangle, i));
-    }
+BoundingVolumes::Box BoundingVolumes::boxOf(std::int32_t triangle) const {
+  const Vec3 A = corner(triangle, 0), B = corner(triangle, 1), C = corner(triangle, 2);
+  Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto of = static_cast<Eigen::Index>(axis);
-    node.low[axis][k] = triangles.empty() ? std::numeric_limits<float>::infinity() : rounded(low[of], -1.0);
-    node.high[axis][k] = triangles.empty() ? std::numeric_limits<float>::infinity() : rounded(high[of], 1.0);
+    box.low[axis] = rounded(std::min({A[of], B[of], C[of]}), -1.0);
+    box.high[axis] = rounded(std::max({A[of], B[of], C[of]}), 1.0);
   }
+  return box;
+}
+
+/// What the boxes of its children cover together.
+BoundingVolumes::Box BoundingVolumes::boxOf(const Node& node) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.high[axis] = -Box::kInfinity;
+    for (std::size_t k = 0; k < kChildren; ++k) {
+      if (node.low[axis][k] == Box::kInfinity) continue;  // no triangles
+      box.low[axis] = std::min(box.low[axis], node.low[axis][k]);
+      box.high[axis] = std::max(box.high[axis], node.high[axis][k]);
+    }
+  }
+  return box;
 }
 
 /// Halved where the centres spread most, and each half again.
-std::array<std::span<std::int32_t>, BoundingVolumes::kChildren> BoundingVolumes::divided(
-    std::span<std::int32_t> triangles, std::span<const Vec3> centres) const {
-  const auto halved = [&](std::span<std::int32_t> part) {
+std::array<std::span<BoundingVolumes::Leaf>, BoundingVolumes::kChildren> BoundingVolumes::divided(
+    std::span<Leaf> leaves) {
+  const auto halved = [](std::span<Leaf> part) {
     const auto middle = static_cast<std::ptrdiff_t>(part.size() / 2);
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const std::int32_t t : part) {
-      low = low.cwiseMin(centres[static_cast<std::size_t>(t)]);
-      high = high.cwiseMax(centres[static_cast<std::size_t>(t)]);
+    for (const Leaf& leaf : part) {
+      low = low.cwiseMin(leaf.centre);
+      high = high.cwiseMax(leaf.centre);
     }
     Eigen::Index axis = 0;
     (high - low).maxCoeff(&axis);
-    std::nth_element(part.begin(), part.begin() + middle, part.end(), [&](std::int32_t a, std::int32_t b) {
-      return centres[static_cast<std::size_t>(a)][axis] < centres[static_cast<std::size_t>(b)][axis];
-    });
+    std::nth_element(part.begin(), part.begin() + middle, part.end(),
+                     [axis](const Leaf& a, const Leaf& b) { return a.centre[axis] < b.centre[axis]; });
     const auto size = static_cast<std::size_t>(middle);
     return std::array{part.first(size), part.subspan(size)};
   };
-  const auto [left, right] = halved(triangles);
+  const auto [left, right] = halved(leaves);
   const auto [a, b] = halved(left);
   const auto [c, d] = halved(right);
   return {a, b, c, d};
 }
 
-std::int32_t BoundingVolumes::build(std::span<std::int32_t> triangles, std::span<const Vec3> centres) {
+std::int32_t BoundingVolumes::build(std::span<Leaf> leaves) {
   const auto self = static_cast<std::int32_t>(nodes_.size());
   nodes_.emplace_back();
-  const auto parts = divided(triangles, centres);
+  const auto parts = divided(leaves);
   for (std::size_t k = 0; k < kChildren; ++k) {
-    setBox(nodes_[static_cast<std::size_t>(self)], k, parts[k]);
-    const std::int32_t child = parts[k].empty()       ? ~triangles.front()
-                               : parts[k].size() == 1 ? ~parts[k].front()
-                                                      : build(parts[k], centres);
-    nodes_[static_cast<std::size_t>(self)].child[k] = child;
+    const std::span<Leaf> part = parts[k];
+    const std::int32_t child = part.empty()       ? ~leaves.front().triangle
+                               : part.size() == 1 ? ~part.front().triangle
+                                                  : build(part);
+    const Box box = part.empty() ? Box{}
+                    : child < 0  ? boxOf(~child)
+                                 : boxOf(nodes_[static_cast<std::size_t>(child)]);
+    Node& node = nodes_[static_cast<std::size_t>(self)];
+    node.child[k] = child;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      node.low[axis][k] = box.low[axis];
+      node.high[axis][k] = box.high[axis];
+    }
   }
   return self;
 }

@@ -39,10 +39,16 @@ class BoundingVolumes {
   };
   using Distances = std::array<double, kChildren>;
 
-  std::int32_t build(std::span<std::int32_t> triangles, std::span<const Vec3> centres);
-  [[nodiscard]] std::array<std::span<std::int32_t>, kChildren> divided(std::span<std::int32_t> triangles,
-                                                                       std::span<const Vec3> centres) const;
-  void setBox(Node& node, std::size_t k, std::span<const std::int32_t> triangles) const;
+  struct Leaf {
+    Vec3 centre;
+    std::int32_t triangle;
+  };
+  struct Box;
+
+  std::int32_t build(std::span<Leaf> leaves);
+  [[nodiscard]] static std::array<std::span<Leaf>, kChildren> divided(std::span<Leaf> leaves);
+  [[nodiscard]] Box boxOf(std::int32_t triangle) const;
+  [[nodiscard]] static Box boxOf(const Node& node);
   [[nodiscard]] static Distances squaredDistances(const Node& node,
                                                   const Vec3& p) noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] TriangleHit hit(std::int32_t triangle, const Vec3& p) const noexcept PALPATE_NONBLOCKING;

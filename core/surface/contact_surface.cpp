@@ -8,6 +8,7 @@
 
 #include "core/base/prefetch.h"
 #include "core/surface/face_points.h"
+#include "core/surface/sort_by_node.h"
 
 namespace palpate {
 
@@ -64,7 +65,7 @@ std::vector<std::int32_t> addMiddles(const Draft& coarse, Draft& fine) {
       const auto [low, high] = std::minmax({node[(k + 1) % 3], node[(k + 2) % 3]});
       sides.push_back({(std::int64_t{low} << kHalf) | high, sides.size()});
     }
-  std::sort(sides.begin(), sides.end());
+  (void)sortByNode(sides, coarse.position.size(), [](const Side& side) { return index(side.edge >> kHalf); });
   std::vector<std::int32_t> middles(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (i == 0 || sides[i].edge != sides[i - 1].edge) {
@@ -129,6 +130,8 @@ ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
     draft = std::move(finer);
     ++levels_;
   }
+  positions_.reserve(3 * draft.position.size());
+  triangles_.reserve(3 * draft.triangle.size());
   for (const Vec3& X : draft.position) positions_.insert(positions_.end(), {X.x(), X.y(), X.z()});
   for (const auto& node : draft.triangle) triangles_.insert(triangles_.end(), node.begin(), node.end());
   std::vector<std::uint8_t> reachable(draft.triangle.size());
@@ -136,46 +139,47 @@ ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
     reachable[t] = rest.reachable(static_cast<std::int32_t>(t >> (2 * levels_))) ? 1 : 0;
   mesh_ =
       std::make_unique<SurfaceMesh>(positions_, triangles_, std::move(draft.normal), std::move(reachable));
-  measureBulge(rest);
-  findSlopes(rest);
+  std::vector<Vec3> rest_points = draft.position;
+  findRestPoints(rest, rest_points);
+  // At the nodes: between them both surfaces are flat over each fine triangle.
+  for (std::size_t i = 0; i < rest_points.size(); ++i)
+    bulge_ = std::max(bulge_, (draft.position[i] - rest_points[i]).norm());
+  findSlopes(rest_points);
 }
 
-/// At the nodes: between them both surfaces are flat over each fine triangle.
-void ContactSurface::measureBulge(const SurfaceMesh& rest) {
-  for (std::int32_t t = 0; t < mesh_->triangles(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      ContactPoint corner{t, {}};
-      corner.barycentric[k] = 1.0;
-      bulge_ = std::max(bulge_, (mesh_->position(corner) - rest.position(this->rest(corner))).norm());
-    }
+/// By node, the point of the rest surface that belongs to it; a node of no triangle has its own place.
+void ContactSurface::findRestPoints(const SurfaceMesh& rest, std::span<Vec3> points) const {
+  std::vector<bool> found(points.size(), false);
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const std::size_t node = index(triangles_[i]);
+    if (found[node]) continue;
+    found[node] = true;
+    ContactPoint corner{static_cast<std::int32_t>(i / 3), {}};
+    corner.barycentric[i % 3] = 1.0;
+    points[node] = rest.position(this->rest(corner));
+  }
 }
 
 /// Of each triangle, sum_k v_k grad lambda_k; of a node, those round it, weighted by their areas.
-void ContactSurface::findSlopes(const SurfaceMesh& rest) {
+void ContactSurface::findSlopes(std::span<const Vec3> rest_points) {
   slopes_.resize(positions_.size() / 3);
+  std::vector<float> weight(slopes_.size(), 0.0F);
   for (std::int32_t t = 0; t < mesh_->triangles(); ++t) {
     const std::array<Vec3, 3> X = mesh_->corners(t);
-    const Vec3 face = (X[1] - X[0]).cross(X[2] - X[0]).normalized();
+    const Vec3 twice = (X[1] - X[0]).cross(X[2] - X[0]), face = twice.normalized();
+    const auto size = static_cast<float>(twice.norm());
     const std::int32_t* const node = triangles_.data() + 3 * index(t);
     Mat3 normal = Mat3::Zero(), to_rest = Mat3::Zero();  // times twice the area
     for (std::size_t k = 0; k < 3; ++k) {
-      ContactPoint corner{t, {}};
-      corner.barycentric[k] = 1.0;
       const Vec3 gradient = face.cross(X[(k + 2) % 3] - X[(k + 1) % 3]);
       normal += mesh_->nodeNormal(node[k]) * gradient.transpose();
-      to_rest += rest.position(this->rest(corner)) * gradient.transpose();
+      to_rest += rest_points[index(node[k])] * gradient.transpose();
     }
     for (std::size_t k = 0; k < 3; ++k) {
       slopes_[index(node[k])].normal += normal.cast<float>();
       slopes_[index(node[k])].rest += to_rest.cast<float>();
+      weight[index(node[k])] += size;
     }
-  }
-  std::vector<float> weight(slopes_.size(), 0.0F);
-  for (std::int32_t t = 0; t < mesh_->triangles(); ++t) {
-    const std::array<Vec3, 3> X = mesh_->corners(t);
-    const double twice = (X[1] - X[0]).cross(X[2] - X[0]).norm();
-    for (std::size_t k = 0; k < 3; ++k)
-      weight[index(triangles_[3 * index(t) + k])] += static_cast<float>(twice);
   }
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
     slopes_[i].normal /= weight[i];

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/contact_point.h"
@@ -49,8 +50,8 @@ class ContactSurface {
     Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();  // dn/dX, 1/m
     Eigen::Matrix3f rest = Eigen::Matrix3f::Zero();    // d(rest point)/dX
   };
-  void measureBulge(const SurfaceMesh& rest);
-  void findSlopes(const SurfaceMesh& rest);
+  void findRestPoints(const SurfaceMesh& rest, std::span<Vec3> points) const;
+  void findSlopes(std::span<const Vec3> rest_points);
 
   std::vector<double> positions_;        // [N][3], m
   std::vector<std::int32_t> triangles_;  // [T 4^levels][3]

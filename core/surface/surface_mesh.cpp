@@ -10,6 +10,7 @@
 #include "core/base/prefetch.h"
 #include "core/data/datasets.h"
 #include "core/surface/face_points.h"
+#include "core/surface/sort_by_node.h"
 
 namespace palpate {
 
@@ -30,14 +31,13 @@ struct Edge {
                               " " + what);
 }
 
-std::vector<Edge> sortedEdges(std::span<const std::int32_t> triangles) {
+std::vector<Edge> edgesOf(std::span<const std::int32_t> triangles) {
   std::vector<Edge> edges;
   edges.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size() / 3; ++t)
     for (std::size_t k = 0; k < 3; ++k)
       edges.push_back({triangles[3 * t + (k + 1) % 3], triangles[3 * t + (k + 2) % 3],
                        static_cast<std::int32_t>(t), static_cast<int>(k)});
-  std::sort(edges.begin(), edges.end());
   return edges;
 }
 
@@ -145,15 +145,19 @@ void SurfaceMesh::findReachable() {
 
 /// Also the proof that the surface is closed: each directed edge once, and its reverse once.
 void SurfaceMesh::findNeighbours() {
-  const std::vector<Edge> edges = sortedEdges(triangles_);
+  std::vector<Edge> edges = edgesOf(triangles_);
+  const std::vector<std::size_t> first =
+      sortByNode(edges, positions_.size() / 3, [](const Edge& edge) { return index(edge.from); });
   for (std::size_t i = 1; i < edges.size(); ++i)
     if (!(edges[i - 1] < edges[i]))
       refuse(edges[i].triangle,
              "repeats the edge from node " + name(edges[i]) + ", expected a consistently oriented surface");
   neighbours_.resize(face_normals_.size());
   for (const Edge& edge : edges) {
-    const auto twin = std::lower_bound(edges.begin(), edges.end(), Edge{edge.to, edge.from, 0, 0});
-    if (twin == edges.end() || twin->from != edge.to || twin->to != edge.from)
+    const auto begin = edges.begin() + std::ptrdiff_t(first[index(edge.to)]);
+    const auto end = edges.begin() + std::ptrdiff_t(first[index(edge.to) + 1]);
+    const auto twin = std::lower_bound(begin, end, Edge{edge.to, edge.from, 0, 0});
+    if (twin == end || twin->to != edge.from)
       refuse(edge.triangle,
              "has no neighbour across the edge from node " + name(edge) + ", expected a closed surface");
     neighbours_[index(edge.triangle)][static_cast<std::size_t>(edge.opposite)] = twin->triangle;
