@@ -35,4 +35,4 @@ export interface Organ {
   surface(): Float32Array | undefined;
 }
 
-export function makeOrgan(makeModule: unknown, settings: object, hdf5: unknown, file: unknown, name: string, tipRadius?: number): Promise<Organ>;
+export function makeOrgan(makeModule: unknown, settings: object, hdf5: unknown, file: unknown, size: number, name: string, tipRadius?: number): Promise<Organ>;

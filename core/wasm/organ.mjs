@@ -33,14 +33,30 @@ const slabOf = (first, count, others) => [
   [1, ...others.map(() => 1)].map(BigInt),
 ];
 
-/** Calls visit(path, dataset) for all datasets below a group. */
-function forEachDataset(group, path, visit) {
-  for (const key of group.keys()) {
-    const thing = group.get(key);
-    const here = path === '' ? key : `${path}/${key}`;
-    if (thing.type === 'Group') forEachDataset(thing, here, visit);
-    else if (thing.type === 'Dataset') visit(here, thing);
+/** Calls visit(path, dataset) for what lies where a model's datasets lie: in a group of the file, "contact/force". */
+function forEachDataset(file, visit) {
+  for (const key of file.keys()) {
+    const group = file.get(key);
+    if (group?.type !== 'Group') continue;
+    for (const name of group.keys()) {
+      const thing = group.get(name);
+      if (thing?.type === 'Dataset') visit(`${key}/${name}`, thing);
+    }
   }
+}
+
+/**
+ * Refuses what would take more memory than its file has bytes, before any is taken. Numbers count as they are stored.
+ * @param size  of the file  @param before  bytes of the datasets before  @throws Error  file, dataset, found, expected
+ */
+function checkSize(name, path, { metadata }, bytes, before, size) {
+  const fail = (what) => {
+    throw new Error(`${name}: /${path} ${what}`);
+  };
+  if (!(bytes <= size)) fail(`has ${bytes} bytes, more than the file's ${size} can hold`);
+  if (!(before + bytes <= size)) fail(`brings the datasets to ${before + bytes} bytes, more than the file's ${size} can hold`);
+  if (metadata.chunks) fail('is chunked, expected contiguous');
+  if (metadata.vlen) fail('has parts of any length, expected numbers or names of 64 bytes');
 }
 
 /** The engine's memory and functions, with texts and arrays of numbers as arguments. */
@@ -100,13 +116,16 @@ function giveAttributes(engine, file) {
   }
 }
 
-function giveArrays(engine, hdf5, file) {
+function giveArrays(engine, hdf5, file, size, name) {
   const { module } = engine;
-  forEachDataset(file, '', (path, dataset) => {
+  let total = 0;
+  forEachDataset(file, (path, dataset) => {
+    const bytes = bytesOf(dataset);
+    checkSize(name, path, dataset, bytes, total, size);
+    total += bytes;
     const type = TYPES[dataset.dtype] ?? OTHER;
     const shape = Float64Array.from(dataset.shape ?? [], Number);
-    const bytes = bytesOf(dataset);
-    const place = engine.with([path, shape], (name, lengths) => module._palpate_array(name, type, shape.length, lengths, bytes));
+    const place = engine.with([path, shape], (place, lengths) => module._palpate_array(place, type, shape.length, lengths, bytes));
     if (place === 0) throw new Error(`${path}: the page has no memory left`);
     forEachPart(hdf5, dataset, (part, at) => module.HEAPU8.set(part, place + at));
   });
@@ -117,15 +136,19 @@ function giveArrays(engine, hdf5, file) {
  * @param makeModule  what build/wasm/palpate_core.mjs exports
  * @param settings    for it: sha256() gives an object with add(bytes) and finish(); locateFile, wasmBinary as emscripten has them
  * @param hdf5        what h5wasm.ready gives  @param file  h5wasm's File, open; it is closed
+ * @param size  bytes of the file: datasets that claim more are refused
  * @param name        how it is called in messages  @param tipRadius  m
  * @throws Error  one sentence: file, dataset, found, expected
  */
-export async function makeOrgan(makeModule, settings, hdf5, file, name, tipRadius = 0.005) {
+export async function makeOrgan(makeModule, settings, hdf5, file, size, name, tipRadius = 0.005) {
   const engine = new Engine(await makeModule({ ...settings }));
   engine.with([name], (n) => engine.module._palpate_begin(n));
-  giveAttributes(engine, file);
-  giveArrays(engine, hdf5, file);
-  file.close();
+  try {
+    giveAttributes(engine, file);
+    giveArrays(engine, hdf5, file, size, name);
+  } finally {
+    file.close();
+  }
   const wrong = engine.with([name], (n) => engine.text(engine.module._palpate_load(n, tipRadius)));
   if (wrong !== '') throw new Error(wrong);
   return new Organ(engine);

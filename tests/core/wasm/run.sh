@@ -8,6 +8,7 @@ modules=$root/clients/viewer/web/node_modules
 [[ -d $modules/h5wasm ]] || { echo "SKIPPED: npm could not fetch the packages that package-lock.json names"; exit 0; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+node "$root/tests/core/wasm/hostile.mjs" "$build/wasm" "$modules" "$scratch"
 compare() { # NAME [ARGUMENTS OF write_round_organ]
   local name=$1
   shift

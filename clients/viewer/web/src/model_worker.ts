@@ -67,7 +67,7 @@ async function open(source: string | File): Promise<void> {
   hdf5.FS.mount(hdf5.FS.filesystems.WORKERFS, { files: [model] }, FOLDER); // reads where the file is: no copy of it here
   const file = new h5wasm.File(`${FOLDER}/${model.name}`, 'r');
   if (file.file_id < 0n) throw new Error(`${model.name} is no HDF5 file`);
-  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile }, hdf5, file, model.name);
+  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile }, hdf5, file, model.size, model.name);
   host = new OrganHost(organ, model.name, {
     said: (said) => tell({ kind: 'said', said }),
     mesh: (mesh) => tell({ kind: 'mesh', mesh }),
