@@ -6,7 +6,8 @@ import { Hand } from './hand';
 import { Keys } from './keys';
 import { Legend } from './legend';
 import { Line, type LineListener } from './line';
-import { admit, door } from './login';
+import { admit, door, doorAtLast } from './login';
+import { recall, remember } from './memory';
 import { ModelFiles, namedModel } from './model_files';
 import { forget, keep } from './offline';
 import type { Colouring } from './organ';
@@ -33,6 +34,8 @@ const NOTICE_MS = 5000;
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
 const KEEP_AFTER_MS = 1500; // the organ comes before its copy
+const SLOW_MS = 30_000; // of reading a model, after which another one is asked for
+const MODEL = `model ${new URL('./', location.href).href}`; // of this page's memory: the address of the last one named
 const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
 /** The page: listens to the viewer, draws, and lets people press. */
@@ -90,16 +93,17 @@ export class App implements LineListener {
   /** Finds out whether a palpate-viewer is here; without one the page has an organ of its own. */
   private async begin(): Promise<void> {
     const model = namedModel(document);
-    const here = model.exported ? 'other' : await door();
     const again = model.address !== '' || Boolean(navigator.serviceWorker?.controller); // opened without a network
-    if (here === 'other' || (here === 'silent' && again)) return this.alone(model.address);
+    const here = model.exported ? 'other' : again ? await doorAtLast() : await door();
+    if (here === 'other' || (here === 'silent' && again)) return this.alone(model.wrong ? '' : model.address || (recall(MODEL) ?? ''), model.wrong);
     if (model.address) this.notice('A palpate-viewer serves this page, so it shows the organ of a palpate-server, not the model named.');
     void forget();
     await admit(here === 'asks');
     this.line.open({ viewer: viewerAddress(location) });
   }
 
-  private alone(model: string): void {
+  /** @param model  its address; empty: none  @param wrong  for people: why there is none */
+  private alone(model: string, wrong: string): void {
     if (this.stage.software) this.usualHz = SOFTWARE_HZ;
     this.modelFiles.want();
     this.panel.alone();
@@ -107,8 +111,8 @@ export class App implements LineListener {
       this.toKeep = model;
       this.line.open({ model });
     } else {
-      this.setState('wait', 'no organ');
-      this.modelFiles.offer('There is no palpate-viewer here, and no model is named.');
+      this.setState(wrong ? 'bad' : 'wait', wrong || 'no organ');
+      this.modelFiles.offer(wrong || 'There is no palpate-viewer here, and no model is named.');
       void this.keep('');
     }
   }
@@ -147,7 +151,9 @@ export class App implements LineListener {
     this.view.showInside(this.regionList.show(mesh));
     const { toKeep } = this;
     this.toKeep = undefined;
-    if (toKeep !== undefined) this.keepSoon(toKeep);
+    if (toKeep === undefined) return;
+    remember(MODEL, toKeep); // a home screen opens the page without it
+    this.keepSoon(toKeep);
   }
 
   frame(frame: Frame, received: readonly Received[]): void {
@@ -204,7 +210,7 @@ export class App implements LineListener {
     state.title = text; // it may be cut short
     state.toggleAttribute('data-others', others);
     setText(element('state-text', HTMLSpanElement), text);
-    this.modelFiles.offer(level === 'bad' ? text : '');
+    this.modelFiles.offer(level === 'good' ? '' : text, level === 'bad' ? 0 : SLOW_MS);
     if (!this.serving) this.forget();
   }
 
@@ -244,7 +250,7 @@ export class App implements LineListener {
   private turn(nowMs: number): void {
     const next = (): number => requestAnimationFrame((then) => this.turn(then));
     if (this.view) next();
-    else setTimeout(next, EMPTY_MS); // the processor is for those who bring the organ
+    else setTimeout(next, EMPTY_MS); // leaves the processor to the worker that loads
     const tool = toolToShow(this.frame_?.tools ?? []);
     const due = this.quality.due(nowMs);
     if (due) this.drawChanges(nowMs, tool);

@@ -3,22 +3,35 @@ import { element, setText } from './page';
 
 const CODE = '#code=';
 const SECRET = /^[\w-]+$/;
+const DOOR_TIMES = 4;
+const DOOR_WAIT_MS = 500;
 
 /** The code in an address that palpate-viewer printed. Browsers send no fragment to anyone. */
 export function codeIn(fragment: string): string {
   return fragment.startsWith(CODE) ? fragment.slice(CODE.length) : '';
 }
 
-/** What answers here: a palpate-viewer, which wants its token first or not; another web server; nothing. */
+/** What answers here: a palpate-viewer, which wants its token first or not; another web server; nothing that tells. */
 export type Door = 'asks' | 'open' | 'other' | 'silent';
 
 export async function door(): Promise<Door> {
   try {
     const answer = await fetch('./login', { cache: 'no-store' });
-    const { needed } = (answer.ok ? await answer.json().catch(() => ({})) : {}) as { needed?: unknown };
-    return typeof needed !== 'boolean' ? 'other' : needed ? 'asks' : 'open';
+    if (answer.status === 404 || answer.status === 405) return 'other';
+    if (!answer.ok) return 'silent'; // a proxy, or a web server that is busy, says nothing of what is behind
+    const said = (await answer.json().catch(() => null)) as { needed?: unknown } | null;
+    return typeof said?.needed !== 'boolean' ? 'other' : said.needed ? 'asks' : 'open';
   } catch {
     return 'silent';
+  }
+}
+
+/** door(), asked again for some seconds while nothing tells. */
+export async function doorAtLast(): Promise<Door> {
+  for (let times = 1; ; ++times) {
+    const here = await door();
+    if (here !== 'silent' || times === DOOR_TIMES) return here;
+    await new Promise((resolve) => setTimeout(resolve, DOOR_WAIT_MS));
   }
 }
 

@@ -3,16 +3,26 @@ import { element, setText } from './page';
 
 const SIGNATURE = [0x89, 0x48, 0x44, 0x46, 0x0d, 0x0a, 0x1a, 0x0a]; // of HDF5
 
-/** The model that the page's address names, or else the one that palpate-viewer --export wrote into the page. */
 export interface Named {
   readonly address: string; // absolute; empty: none
+  readonly wrong: string; // for people: the name is no address; else empty
   readonly exported: boolean; // whether palpate-viewer --export wrote this page
 }
 
+function addressOf(name: string, page: Document): string {
+  try {
+    return new URL(name, page.location.href).href;
+  } catch {
+    return '';
+  }
+}
+
+/** The model that the page's address names, or else the one that palpate-viewer --export wrote into the page. */
 export function namedModel(page: Document): Named {
   const exported = page.querySelector<HTMLMetaElement>('meta[name="palpate-model"]');
-  const name = new URLSearchParams(page.location.search).get('model') || exported?.content;
-  return { address: name ? new URL(name, page.location.href).href : '', exported: exported !== null };
+  const name = new URLSearchParams(page.location.search).get('model') || exported?.content || '';
+  const address = name && addressOf(name, page);
+  return { address, wrong: name && !address ? `?model=${name} is no address` : '', exported: exported !== null };
 }
 
 /** Model files that people drop onto the page or choose. */
@@ -21,6 +31,7 @@ export class ModelFiles {
   private readonly button = element('open', HTMLButtonElement);
   private readonly offer_ = element('offer', HTMLDivElement);
   private wanted = false;
+  private timer = 0;
 
   constructor(
     private readonly take: (file: File) => void,
@@ -44,10 +55,12 @@ export class ModelFiles {
     this.button.hidden = false;
   }
 
-  /** Asks for a file in the organ's place. @param why  for people; empty: asks no more */
-  offer(why: string): void {
-    this.offer_.hidden = why === '' || !this.wanted;
+  /** Asks for a file in the organ's place. @param why  for people; empty: asks no more  @param afterMs  unless told otherwise until then */
+  offer(why: string, afterMs = 0): void {
+    clearTimeout(this.timer);
+    this.offer_.hidden = afterMs > 0 || why === '' || !this.wanted;
     setText(element('offer-text', HTMLParagraphElement), why);
+    if (afterMs > 0) this.timer = window.setTimeout(() => this.offer(why), afterMs);
   }
 
   private over(event: DragEvent): void {

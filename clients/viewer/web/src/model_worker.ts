@@ -7,6 +7,7 @@ import type { FromPage, ToPage } from './line';
 import { OrganHost } from './organ_host';
 
 const FOLDER = '/given';
+const FILE = 'model'; // there, whatever it is called outside
 const SAY_MS = 250; // between words on how far it is
 
 const tell = (message: ToPage, transfer: Transferable[] = []): void => postMessage(message, { transfer });
@@ -21,7 +22,8 @@ const megabytes = (bytes: number): string => (bytes / 1e6).toFixed(1);
 async function fetched(address: string): Promise<File> {
   const answer = await fetch(address, { cache: 'no-cache' });
   if (!answer.ok || !answer.body) throw new Error(`${address}: the web server answers ${answer.status}`);
-  const size = Number(answer.headers.get('content-length')) || 0;
+  const packed = answer.headers.has('content-encoding'); // then the length is that of what is sent
+  const size = packed ? 0 : Number(answer.headers.get('content-length')) || 0;
   let [got, nextMs] = [0, 0];
   const counted = new TransformStream<Uint8Array, Uint8Array>({
     transform(part, out) {
@@ -33,7 +35,17 @@ async function fetched(address: string): Promise<File> {
     },
   });
   const bytes = await new Response(answer.body.pipeThrough(counted)).blob(); // the browser's memory or disk, not this worker's
-  return new File([bytes], decodeURIComponent(new URL(address).pathname.replace(/.*\//, '')));
+  return new File([bytes], nameIn(address));
+}
+
+/** A model's name for people. */
+function nameIn(address: string): string {
+  const name = new URL(address).pathname.replace(/.*\//, '');
+  try {
+    return decodeURIComponent(name) || address;
+  } catch {
+    return name;
+  }
 }
 
 const digest = (): object => {
@@ -64,8 +76,8 @@ async function open(source: string | File): Promise<void> {
   state('starting', 'reading the model');
   const hdf5 = await h5wasm.ready;
   hdf5.FS.mkdir(FOLDER);
-  hdf5.FS.mount(hdf5.FS.filesystems.WORKERFS, { files: [model] }, FOLDER); // reads where the file is: no copy of it here
-  const file = new h5wasm.File(`${FOLDER}/${model.name}`, 'r');
+  hdf5.FS.mount(hdf5.FS.filesystems.WORKERFS, { blobs: [{ name: FILE, data: model }] }, FOLDER); // reads where the file is: no copy of it here
+  const file = new h5wasm.File(`${FOLDER}/${FILE}`, 'r');
   if (file.file_id < 0n) throw new Error(`${model.name} is no HDF5 file`);
   const organ = await makeOrgan(makeModule, { sha256: digest, locateFile }, hdf5, file, model.size, model.name);
   host = new OrganHost(organ, model.name, {
@@ -79,7 +91,10 @@ async function open(source: string | File): Promise<void> {
 onmessage = (event: MessageEvent<FromPage>) => {
   const message = event.data;
   if (message.kind === 'open')
-    open(message.source).catch((error: unknown) => state('gone', error instanceof Error ? error.message : String(error)));
+    open(message.source).catch((error: unknown) => {
+      state('gone', error instanceof Error ? error.message : String(error));
+      self.close(); // with all its memory
+    });
   else if (message.kind === 'say') host?.say(message.message as { type: string });
   else if (message.kind === 'hold') host?.hold(message.position, message.goal);
   else handOver.taken();

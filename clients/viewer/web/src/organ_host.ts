@@ -12,6 +12,7 @@ const WAKE_MS = 4; // between wake-ups, each of which makes up for the time sinc
 const MOST_TICKS = 25; // of one wake-up: a page that stood still does not catch up
 const STATUS_MS = 1000;
 const REST_TICKS = 300; // after the last tool, in which forces and fields fade
+const [LEAST_HZ, MOST_HZ] = [1, 1000];
 const USUAL_HZ = 60; // of fields, until the page asks for others
 const TARGET_MS = 12; // between repetitions of a target
 const HOLD_MS = 1000; // longest repetition of a target while a busy page sends no new one
@@ -76,7 +77,14 @@ export class OrganHost {
     if (message.type === 'grab') this.grab();
     else if (message.type === 'release') this.release();
     else if (message.type === 'set') this.set(message);
-    else if (message.type === 'rate') this.frameMs = 1000 / Number(message['hz']);
+    else if (message.type === 'rate') this.rate(Number(message['hz']));
+  }
+
+  /** @param hz  of fields; what is no number is ignored */
+  private rate(hz: number): void {
+    if (Number.isNaN(hz)) return;
+    this.frameMs = 1000 / Math.min(MOST_HZ, Math.max(LEAST_HZ, hz));
+    this.nextFrameMs = 0;
   }
 
   /** The tool's target until the next call, from which it goes on to its goal; undefined: no tool is held. */

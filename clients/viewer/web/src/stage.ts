@@ -139,7 +139,7 @@ export class Stage {
   }
 }
 
-/** Asked once: whoever asks a context waits for all that it still draws. */
+/** Asked once. Asking a context waits for all that it still draws. */
 function nameOfRenderer(): string {
   const gl = document.createElement('canvas').getContext('webgl2');
   const ext = gl?.getExtension('WEBGL_debug_renderer_info');
