@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page without a server: a model file from a plain web server, core as WebAssembly in the page's worker.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { aloneStage, browser, DIST, drop, organ, press, scratch, state } from './support/alone.mjs';
@@ -64,6 +65,39 @@ test('what is no model is said in words', async () => {
   const seen = await Seen.open(browser, `${address}?model=none.h5`);
   await seen.page.waitForFunction(() => /404/.test(document.querySelector('#state-text').textContent), undefined, { timeout: 15_000 });
   assert.match(await state(seen), /none\.h5: the web server answers 404/);
+  await seen.close();
+});
+
+test('an address that is none, or no text, is said; a name that is none is its address', async () => {
+  const seen = await Seen.open(browser, `${address}?model=http://[`);
+  await seen.page.locator('#offer').waitFor();
+  assert.match(await state(seen), /\?model=http:\/\/\[ is no address/);
+  server.first['/a/b.h5'] = [[200, readFileSync(join(scratch, 'coarser.h5'))]];
+  await seen.page.goto(`${address}?model=a%252Fb.h5`);
+  await seen.organ();
+  assert.match(await state(seen), /a\/b\.h5, in this page/);
+  server.first['/%E0%A4%A.h5'] = [[200, readFileSync(join(scratch, 'coarser.h5'))]];
+  await seen.page.goto(`${address}?model=${encodeURIComponent('%E0%A4%A.h5')}`);
+  await seen.organ();
+  assert.match(await state(seen), /%E0%A4%A\.h5, in this page/);
+  await seen.page.goto(`${address}?model=models/`);
+  await seen.page.getByText('models/: the web server answers 404').first().waitFor();
+  await seen.close();
+});
+
+test('a palpate-viewer that is not back yet is waited for: its page is not alone', async () => {
+  server.first['/login'] = [[503, ''], [502, 'null'], [200, '{"needed":false}']];
+  const seen = await Seen.open(browser, `${address}?model=organ.h5`);
+  await seen.page.getByText('A palpate-viewer serves this page').waitFor();
+  assert.equal((await seen.figures()).nodes, 0);
+  assert.ok(!(await seen.page.evaluate(() => navigator.serviceWorker.getRegistration())));
+  await seen.close();
+});
+
+test('a web server whose /login is no object is no palpate-viewer', async () => {
+  server.first['/login'] = [[200, 'null']];
+  const seen = await Seen.open(browser, address);
+  await seen.page.getByText('There is no palpate-viewer here, and no model is named').waitFor();
   await seen.close();
 });
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { cpSync, readFileSync, utimesSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { aloneStage, browser, exported, organ, press, state } from './support/alone.mjs';
+import { aloneStage, browser, DIST, exported, organ, press, scratch, state } from './support/alone.mjs';
 import { Seen } from './support/browser.mjs';
 import { Bench } from './support/processes.mjs';
 import { StaticServer } from './support/static_server.mjs';
@@ -22,6 +22,7 @@ after(async () => {
 });
 
 const kept = (seen) => seen.until('works without a network', (f) => f.kept === '');
+const cachesOf = (seen) => seen.page.evaluate(() => caches.keys());
 
 test('cut off and loaded again it is pressed; a new model and a new page take the place of the old ones', async () => {
   const seen = await Seen.open(browser, server.address);
@@ -39,10 +40,27 @@ test('cut off and loaded again it is pressed; a new model and a new page take th
     await seen.context.setOffline(true);
     await seen.page.reload();
   };
+  const [whole, ...others] = await cachesOf(seen);
+  assert.deepEqual(others, []);
+  await seen.page.evaluate(async () => {
+    const half = await caches.open(`palpate ${location.origin}/ 9999`);
+    await half.put('./', new Response('half of a copy'));
+  });
   await cutOff();
   await seen.organ();
   await press(seen);
   await kept(seen);
+  assert.deepEqual(await cachesOf(seen), [whole], 'what was not whole is gone, what was stays');
+  const elsewhere = await seen.context.newPage();
+  await assert.rejects(elsewhere.goto(`${server.address}other/`), 'other pages of that web server are not palpate');
+  await elsewhere.close();
+
+  server = await StaticServer.open([folder], server.port);
+  await seen.context.setOffline(false);
+  await seen.page.reload();
+  await kept(seen);
+  assert.deepEqual(await cachesOf(seen), [whole], 'nothing changed, so nothing was copied');
+  await cutOff();
 
   const newer = organ('newer.h5', 2);
   const index = join(folder, 'index.html');
@@ -67,5 +85,21 @@ test('cut off and loaded again it is pressed; a new model and a new page take th
   await seen.page.reload();
   await seen.until('the organ of the server', (f) => f.nodes > 0 && f.nodes < second.nodes);
   await seen.page.waitForFunction(async () => (await caches.keys()).length === 0 && !(await navigator.serviceWorker.getRegistration()));
+  await seen.close();
+});
+
+test('started from a home screen, by its address alone, the page opens the model that was named last', async () => {
+  organ('named.h5', 2);
+  const web = await StaticServer.open([DIST, scratch]);
+  const seen = await Seen.open(browser, `${web.address}?model=named.h5`);
+  await seen.organ();
+  await kept(seen);
+  await web.close();
+  await seen.context.setOffline(true);
+  await seen.page.goto(web.address);
+  await seen.organ();
+  assert.match(await state(seen), /named\.h5, in this page/);
+  await kept(seen);
+  await press(seen);
   await seen.close();
 });
