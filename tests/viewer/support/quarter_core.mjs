@@ -9,16 +9,27 @@ import { setTimeout as sleep } from 'node:timers/promises';
 const PERIOD_US = 10_000;
 const QUOTA_US = PERIOD_US / 4;
 
+const CONTROL = 'cgroup.subtree_control';
+
+/** Of a file of a control group; none where it cannot be read. */
+function wordsOf(file) {
+  try {
+    return readFileSync(file, 'utf8').trim().split(/\s+/);
+  } catch {
+    return [];
+  }
+}
+
 /** Where groups with a limit of processor time can be made, and how; undefined: nowhere here. */
 function kind() {
   const mounts = readFileSync('/proc/self/mounts', 'utf8').split('\n').map((line) => line.split(' '));
-  const second = mounts.find(([, at, type]) => type === 'cgroup2' && readFileSync(join(at, 'cgroup.controllers'), 'utf8').split(/\s/).includes('cpu'));
+  const second = mounts.find(([, at, type]) => type === 'cgroup2' && wordsOf(join(at, 'cgroup.controllers')).includes('cpu'));
   const first = mounts.find(([, , type, options]) => type === 'cgroup' && options.split(',').includes('cpu'));
   // Others on the machine may have less than usual, so that the group really gets its quarter: weight, shares.
   if (second)
-    return { at: second[1], above: [['cgroup.subtree_control', '+cpu']], settings: [['cpu.max', `${QUOTA_US} ${PERIOD_US}`], ['cpu.weight', '10000']] };
+    return { at: second[1], passesOn: wordsOf(join(second[1], CONTROL)).includes('cpu'), settings: [['cpu.max', `${QUOTA_US} ${PERIOD_US}`], ['cpu.weight', '10000']] };
   if (first)
-    return { at: first[1], above: [], settings: [['cpu.cfs_period_us', PERIOD_US], ['cpu.cfs_quota_us', QUOTA_US], ['cpu.shares', '262144']] };
+    return { at: first[1], passesOn: true, settings: [['cpu.cfs_period_us', PERIOD_US], ['cpu.cfs_quota_us', QUOTA_US], ['cpu.shares', '262144']] };
   return undefined;
 }
 
@@ -37,16 +48,18 @@ export function quarterOfACore(folder, program) {
   const found = kind();
   if (!found) return { lacks: 'no control group limits processor time here' };
   const group = join(found.at, `palpate-test-${process.pid}`);
+  const passOn = (sign) => found.passesOn || writeFileSync(join(found.at, CONTROL), `${sign}cpu`);
   try {
-    for (const [file, value] of found.above) writeFileSync(join(found.at, file), value);
+    passOn('+');
     mkdirSync(group);
     for (const [file, value] of found.settings) writeFileSync(join(group, file), String(value));
   } catch (error) {
     if (existsSync(group)) rmdirSync(group);
+    if (error.path !== join(found.at, CONTROL)) passOn('-');
     return { lacks: `this user may not make a control group: ${error.message}` };
   }
   const inside = join(folder, 'inside');
   writeFileSync(inside, `#!/bin/sh\necho $$ > ${group}/cgroup.procs && exec ${program} "$@"\n`);
   chmodSync(inside, 0o755);
-  return { inside, remove: () => remove(group) };
+  return { inside, remove: async () => (await remove(group), passOn('-')) };
 }
