@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DNPM=npm -DWEB=folder -DCORE=folder -P build.cmake: npm ci, when the lock file is newer than what is installed, and
-# vite build, which takes core as WebAssembly from its folder.
+# vite build, which takes core as WebAssembly from its folder; empty: a page without core.
 set(installed ${WEB}/node_modules/.package-lock.json)
 if(NOT EXISTS ${installed} OR ${WEB}/package-lock.json IS_NEWER_THAN ${installed})
   execute_process(COMMAND ${NPM} ci --no-audit --no-fund --fetch-retries=1 WORKING_DIRECTORY ${WEB}
