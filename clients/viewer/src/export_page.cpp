@@ -75,12 +75,29 @@ Exported sizeOf(const fs::path& folder) {
   return written;
 }
 
-void clear(const fs::path& folder, bool was_there) {
+/// The outermost of the folders that have to be made. @return empty: the folder is there
+fs::path outermostNew(const fs::path& folder) {
+  fs::path made;
+  for (fs::path at = fs::absolute(folder).lexically_normal(); !at.empty() && !fs::exists(at);
+       at = at.parent_path())
+    made = at;
+  return made;
+}
+
+void clear(const fs::path& folder, const fs::path& made) {
   std::error_code ignored;
-  if (!was_there) fs::remove_all(folder, ignored);
-  if (was_there)
+  if (!made.empty()) fs::remove_all(made, ignored);
+  if (made.empty())
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
       fs::remove_all(entry.path(), ignored);
+}
+
+/// A copy of the page into itself would never end.
+void checkOutside(const fs::path& page, const fs::path& folder) {
+  const fs::path inside = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(page));
+  if (!inside.empty() && *inside.begin() != "..")
+    throw client::ClientError("--export " + folder.string() + " is inside the page's folder " +
+                              page.string());
 }
 
 void copyAll(const fs::path& page, const fs::path& folder, const fs::path& model) {
@@ -96,19 +113,21 @@ Exported exportPage(const fs::path& page, const fs::path& folder, const fs::path
   const fs::path from = PageFiles(page).folder();
   checkCore(from);
   if (!model.empty()) checkModel(model, from);
-  const bool was_there = fs::exists(folder);
-  if (was_there && (!fs::is_directory(folder) || !fs::is_empty(folder)))
+  if (folder.empty()) throw client::ClientError("--export names no folder");
+  if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder)))
     throw client::ClientError("--export " + folder.string() + " is not an empty folder");
+  checkOutside(from, folder);
+  const fs::path made = outermostNew(folder);
   try {
     copyAll(from, folder, model);
     return sizeOf(folder);
   } catch (const fs::filesystem_error& error) {
-    clear(folder, was_there);
+    clear(folder, made);
     throw client::ClientError("--export " + folder.string() + ": cannot write " +
                               (error.path2().empty() ? error.path1() : error.path2()).string() + ": " +
                               error.code().message());
   } catch (...) {
-    clear(folder, was_there);
+    clear(folder, made);
     throw;
   }
 }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "export_page.h"
 #include "palpate/client/error.h"
@@ -25,7 +26,7 @@ constexpr int kReceivePriority = 35;  // below the server's threads
 struct Options {
   WebOptions web;
   std::string page;
-  std::string export_folder;
+  std::optional<std::string> export_folder;
   std::string model;
   std::string token_file;
   std::uint32_t domain{0};
@@ -87,14 +88,14 @@ void announce(const WebServer& server, const Options& options) {
 }
 
 void writePage(const Options& options) {
-  const Exported written = exportPage(options.web.page, options.export_folder, options.model);
+  const Exported written = exportPage(options.web.page, *options.export_folder, options.model);
   if (options.json) {
-    program::printJson({{"folder", options.export_folder},
+    program::printJson({{"folder", *options.export_folder},
                         {"model", options.model},
                         {"files", written.files},
                         {"bytes", written.bytes}});
   } else {
-    std::cout << options.export_folder << ": " << written.files << " files, " << written.bytes / 1000
+    std::cout << *options.export_folder << ": " << written.files << " files, " << written.bytes / 1000
               << " kB, for any web server\n";
   }
 }
@@ -116,10 +117,10 @@ int body(int argc, char** argv) {
   Options options;
   addOptions(line.options(), options);
   if (!line.read(argc, argv)) return 0;
-  if (options.export_folder.empty() && !options.model.empty())
+  if (!options.export_folder && !options.model.empty())
     throw client::ClientError("--model is for --export: a server has its own model");
   options.web.page = options.page.empty() ? defaultPageFolder() : std::filesystem::path(options.page);
-  if (!options.export_folder.empty()) {
+  if (options.export_folder) {
     writePage(options);
     return 0;
   }

@@ -89,6 +89,27 @@ TEST_F(ExportedPage, RefusesAFolderThatIsInUse) {
   EXPECT_TRUE(says(complaint("liver.h5/below", base_ / "liver.h5"), "cannot write"));
 }
 
+TEST_F(ExportedPage, RefusesAFolderInsideThePage) {
+  EXPECT_TRUE(says(complaint("page/out", ""), "page/out is inside the page's folder"));
+  EXPECT_TRUE(says(complaint("page/assets/../a/b", ""), "is inside the page's folder"));
+  EXPECT_EQ(run("page-beside", "").files, 4U);
+}
+
+TEST_F(ExportedPage, RefusesAFolderWithoutAName) {
+  try {
+    (void)exportPage(base_ / "page", "", "");
+    FAIL() << "it was taken";
+  } catch (const client::ClientError& error) {
+    EXPECT_STREQ(error.what(), "--export names no folder");
+  }
+}
+
+TEST_F(ExportedPage, LeavesNoFolderAboveOneThatFailed) {
+  base_.write("page/index.html", "no head");
+  EXPECT_TRUE(says(complaint("a/b/c", ""), "has no </head>"));
+  EXPECT_FALSE(fs::exists(base_ / "a"));
+}
+
 TEST_F(ExportedPage, RefusesAPageWithoutItsParts) {
   fs::remove(base_ / "page/core/palpate_core.wasm");
   EXPECT_TRUE(says(complaint("out", ""), "has no core/palpate_core.wasm"));
