@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD_FOLDER: holds core as WebAssembly to core as it is here, on the tests' round organ.
+# run.sh BUILD_FOLDER: holds core as WebAssembly to core as it is here, on the tests' round organ and a model for small machines.
 set -euo pipefail
 build=$1
 root=$(cd "$(dirname "$0")/../../.." && pwd)
@@ -9,12 +9,15 @@ modules=$root/clients/viewer/web/node_modules
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 node "$root/tests/core/wasm/hostile.mjs" "$build/wasm" "$modules" "$scratch"
-compare() { # NAME [ARGUMENTS OF write_round_organ]
-  local name=$1
-  shift
-  "$build/tests/write_round_organ" "$scratch/$name.h5" "$@"
-  "$build/tests/core_answers" "$scratch/$name.h5" "$scratch/$name"
-  node "$root/tests/core/wasm/compare.mjs" "$build/wasm" "$modules" "$scratch/$name.h5" "$scratch/$name"
+compare() { # NAME: of a model in scratch
+  "$build/tests/core_answers" "$scratch/$1.h5" "$scratch/$1"
+  node "$root/tests/core/wasm/compare.mjs" "$build/wasm" "$modules" "$scratch/$1.h5" "$scratch/$1"
 }
+"$build/tests/write_round_organ" "$scratch/displacement.h5"
 compare displacement
-compare force 3 0.3 force
+"$build/tests/write_round_organ" "$scratch/force.h5" 3 0.3 force
+compare force
+# In 8 bits, with fewer modes for the higher orders.
+"$build/bin/palpate-organ" paper-liver -o "$scratch/organ.msh" --element-size 0.02 >/dev/null
+"$build/bin/palpate-solve" "$scratch/organ.msh" -o "$scratch/compact.h5" --target handheld --order 2 --element-order 1 >/dev/null 2>&1
+compare compact
