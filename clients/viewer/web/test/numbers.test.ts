@@ -145,10 +145,11 @@ test('a code is in the fragment that palpate-viewer prints, and nowhere else', (
 test('the address names a model before the export does, and an exported page is told by its meta element', () => {
   const page = (href: string, exported?: string) =>
     ({ location: new URL(href), querySelector: () => (exported === undefined ? null : { content: exported }) }) as unknown as Document;
-  assert.deepEqual(namedModel(page('http://h/a/')), { address: '', exported: false });
-  assert.deepEqual(namedModel(page('http://h/a/', '')), { address: '', exported: true });
-  assert.deepEqual(namedModel(page('http://h/a/index.html', './b%20c.h5')), { address: 'http://h/a/b%20c.h5', exported: true });
-  assert.deepEqual(namedModel(page('http://h/a/?model=d.h5', './b.h5')), { address: 'http://h/a/d.h5', exported: true });
+  assert.deepEqual(namedModel(page('http://h/a/')), { address: '', exported: false, wrong: '' });
+  assert.deepEqual(namedModel(page('http://h/a/', '')), { address: '', exported: true, wrong: '' });
+  assert.deepEqual(namedModel(page('http://h/a/index.html', './b%20c.h5')), { address: 'http://h/a/b%20c.h5', exported: true, wrong: '' });
+  assert.deepEqual(namedModel(page('http://h/a/?model=http://[')), { address: '', exported: false, wrong: '?model=http://[ is no address' });
+  assert.deepEqual(namedModel(page('http://h/a/?model=d.h5', './b.h5')), { address: 'http://h/a/d.h5', exported: true, wrong: '' });
   assert.equal(namedModel(page('http://h/a/?model=http://other/e.h5')).address, 'http://other/e.h5');
 });
 
