@@ -18,6 +18,16 @@ solver::NewtonOptions newtonOptions() {
   return options;
 }
 
+/// From rest, where the series leads nowhere: a touch is given up after minutes, not hours.
+solver::NewtonOptions fromRest() {
+  solver::NewtonOptions options = newtonOptions();
+  options.steps = 4;
+  options.max_iterations = 12;
+  options.max_halvings = 2;
+  options.extra_steps = 6;
+  return options;
+}
+
 /// u = sum d^alpha U_alpha of the position in a lane.
 Eigen::VectorXd fieldOf(const solver::SeriesSolver& series, int lane, const Vec3& d, int nodes) {
   std::vector<double> powers(static_cast<std::size_t>(series.basis().size()));
@@ -81,7 +91,7 @@ std::optional<query::FullSolution> ReferenceSolver::solve(std::span<const Touch>
     if (solution.min_det_f > 0.0) return solution;
   }
   try {
-    solution.state = newton.solvePatches(tools, newtonOptions());
+    solution.state = newton.solvePatches(tools, fromRest());
   } catch (const solver::NoConvergence&) {
     return std::nullopt;  // the caller counts it
   }
