@@ -50,7 +50,7 @@ TEST_F(HandheldBlock, HasTheSameMesh) {
   EXPECT_EQ(small_->data.mesh_midsides, full_->data.mesh_midsides);
 }
 
-/// Force within 1 %, here far better; the field as far off as a picture may be.
+/// The force as exact as that of the full model, the field as far off as a picture may be.
 TEST_F(HandheldBlock, AnswersLikeNewton) {
   const MetaModel model = MetaModel::load(small_->file.path());
   std::mt19937 random{5};
@@ -89,7 +89,7 @@ TEST_F(HandheldBlock, SharedLoadsAreThoseOfThePatch) {
   EXPECT_NEAR(sums.mean(), 1.0, 0.02);
 }
 
-/// With the walls of a limit that surface and force alone pass, a file is made that is as small as it gets.
+/// If surface and force alone exceed the limit, the file is as small as it gets.
 TEST_F(HandheldBlock, WithoutRoomTheFieldIsLeftToFewModes) {
   const BlockModel tiny(block(), handheld(1e5), "tiny.h5");
   EXPECT_GT(std::filesystem::file_size(tiny.file.path()), 100'000U);
