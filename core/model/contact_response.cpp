@@ -2,6 +2,7 @@
 #include "core/model/contact_response.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "core/base/index.h"
@@ -179,6 +180,23 @@ Vec3 ContactResponse::energySlope(const Stencil& stencil, const std::array<Mat3,
   for (std::size_t k = 0; k < 3; ++k)
     slope[static_cast<Eigen::Index>(k)] += 0.5 * d.dot(stiffness_slope[k] * d);
   return slope;
+}
+
+double ContactResponse::domainRadius(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
+  if (harmonic_) return meanOf(domain_radius_, mix);
+  const auto radius = [&](std::size_t b) {
+    return domain_radius_[static_cast<std::size_t>(mix.position[b])];
+  };
+  const auto count = static_cast<std::size_t>(mix.count);
+  double least = radius(0);
+  for (std::size_t b = 1; b < count; ++b) least = std::min(least, radius(b));
+  if (!(least > 0.0)) return 0.0;
+  double error = 0.0;  // at the least radius: about abs(d)^4 is what fields of degree 4 leave out of abs(d)
+  for (std::size_t b = 0; b < count; ++b) {
+    const double part = least / radius(b);
+    error += mix.weight[b] * part * part * part * part;
+  }
+  return least / std::sqrt(std::sqrt(error));
 }
 
 double ContactResponse::meanOf(std::span<const double> radius,

@@ -75,10 +75,9 @@ class ContactResponse {
   [[nodiscard]] double limit(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
     return meanOf(limit_, mix);
   }
-  /// ContactSeries::domainRadius() alone. Real-time: yes.
-  [[nodiscard]] double domainRadius(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING {
-    return meanOf(domain_radius_, mix);
-  }
+  /// ContactSeries::domainRadius() alone: of f_max and t_max the same mean as of the limit; d_max(s) is where the mixed error of
+  /// the positions reaches what each has at its own d_max, (sum_b lambda_b d_max,b^-4)^(-1/4) (docs/decisions/domain.md). Real-time: yes.
+  [[nodiscard]] double domainRadius(const PositionMix& mix) const noexcept PALPATE_NONBLOCKING;
   /// Asks the cache for what the mix with a position reads. Real-time: yes.
   void expect(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
     prefetch(rows_.data() + index(position) * lines_, lines_ * sizeof(Line));

@@ -22,6 +22,19 @@ struct Positions {
 /// @param radius  [M] m, such as d_max  @param travel  m  @return 0 to 1; 0 where nothing is accessible
 [[nodiscard]] double reachingShare(const Positions& positions, std::span<const double> radius, double travel);
 
+/// The part of touches with abs(d) uniform in 0.2 to 1 of a travel, as palpate-certify draws them, that is within a radius.
+/// @param radius, travel  m, travel > 0
+[[nodiscard]] double touchWithin(double radius, double travel);
+
+/// Share of touches on the accessible surface that are within a radius: the mean of touchWithin() over the area.
+/// @param radius  [M] m  @param travel  m  @return 0 to 1; 0 where nothing is accessible
+[[nodiscard]] double touchesWithin(const Positions& positions, std::span<const double> radius, double travel);
+
+/// How far each side goes, by where the outward normal points most: a list of {"side": "+x", "area_share", "median" (d_max, m),
+/// "reaching" (share of the side's area), "touches" (touchesWithin())}; sides without area are left out.      docs/json.md
+[[nodiscard]] program::Json sidesJson(const Positions& positions, std::span<const double> radius,
+                                      double travel);
+
 /// A travel that people press by, and the shares that reach it.
 struct Reach {
   double travel;          ///< m

@@ -2,6 +2,7 @@
 #include "tools/examine/certify/travel.h"
 
 #include "tools/examine/certify/certify_error.h"
+#include "tools/modelfile/default_travel.h"
 #include "tools/program/json.h"
 #include "tools/program/printed.h"
 
@@ -21,14 +22,11 @@ double checked(const program::Json& travel) {
 }  // namespace
 
 Travel travelOf(const ModelAttributes& attributes, std::optional<double> asked) {
-  constexpr double kSoft = 50e3;                          // Pa
-  constexpr double kSoftTravel = 0.007, kTravel = 0.005;  // m
   if (asked) return {*asked, "asked for"};
   const auto provenance = program::Json::read(attributes.provenance);
   const program::Json* const travel = provenance ? provenance->find("travel") : nullptr;
-  if (travel != nullptr) return {checked(*travel), "the case's"};
-  if (attributes.E < kSoft) return {kSoftTravel, "the default below 50 kPa"};
-  return {kTravel, "the default from 50 kPa on"};
+  if (travel != nullptr) return {checked(*travel), "what it was solved for"};
+  return {modelfile::defaultTravel(attributes.E), "the default of this stiffness"};
 }
 
 }  // namespace palpate::certify

@@ -11,7 +11,7 @@ namespace palpate::certify {
 /// How far tools press, and who says so.
 struct Travel {
   double length;     ///< m
-  std::string from;  ///< for people: "asked for", "the case's", "the default below 50 kPa", ..
+  std::string from;  ///< for people: "asked for", "what it was solved for", "the default of this stiffness"
 };
 
 /// What tools may press by, m: one that is asked for, or a model's.

@@ -26,6 +26,8 @@ accessible = "accessible"
 
 [model]
 patch_radius = 0.006          # m; the tip of a finger-like tool of 5 mm radius
+
+[target]
 travel = 0.007                # m; how far it presses
 )";
 

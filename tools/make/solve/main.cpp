@@ -3,12 +3,14 @@
 //
 // Sample runs:  palpate-solve liver.msh -o liver.h5
 //               palpate-solve case.toml -o liver.h5 --json
+//               palpate-solve case.toml -o liver.h5 --dry-run
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
 #include <unistd.h>
 
 #include <chrono>
 #include <iostream>
 
+#include "tools/make/solve/dry_run.h"
 #include "tools/make/solve/options.h"
 #include "tools/make/solve/provenance.h"
 #include "tools/make/solve/summary.h"
@@ -59,6 +61,21 @@ mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fi
   return organ;
 }
 
+/// What a solve takes; nothing is written.
+void tell(const solve_program::Options& options, const solver::Case& c, const mesh::TetMesh& organ,
+          const solver::BuildOptions& build) {
+  if (c.method != solver::Method::kSeriesDisplacement)
+    throw solver::CaseError("--dry-run is for method series-displacement, not " + toString(c.method));
+  solver::BuildReport report;
+  const solver::Estimate estimate = solver::estimateDisplacementSeries(c, organ, build, report);
+  const program::Json found = solve_program::estimateOf(estimate, c, report);
+  if (options.json)
+    std::cout << found.dump(2) << '\n';
+  else
+    solve_program::printEstimate(found);
+  solver::requireRoom(estimate, c, build, build.output);
+}
+
 void run(solve_program::Options options) {
   const auto start = Clock::now();
   // 1. What to solve, and where to.
@@ -67,11 +84,13 @@ void run(solve_program::Options options) {
   // 2. The organ.
   const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
   adoptGroups(c, organ);
+  const std::filesystem::path folder = std::filesystem::absolute(options.output).parent_path();
+  if (options.scratch.empty()) options.scratch = folder;
+  const solver::BuildOptions build{options.threads, options.scratch, options.quiet, folder};
+  if (options.dry_run) return tell(options, c, organ, build);
   // 3. The model, by the method of the case.
-  if (options.scratch.empty()) options.scratch = std::filesystem::absolute(options.output).parent_path();
   solver::BuildReport report;
-  modelfile::ModelData data =
-      solver::buildModel(c, organ, {options.threads, options.scratch, options.quiet}, report);
+  modelfile::ModelData data = solver::buildModel(c, organ, build, report);
   // 4. Where it came from, and the file.
   solve_program::addProvenance(data, c, report);
   const auto write_start = Clock::now();

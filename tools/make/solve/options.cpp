@@ -31,7 +31,9 @@ void setTarget(const std::string& name, solver::Case& c) {
   const solver::Target target = name == "handheld" ? solver::Target::kHandheld : solver::Target::kServer;
   if (target == c.target) return;
   c.target = target;
-  for (std::optional<double>* key : {&c.travel, &c.size_limit, &c.near_radius, &c.field_error}) key->reset();
+  for (std::optional<double>* key :
+       {&c.travel, &c.size_limit, &c.near_radius, &c.force_error, &c.field_error})
+    key->reset();
   for (std::optional<int>* key : {&c.order, &c.force_order, &c.modes}) key->reset();
 }
 
@@ -70,6 +72,13 @@ void override(const Options& options, solver::Case& c) {
     c.order.reset();
     c.force_order.reset();
   }
+  if (options.force_error) c.force_error = options.force_error;
+  if (options.field_error) {
+    if (options.modes)
+      throw solver::CaseError("--field-error does not go with --modes: it chooses their number");
+    c.field_error = options.field_error;
+    c.modes.reset();
+  }
   if (options.steps) c.load.steps = options.steps;
   if (options.load) c.load.magnitude = options.load;
   if (options.direction) setDirection(*options.direction, c.load);
@@ -91,15 +100,25 @@ void describe(program::Options line, Options& options) {
   line.flag("--mesh-error", &options.mesh_error,
             "say by how much the mesh makes the organ too stiff: 12 places with better elements");
   line.add("--modes", &options.modes,
-           "modes of the model (default: 167; series-displacement: as many as its field_error of 1 % wants)")
+           "modes of the model (default: 167; series-displacement: as many as the field's error wants)")
       .range(1, 2000);
   line.add("--order", &options.order,
-           "degree of the series (default: 3); a force_order or travel of the case no longer holds")
+           "degree of the series (default: 3; series-displacement: chosen by the travel); a force_order or "
+           "travel "
+           "of the case no longer holds")
       .range(1, 7);
   line.add("--travel", &options.travel,
            "series-displacement: how far tools press, m; chooses the degrees of fields and force, for those "
-           "of the case")
+           "of the case (default: 0.007 where E is below 50 kPa, else 0.005)")
       .range(1e-9, solver::kLargestRadius);
+  line.add("--force-error", &options.force_error,
+           "series-displacement: asked error of the force within the domain, relative (default: 0.01)")
+      .range(1e-9, 0.999);
+  line.add("--field-error", &options.field_error,
+           "series-displacement: asked largest error of the field, of abs(d); chooses modes, near fields and "
+           "edges "
+           "(default: 0.01)")
+      .range(1e-9, 0.999);
   line.add("--target", &options.target,
            "server (the default), or handheld: a small file for a phone or a page, of order 3 and 4 mm of "
            "travel, or of "
@@ -113,6 +132,8 @@ void describe(program::Options line, Options& options) {
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);
   line.add("--scratch", &options.scratch, "folder of the scratch file (default: beside the output)");
   line.add("--threads", &options.threads, "worker threads").range(1, 1024);
+  line.flag("--dry-run", &options.dry_run,
+            "series-displacement: measure a few positions, say what the whole takes, and stop");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.flag("-q,--quiet", &options.quiet, "no progress");
 }

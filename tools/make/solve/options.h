@@ -26,7 +26,9 @@ struct Options {
   std::optional<int> modes, order, steps;
   std::optional<std::string> target;
   std::optional<double> size_limit;
-  std::optional<double> travel;          ///< m
+  std::optional<double> travel;  ///< m
+  std::optional<double> force_error, field_error;
+  bool dry_run{false};
   std::optional<std::string> direction;  ///< "x,y,z" or "any"
   std::optional<double> load;            ///< N
 };

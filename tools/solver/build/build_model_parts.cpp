@@ -32,6 +32,13 @@ void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::Tet
                                "\" or by springs?");
 }
 
+DomainCriteria criteriaOf(const Case& c) {
+  DomainCriteria criteria;
+  criteria.answer_error = c.forceErrorOrDefault();
+  criteria.field_error = c.fieldErrorOrDefault();
+  return criteria;
+}
+
 void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,
                     const Cholesky& factor, SeriesKind kind, const BuildOptions& options, FieldTable& table,
                     const SeriesSink& sink) {
@@ -46,7 +53,7 @@ void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const C
     const std::size_t first = chunk * kLanes;
     const std::size_t lanes = std::min<std::size_t>(kLanes, count - first);
     solver->solve(std::span(positions.patches).subspan(first, lanes));
-    const std::vector<SeriesRadii> radii = solver->domainRadii({});
+    const std::vector<SeriesRadii> radii = solver->domainRadii(criteriaOf(c));
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!(radii[lane].domain > 0.0))
         throw std::runtime_error(

@@ -32,6 +32,9 @@ class Stopwatch {
 /// Factorizes K_T(0). @throw std::runtime_error naming the node where it is not positive definite
 void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c);
 
+/// What the case asks of force and field within d_max.
+[[nodiscard]] DomainCriteria criteriaOf(const Case& c);
+
 /// Takes the series of one position. Called from several threads, once per position.
 using SeriesSink =
     std::function<void(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii)>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -13,6 +14,7 @@ struct BuildOptions {
   int workers{1};
   std::filesystem::path scratch{"."};  ///< folder of the scratch file
   bool quiet{false};
+  std::filesystem::path output{};  ///< folder of the file that is written later; empty: none
 };
 
 /// By how much the mesh makes the organ too stiff: n . K_s n of linear elasticity over the same of better elements, less 1.
@@ -23,12 +25,27 @@ struct MeshError {
   bool raised{false};   ///< better: quadratic elements; else those near the tool at half the edge length
 };
 
+/// Share of touches of up to a travel that are within d_max, in the mean of some places, with these orders.
+struct TriedOrders {
+  SeriesOrders orders;
+  double within;
+};
+
 /// The orders that a travel asks for, see ordersFor().
 struct TravelOrders {
   double travel;  ///< m
   SeriesOrders orders;
-  int reaching;  ///< places that reach it with these orders
-  int places;    ///< that were tried
+  int reaching;                      ///< places that reach it with these orders
+  int places;                        ///< that were tried
+  double within;                     ///< share of touches of up to the travel that are within d_max there
+  std::vector<TriedOrders> tried{};  ///< by cost
+};
+
+/// What edges between contact positions add to the fields, see storeEdgeFields().
+struct EdgeChoice {
+  std::size_t edges{0};   ///< longer than the patch is wide
+  std::size_t solved{0};  ///< and stored; 0 where they add too little
+  double added{0.0};      ///< by the second of 16, of abs(d) at the travel
 };
 
 /// What a size limit chose.
@@ -51,6 +68,7 @@ struct BuildReport {
   std::optional<MeshError> mesh_error{};  ///< where the case asks for it
   std::optional<TravelOrders> travel{};   ///< where it chose the orders
   std::optional<SizeChoice> size{};       ///< where the case has a limit
+  EdgeChoice edges{};                     ///< series-displacement
   double shared_loads{0};                 ///< SharedLoads::error, where loads are shared
   double fit_asked{0};                    ///< of fit_p95, where it chose the modes: the case's field_error
   int greedy_pairs{0};                    ///< PGD methods: pairs before recompression

@@ -95,12 +95,18 @@ void readModel(const std::string& file, const toml::table& table, Case& c) {
   c.patch_radius = section.number("patch_radius", 0.0, false, 1.0);
   c.order = section.integer("order", 1, 7);
   c.force_order = section.integer("force_order", 2, 8);
-  c.travel = section.number("travel", 0.0, false, kLargestRadius);
   c.modes = section.integer("modes", 1, 2000);
   c.near_radius = section.number("near_radius", 0.0, true, 1.0);
-  c.field_error = section.number("field_error", 0.0, false, 0.999);
   c.sweeps = section.integer("sweeps", 1, 1000);
-  if (choice(section, "target", "server", "handheld").value_or(false)) c.target = Target::kHandheld;
+  section.refuseTheRest();
+}
+
+void readTarget(const std::string& file, const toml::table& table, Case& c) {
+  Section section(file, "target", table);
+  if (choice(section, "machine", "server", "handheld").value_or(false)) c.target = Target::kHandheld;
+  c.travel = section.number("travel", 0.0, false, kLargestRadius);
+  c.force_error = section.number("force_error", 0.0, false, 0.999);
+  c.field_error = section.number("field_error", 0.0, false, 0.999);
   c.size_limit = section.number("size_limit", 1e5, true, 1e12);
   section.refuseTheRest();
 }
@@ -184,6 +190,7 @@ Case readCase(const std::filesystem::path& path) {
   section.tables("region", [&](Section& of) { c.regions.push_back(readRegion(of)); });
   section.tables("spring", [&](Section& of) { c.springs.push_back(readSpring(of)); });
   if (const toml::table* t = section.table("model")) readModel(file, *t, c);
+  if (const toml::table* t = section.table("target")) readTarget(file, *t, c);
   if (const toml::table* t = section.table("load")) readLoad(file, *t, c);
   if (const toml::table* t = section.table("pgd")) readPgd(file, *t, c);
   section.refuseTheRest();

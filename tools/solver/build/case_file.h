@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/mesh/tet_mesh.h"
+#include "tools/modelfile/default_travel.h"
 #include "tools/solver/build/case_error.h"
 #include "tools/solver/fem/fe_model.h"
 #include "tools/solver/series/series_orders.h"
@@ -88,14 +89,15 @@ struct Case {
   std::vector<SpringCase> springs;
   Method method{Method::kSeriesDisplacement};
   std::optional<double> patch_radius;  ///< a, m, (0, 1]; absent: 1.3 median surface edges, or 0.8
-  std::optional<int> order;            ///< p, 1 to 7; absent: by travel, or 3
+  std::optional<int> order;            ///< p, 1 to 7; absent: by travel, of other methods 3
   std::optional<int> force_order;      ///< p, at least 2, to 2p, at most 8; absent: by travel, or 2p up to 6
-  std::optional<double> travel;        ///< m, (0, 0.05]: how far a tool presses; chooses the orders
   std::optional<int> modes;            ///< n, 1 to 2000; absent: by field_error beside a near field, else 167
-  std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a
-  std::optional<double> field_error;   ///< largest error of the field over abs(d), (0, 1); absent: 0.01
+  std::optional<double> near_radius;   ///< rho, m, [0, 1]; absent: 4.5 a, or more where field_error wants it
   Target target{Target::kServer};
-  std::optional<double> size_limit;  ///< of the file, bytes, [1e5, 1e12]; handheld only; absent: 8 or 20 MB
+  std::optional<double> travel;       ///< m, (0, 0.05]: how far a tool presses; chooses the orders
+  std::optional<double> force_error;  ///< of the force within the travel, relative, (0, 1); absent: 0.01
+  std::optional<double> field_error;  ///< largest error of the field over abs(d), (0, 1); absent: 0.01
+  std::optional<double> size_limit;   ///< of the file, bytes, [1e5, 1e12]; handheld only; absent: 8 or 20 MB
   std::optional<int> sweeps;  ///< of the fit of the modes, 1 to 1000; absent: 2 beside a near field, else 6
   LoadCase load;
   PgdCase pgd;
@@ -109,14 +111,21 @@ struct Case {
   [[nodiscard]] int modesOrDefault() const { return modes.value_or(167); }
   [[nodiscard]] bool handheld() const { return target == Target::kHandheld; }
   [[nodiscard]] double nearRadiusOrDefault(double a) const { return near_radius.value_or(4.5 * a); }
-  /// Of a handheld model: how far a tool presses at order 3 and less, and at more, m.
+  /// Whether the travel chooses the orders.
+  [[nodiscard]] bool ordersByTravel() const {
+    return method == Method::kSeriesDisplacement && !order && !force_order;
+  }
+  /// How far a tool presses, m; of a handheld model without one 4 mm up to order 3, else 7 mm.
   [[nodiscard]] double travelOrDefault() const {
-    return travel.value_or(order.value_or(3) <= 3 ? kHandheldTravel : kHandheldLongTravel);
+    return travel.value_or(!handheld()              ? modelfile::defaultTravel(E)
+                           : order.value_or(3) <= 3 ? kHandheldTravel
+                                                    : kHandheldLongTravel);
   }
   [[nodiscard]] double sizeLimitOrDefault() const {
     return size_limit.value_or(order.value_or(3) <= 3 && travelOrDefault() <= kHandheldTravel ? 8e6 : 20e6);
   }
   static constexpr double kHandheldTravel = 0.004, kHandheldLongTravel = 0.007;
+  [[nodiscard]] double forceErrorOrDefault() const { return force_error.value_or(0.01); }
   [[nodiscard]] double fieldErrorOrDefault() const { return field_error.value_or(0.01); }
   [[nodiscard]] int sweepsOrDefault() const {
     return sweeps.value_or(method == Method::kSeriesDisplacement ? 2 : 6);

@@ -44,13 +44,14 @@ void checkKeys(const Case& c) {
            {"model.order", c.order.has_value(), kSeries, "it is the degree of a series"},
            {"model.force_order", c.force_order.has_value(), kDisplacement,
             "its answer has the degree of its fields"},
-           {"model.travel", c.travel.has_value(), kDisplacement, "it is of the series in d"},
+           {"target.travel", c.travel.has_value(), kDisplacement, "it is of the series in d"},
            {"mesh.error", c.mesh_error, kDisplacement, "it is of the series in d"},
            {"model.near_radius", c.near_radius.has_value(), kDisplacement, "its model is modes only"},
-           {"model.field_error", c.field_error.has_value(), kDisplacement,
+           {"target.force_error", c.force_error.has_value(), kDisplacement, "it is of the series in d"},
+           {"target.field_error", c.field_error.has_value(), kDisplacement,
             "its modes are as many as model.modes"},
-           {"model.target", c.handheld(), kDisplacement, "its size is that of its modes"},
-           {"model.size_limit", c.size_limit.has_value(), kDisplacement, "its size is that of its modes"},
+           {"target.machine", c.handheld(), kDisplacement, "its size is that of its modes"},
+           {"target.size_limit", c.size_limit.has_value(), kDisplacement, "its size is that of its modes"},
            {"model.sweeps", c.sweeps.has_value(), kSeries,
             "it fits no table of fields; pgd.sweeps sets the sweeps of a pair"},
            {"load.direction", direction, kPgd, any_load},
@@ -106,18 +107,19 @@ void checkCase(const Case& c) {
     throw CaseError("pgd.block = " + std::to_string(*c.pgd.block) +
                     " does not go with pgd.separation = \"hadamard\": such pairs are found one at a time");
   if (c.travel && (c.order || c.force_order))
-    throw CaseError("model.travel does not go with model.order and model.force_order: it chooses both");
+    throw CaseError("target.travel does not go with model.order and model.force_order: it chooses both");
   if (const SeriesOrders orders = c.orders(); !orders.areValid() || orders.answer < orders.leastAnswer())
     throw CaseError("model.force_order = " + std::to_string(orders.answer) +
                     " does not go with fields of order " + std::to_string(orders.fields) + ": expected " +
                     std::to_string(orders.leastAnswer()) + " to " + std::to_string(orders.mostAnswer()));
   if (c.size_limit && !c.handheld())
-    throw CaseError("model.size_limit does not go with model.target = \"server\": it is for handheld");
+    throw CaseError("target.size_limit does not go with target.machine = \"server\": it is for handheld");
   if (c.handheld() && c.field_error)
     throw CaseError(
-        "model.field_error does not go with model.target = \"handheld\": model.size_limit chooses the modes");
+        "target.field_error does not go with target.machine = \"handheld\": target.size_limit chooses the "
+        "modes");
   if (c.modes && c.field_error)
-    throw CaseError("model.field_error does not go with model.modes: it chooses their number");
+    throw CaseError("target.field_error does not go with model.modes: it chooses their number");
   if (c.nodalLoad() && c.patch_radius)
     throw CaseError("model.patch_radius does not go with load.kind = \"node\": such a load has no patch");
   if (c.pgd.greedy_pairs && *c.pgd.greedy_pairs < c.modesOrDefault())

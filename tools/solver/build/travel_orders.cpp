@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
+#include "tools/modelfile/reach.h"
 #include "tools/solver/base/lanes.h"
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/base/progress.h"
@@ -13,6 +15,8 @@
 namespace palpate::solver {
 
 namespace {
+
+constexpr double kWorth = 0.01;  // of all touches: what a higher order has to add
 
 /// Patches of accessible positions, spread over their list.
 std::vector<Patch> somePatches(const ContactPositions& positions) {
@@ -27,36 +31,42 @@ std::vector<Patch> somePatches(const ContactPositions& positions) {
   return some;
 }
 
-int reaching(double travel, const SeriesOrders& orders, const std::vector<Patch>& patches,
-             const SolverSetup& setup, const Cholesky& factor, int workers) {
-  std::vector<int> counts((patches.size() + kLanes - 1) / kLanes, 0);
-  parallelFor(workers, counts.size(), [&](int, std::size_t chunk) {
+/// d_max of each patch. @param travel  m
+std::vector<double> radiiOf(const SeriesOrders& orders, const DomainCriteria& criteria,
+                            const std::vector<Patch>& patches, const SolverSetup& setup,
+                            const Cholesky& factor, int workers) {
+  std::vector<double> domain(patches.size());
+  parallelFor(workers, (patches.size() + kLanes - 1) / kLanes, [&](int, std::size_t chunk) {
     SeriesSolver series(setup.model, factor, orders);
     const std::size_t first = chunk * kLanes;
     series.solve(std::span(patches).subspan(first, std::min<std::size_t>(kLanes, patches.size() - first)));
-    for (const SeriesRadii& radii : series.domainRadii({})) counts[chunk] += radii.domain >= travel ? 1 : 0;
+    const std::vector<SeriesRadii> radii = series.domainRadii(criteria);
+    for (std::size_t lane = 0; lane < radii.size(); ++lane) domain[first + lane] = radii[lane].domain;
   });
-  int all = 0;
-  for (const int count : counts) all += count;
-  return all;
+  return domain;
 }
 
 }  // namespace
 
-TravelOrders ordersFor(double travel, const SolverSetup& setup, const Cholesky& factor,
-                       const BuildOptions& options, std::span<const SeriesOrders> tried) {
+TravelOrders ordersFor(double travel, const DomainCriteria& criteria, const SolverSetup& setup,
+                       const Cholesky& factor, const BuildOptions& options,
+                       std::span<const SeriesOrders> tried) {
   const std::vector<Patch> patches = somePatches(setup.positions);
   Progress progress("orders that reach the travel", tried.size(), options.quiet);
-  TravelOrders best{travel, tried.front(), -1, static_cast<int>(patches.size())};
+  TravelOrders best{travel, tried.front(), 0, static_cast<int>(patches.size()), -1.0};
+  std::vector<TriedOrders> list;
   for (const SeriesOrders& orders : tried) {
-    const int count = reaching(travel, orders, patches, setup, factor, options.workers);
-    progress.advance();
-    if (count > best.reaching) {
-      best.orders = orders;
-      best.reaching = count;
+    TravelOrders now{travel, orders, 0, best.places, 0.0};
+    for (const double radius : radiiOf(orders, criteria, patches, setup, factor, options.workers)) {
+      now.reaching += radius >= travel ? 1 : 0;
+      now.within += modelfile::touchWithin(radius, travel) / best.places;
     }
-    if (2 * count >= best.places) break;
+    progress.advance();
+    list.push_back({orders, now.within});
+    if (now.within > best.within + kWorth) best = now;
+    if (best.within >= kEnoughTouches) break;
   }
+  best.tried = std::move(list);
   return best;
 }
 

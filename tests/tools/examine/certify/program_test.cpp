@@ -74,7 +74,7 @@ TEST(CertifyProgram, SaysInWordsWhatItFound) {
   const BoxModel box;
   const ProgramResult run = certify(box.path, {"--samples", "3"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("travel    5 mm (the default from 50 kPa on), seed " +
+  EXPECT_THAT(run.out, HasSubstr("travel    5 mm (the default of this stiffness), seed " +
                                  std::to_string(seedOf(box.model))));
   EXPECT_THAT(run.out, HasSubstr("too few samples for a bound"));
   EXPECT_THAT(run.out,

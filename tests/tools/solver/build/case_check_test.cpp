@@ -43,36 +43,36 @@ TEST_F(CaseCheck, TheOrderIsThatOfASeries) {
 TEST_F(CaseCheck, TheOrdersFitEachOtherAndATravelChoosesBoth) {
   const char* const method = "series-displacement";
   expectRefused(method, "model.force_order = 7", "model.force_order", "expected 3 to 6");
-  expectRefused(method, "model.travel = 0.01\nmodel.order = 4", "model.travel", "it chooses both");
-  expectRefused("series-force", "model.travel = 0.01", "model.travel", "it is for series-displacement");
+  expectRefused(method, "target.travel = 0.01\nmodel.order = 4", "target.travel", "it chooses both");
+  expectRefused("series-force", "target.travel = 0.01", "target.travel", "it is for series-displacement");
   expectRefused("series-force", "model.force_order = 3", "model.force_order",
                 "it is for series-displacement");
-  expectRefused(method, "model.travel = 0.01\nmodel.force_order = 6", "model.travel", "it chooses both");
+  expectRefused(method, "target.travel = 0.01\nmodel.force_order = 6", "target.travel", "it chooses both");
   const Case orders = readCase(write("mesh = \"a\"\n[model]\norder = 4\nforce_order = 8\n"));
-  const Case travel = readCase(write("mesh = \"a\"\nmodel.travel = 0.05\n"));
+  const Case travel = readCase(write("mesh = \"a\"\ntarget.travel = 0.05\n"));
   EXPECT_EQ(orders.orders().answer, 8);
   EXPECT_EQ(travel.travel, 0.05);
   for (const Case& c : {orders, travel}) EXPECT_NO_THROW(checkCase(c));
 }
 TEST_F(CaseCheck, ASizeIsThatOfAHandheldModel) {
   const char* const method = "series-displacement";
-  expectRefused(method, "model.size_limit = 8e6", "model.size_limit", "it is for handheld");
-  expectRefused(method, "model.target = \"handheld\"\nmodel.field_error = 0.02", "model.field_error",
-                "model.size_limit chooses the modes");
+  expectRefused(method, "target.size_limit = 8e6", "target.size_limit", "it is for handheld");
+  expectRefused(method, "target.machine = \"handheld\"\ntarget.field_error = 0.02", "target.field_error",
+                "target.size_limit chooses the modes");
   for (const char* other : {"series-force", "pgd-linear"}) {
-    expectRefused(other, "model.target = \"handheld\"", "model.target", "it is for series-displacement");
-    expectRefused(other, "model.size_limit = 8e6", "model.size_limit", "it is for series-displacement");
+    expectRefused(other, "target.machine = \"handheld\"", "target.machine", "it is for series-displacement");
+    expectRefused(other, "target.size_limit = 8e6", "target.size_limit", "it is for series-displacement");
   }
-  EXPECT_THROW((void)readCase(write("mesh = \"a\"\nmodel.target = \"phone\"\n")), CaseError);
-  EXPECT_THROW((void)readCase(write("mesh = \"a\"\nmodel.size_limit = 1000\n")), CaseError);
-  const Case alone = readCase(write("mesh = \"a\"\nmodel.target = \"handheld\"\n"));
+  EXPECT_THROW((void)readCase(write("mesh = \"a\"\ntarget.machine = \"phone\"\n")), CaseError);
+  EXPECT_THROW((void)readCase(write("mesh = \"a\"\ntarget.size_limit = 1000\n")), CaseError);
+  const Case alone = readCase(write("mesh = \"a\"\ntarget.machine = \"handheld\"\n"));
   EXPECT_NO_THROW(checkCase(alone));
   EXPECT_EQ(alone.orders().fields, 3);
   EXPECT_EQ(alone.travelOrDefault(), 0.004);
   EXPECT_EQ(alone.sizeLimitOrDefault(), 8e6);
-  const Case longer = readCase(write("mesh = \"a\"\n[model]\ntarget = \"handheld\"\ntravel = 0.007\n"));
+  const Case longer = readCase(write("mesh = \"a\"\n[target]\nmachine = \"handheld\"\ntravel = 0.007\n"));
   EXPECT_EQ(longer.sizeLimitOrDefault(), 20e6);
-  const Case limited = readCase(write("mesh = \"a\"\n[model]\ntarget = \"handheld\"\nsize_limit = 5e6\n"));
+  const Case limited = readCase(write("mesh = \"a\"\n[target]\nmachine = \"handheld\"\nsize_limit = 5e6\n"));
   EXPECT_EQ(limited.sizeLimitOrDefault(), 5e6);
 }
 TEST_F(CaseCheck, ALinearForceWouldLeaveNothingToJudgeItsDomainBy) {
@@ -87,9 +87,9 @@ TEST_F(CaseCheck, ALinearForceWouldLeaveNothingToJudgeItsDomainBy) {
 TEST_F(CaseCheck, OnlyTheThreePartModelHasANearField) {
   for (const char* method : {"series-force", "pgd-linear", "pgd-explicit", "pgd-euler"}) {
     expectRefused(method, "model.near_radius = 0.02", "model.near_radius", "it is for series-displacement");
-    expectRefused(method, "model.field_error = 0.02", "model.field_error", "it is for series-displacement");
+    expectRefused(method, "target.field_error = 0.02", "target.field_error", "it is for series-displacement");
   }
-  expectRefused("series-displacement", "model.field_error = 0.02\nmodel.modes = 9", "model.field_error",
+  expectRefused("series-displacement", "target.field_error = 0.02\nmodel.modes = 9", "target.field_error",
                 "model.modes");
 }
 TEST_F(CaseCheck, ASeriesHoldsEveryLoad) {

@@ -143,8 +143,8 @@ TEST_F(CaseFile, RefusesAnUnknownLaw) {
 TEST_F(CaseFile, RefusesAnOrderAboveSeven) {
   expectRefusal("mesh = \"a\"\n[model]\norder = 8\n", ".toml:3: model.order", "[1, 7]");
   expectRefusal("mesh = \"a\"\n[model]\nforce_order = 9\n", ".toml:3: model.force_order", "[2, 8]");
-  expectRefusal("mesh = \"a\"\n[model]\ntravel = 0\n", ".toml:3: model.travel", "(0, 0.05]");
-  expectRefusal("mesh = \"a\"\n[model]\ntravel = 0.051\n", ".toml:3: model.travel", "(0, 0.05]");
+  expectRefusal("mesh = \"a\"\n[target]\ntravel = 0\n", ".toml:3: target.travel", "(0, 0.05]");
+  expectRefusal("mesh = \"a\"\n[target]\ntravel = 0.051\n", ".toml:3: target.travel", "(0, 0.05]");
 }
 TEST_F(CaseFile, RefusesAMissingMesh) {
   expectRefusal("[model]\norder = 3\n", ".toml", "mesh is missing");

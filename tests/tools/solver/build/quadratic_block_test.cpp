@@ -15,7 +15,9 @@ namespace {
 class QuadraticBlock : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    world_ = std::make_unique<BlockModel>(mesh::quadraticOf(mesh::makeBox(kSize, {6, 5, 4})), Case{});
+    Case third;  // the degree that edges have
+    third.order = 3;
+    world_ = std::make_unique<BlockModel>(mesh::quadraticOf(mesh::makeBox(kSize, {6, 5, 4})), third);
   }
   static void TearDownTestSuite() { world_.reset(); }
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <span>
+#include <vector>
 
 #include "tools/mesh/box_mesh.h"
 
@@ -35,35 +35,43 @@ class Travel : public ::testing::Test {
 
   [[nodiscard]] TravelOrders ordersOf(double travel,
                                       std::span<const SeriesOrders> tried = kTravelOrders) const {
-    return ordersFor(travel, setup_, factor_, {.workers = 2, .scratch = ".", .quiet = true}, tried);
+    return ordersFor(travel, {}, setup_, factor_, {.workers = 2, .scratch = ".", .quiet = true}, tried);
   }
 
   const SolverSetup setup_{softCase(), heldBlock()};
   Cholesky factor_{setup_.model};
 };
 
-TEST_F(Travel, TakesTheLeastOrdersWithWhichHalfOfThePlacesReachIt) {
+TEST_F(Travel, TakesTheLeastOrdersWithWhichMostTouchesAreWithinTheDomain) {
   const TravelOrders near = ordersOf(0.001), far = ordersOf(0.0055);
   EXPECT_EQ(near.orders.fields, 3);
   EXPECT_EQ(near.orders.answer, 6);
   EXPECT_EQ(near.places, 16);
   EXPECT_EQ(far.travel, 0.0055);
   EXPECT_GT(far.orders.fields, 3);
-  for (const TravelOrders& found : {near, far}) EXPECT_GE(2 * found.reaching, found.places);
-  const auto chosen = std::find_if(kTravelOrders.begin(), kTravelOrders.end(), [&](const SeriesOrders& o) {
-    return o.fields == far.orders.fields && o.answer == far.orders.answer;
-  });
-  const TravelOrders less = ordersOf(0.0055, {kTravelOrders.begin(), chosen});
-  EXPECT_LT(2 * less.reaching, less.places) << "the entries before it are not enough";
+  for (const TravelOrders& found : {near, far}) {
+    EXPECT_GE(found.within, kEnoughTouches);
+    EXPECT_EQ(found.tried.back().within, found.within);
+    for (std::size_t i = 0; i + 1 < found.tried.size(); ++i)
+      EXPECT_LT(found.tried[i].within, kEnoughTouches) << i << " would have been enough";
+  }
 }
 
-TEST_F(Travel, WhereNoneAreEnoughTakesThoseWithWhichMostDo) {
-  const TravelOrders most = ordersOf(0.010), none = ordersOf(kLargestRadius);
-  EXPECT_GT(most.reaching, 0);
-  EXPECT_LT(2 * most.reaching, most.places);
-  EXPECT_EQ(most.orders.answer, 8);
-  EXPECT_EQ(none.reaching, 0);
-  EXPECT_EQ(none.orders.fields, 3) << "more would cost and give nothing";
+TEST_F(Travel, WhereNoneAreEnoughTakesThoseWithWhichMostAre) {
+  const TravelOrders most = ordersOf(0.015);
+  EXPECT_GT(most.within, 0.0);
+  EXPECT_LT(most.within, kEnoughTouches);
+  EXPECT_EQ(most.tried.size(), kTravelOrders.size());
+  for (const TriedOrders& tried : most.tried) EXPECT_LE(tried.within, most.within + 0.01);
+}
+
+TEST_F(Travel, ATighterErrorShrinksTheDomain) {
+  DomainCriteria tight;
+  tight.answer_error = tight.field_error = 1e-3;
+  const std::vector<SeriesOrders> third{{3, 6}};
+  const BuildOptions options{.workers = 2, .scratch = ".", .quiet = true};
+  const double usual = ordersFor(0.0055, {}, setup_, factor_, options, third).within;
+  EXPECT_LT(ordersFor(0.0055, tight, setup_, factor_, options, third).within, usual);
 }
 
 }  // namespace

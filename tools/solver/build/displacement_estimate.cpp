@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/solver/build/estimate.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <numeric>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tools/modelfile/write_model.h"
+#include "tools/solver/base/parallel.h"
+#include "tools/solver/build/build_model_parts.h"
+#include "tools/solver/build/displacement_builder.h"
+#include "tools/solver/build/displacement_fields.h"
+#include "tools/solver/build/edge_fields.h"
+#include "tools/solver/fit/gram_sums.h"
+#include "tools/solver/series/nodal_greens.h"
+
+namespace palpate::solver {
+
+namespace {
+
+double peakBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Bytes that are resident now.
+double residentBytes() {
+  double all = 0.0, resident = 0.0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double total(std::span<const NearNodes> near) {
+  return std::accumulate(near.begin(), near.end(), 0.0, [](double sum, const NearNodes& one) {
+    return sum + static_cast<double>(one.nodes.size());
+  });
+}
+
+/// Wall-clock time of each piece of work, with every worker at it: two rounds, of which the second counts.
+template <typename Work>
+double secondsEach(int workers, const Work& work) {
+  constexpr int kRounds = 2;
+  double seconds = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const Stopwatch watch;
+    parallelFor(workers, static_cast<std::size_t>(workers), [&](int worker, std::size_t piece) {
+      work(worker, static_cast<std::size_t>(round * workers) + piece);
+    });
+    seconds = watch.seconds() / workers;
+  }
+  return seconds;
+}
+
+/// Multiplications and additions per second of all workers, in products of the shape that the fit has most of.
+double productRate(int workers) {
+  constexpr Eigen::Index kRows = 16384, kInner = 256, kColumns = 128;
+  std::vector<std::array<Eigen::MatrixXf, 3>> own(static_cast<std::size_t>(workers));
+  for (auto& m : own)
+    m = {Eigen::MatrixXf::Random(kRows, kInner), Eigen::MatrixXf::Random(kInner, kColumns),
+         Eigen::MatrixXf::Zero(kRows, kColumns)};
+  const double each = secondsEach(workers, [&](int worker, std::size_t) {
+    auto& [A, B, C] = own[static_cast<std::size_t>(worker)];
+    C.noalias() += A * B;
+  });
+  return 2.0 * static_cast<double>(kRows * kInner * kColumns) / each;
+}
+
+/// What the fit has to do with.
+struct FitCounts {
+  double surface_nodes, positions, loads, coefficients;
+  double positions_seen, loads_seen;  ///< of positions or loads, those whose weights a node has
+};
+
+/// Multiplications and additions of the fit: a head start on a part of the positions, sweeps over all, and the loads.
+double fitWork(const FitCounts& c, double n, bool given, int sweeps) {
+  const double grams = n * n * c.surface_nodes, solving = n * n * n;
+  const auto y = [&](double sources, double seen, double columns) {
+    return sources * (seen * grams + 6.0 * n * c.surface_nodes * columns + solving);
+  };
+  const double sweep = y(c.positions, c.positions_seen, c.coefficients) +
+                       c.positions * c.positions_seen * grams +
+                       6.0 * n * c.surface_nodes * c.positions * c.coefficients + c.surface_nodes * solving;
+  const double head = given ? 0.3 : 1.2;  // sweeps, of fewer positions and at first of fewer modes
+  return (sweeps + head) * sweep + 0.5 * sweep + y(c.loads, c.loads_seen, 3.0);
+}
+
+/// Part of all pairs that are closer than three near radii, where weights differ from the area's.
+double partSeen(const PatchSurface& surface, std::span<const std::int32_t> nodes, double near_radius) {
+  constexpr std::size_t kTried = 64;
+  double pairs = 0.0, seen = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); i += std::max<std::size_t>(1, nodes.size() / kTried))
+    for (const Vec3& X : surface.positions) {
+      ++pairs;
+      seen +=
+          (X - surface.positions[static_cast<std::size_t>(nodes[i])]).norm() < 3.0 * near_radius ? 1.0 : 0.0;
+    }
+  return seen / pairs;
+}
+
+/// About as many modes as an error wants: with the square root of the surface over that of a near field, and e^(-2/3).
+double modesFor(double error, const PatchSurface& surface, double near_radius) {
+  constexpr double kAtOnePercent = 30.0, kMost = 400.0;
+  const double area = std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
+  return std::clamp(kAtOnePercent * std::sqrt(area) / near_radius * std::pow(0.01 / error, 2.0 / 3.0), 30.0,
+                    kMost);
+}
+
+}  // namespace
+
+/// Bytes, and the number of modes; memory without what the series takes.
+Estimate DisplacementBuilder::sizes() const {
+  constexpr double kKept = 0.9;  // of the nodes of near fields, what is not left out as too small
+  const double nodes = static_cast<double>(setup_.surface.nodes.size()), rows = 3.0 * nodes;
+  const double M = static_cast<double>(setup_.positions.nodes.size()),
+               G = static_cast<double>(loaded_.size());
+  const double C = basis_.size(), Cm = C - 3.0;
+  Estimate out;
+  out.scratch = 4.0 * rows * (M * C + 3.0 * G);
+  double n = case_.modes ? *case_.modes : modesFor(case_.fieldErrorOrDefault(), setup_.surface, near_radius_);
+  if (case_.handheld() && !case_.modes)
+    n = std::clamp(0.45 * case_.sizeLimitOrDefault() / (rows + 3.0 * G + M * Cm / 3.0), 12.0, 400.0);
+  out.modes = static_cast<int>(std::lround(n));
+
+  // 1. The file: whole numbers of two bytes, with a node's number for each node of a near field.
+  modelfile::ModelData organ;
+  organ.attributes.order = basis_.order();
+  organ.attributes.force_order = force_basis_.order();
+  storeOrgan(setup_, mesh_, organ);
+  const EdgeCounts edges = case_.handheld() ? EdgeCounts{} : edgeCounts(setup_, basis_.order());
+  const double near = kKept * total(near_), near_loads = total(near_loaded_);
+  const double near_edges = kKept * static_cast<double>(edges.solved) * edges.nodes, Ce = edges.coefficients;
+  out.file = static_cast<double>(modelfile::storedBytes(organ)) + 24.0 * M * force_basis_.size() +
+             192.0 * (M + static_cast<double>(edges.all)) + n * (2.0 * rows + 4.0) +
+             (M * Cm + 3.0 * G) * (2.0 * n + 8.0) + near * (6.0 * Cm + 4.0) + near_loads * 22.0 +
+             near_edges * (6.0 * Ce + 4.0) + 4.0 * Ce * static_cast<double>(edges.all);
+  if (case_.handheld()) out.file = case_.sizeLimitOrDefault();
+
+  // 2. Memory: the fit, or what the model is put together from.
+  const double floats =
+      4.0 * (near * 3.0 * Cm + 9.0 * near_loads + 3.0 * Ce * near_edges + n * (rows + M * Cm + 3.0 * G));
+  const double work =
+      options_.workers * (2.0 * 4.0 * 32.0 * C * rows + 8.0 * n * rows + 4.0 * 256.0 * 0.5 * n * n);
+  const double sums = 2.0 * n * n * options_.workers *
+                      static_cast<double>(GramSums::blockSize(static_cast<Eigen::Index>(n), options_.workers,
+                                                              loaded_.size()));
+  const double fit = 4.0 * nodes * (M + G) + 8.0 * n * M * C + 32.0 * n * rows + work + sums;
+  out.memory = residentBytes() + std::max(fit + floats, 2.0 * floats);
+  return out;
+}
+
+/// A few positions, loads and edges are solved on all workers; the fit is counted in products.
+Estimate DisplacementBuilder::estimate() const {
+  const Stopwatch watch;
+  Estimate out = sizes();
+  const double rows = 3.0 * static_cast<double>(setup_.surface.nodes.size());
+  const std::size_t workers = static_cast<std::size_t>(options_.workers);
+  const auto patches = [&](std::size_t piece) {
+    const std::size_t all = setup_.positions.patches.size(), count = std::min<std::size_t>(kLanes, all);
+    return std::span(setup_.positions.patches).subspan(piece * kLanes % (all - count + 1), count);
+  };
+  const auto chunk = [&](const SeriesOrders& orders, bool radii) {
+    std::vector<std::unique_ptr<SeriesSolver>> series(workers);
+    std::vector<std::vector<float>> fields(workers);
+    for (auto& one : series) one = std::make_unique<SeriesSolver>(setup_.model, factor_, orders);
+    return secondsEach(options_.workers, [&](int worker, std::size_t piece) {
+      SeriesSolver& solver = *series[static_cast<std::size_t>(worker)];
+      solver.solve(patches(piece));
+      if (radii) (void)solver.domainRadii(criteriaOf(case_));
+      std::vector<float>& own = fields[static_cast<std::size_t>(worker)];
+      own.resize(patches(piece).size() * static_cast<std::size_t>(solver.basis().size() * rows));
+      solver.copyDisplacements(setup_.surface.nodes, own);
+    });
+  };
+  std::vector<std::unique_ptr<NodalGreens>> greens(workers);
+  for (auto& one : greens) one = std::make_unique<NodalGreens>(setup_.model, factor_, setup_.surface);
+  const std::size_t together = std::min(loaded_.size(), NodalGreens::kMost);
+  const double loads = secondsEach(options_.workers, [&](int worker, std::size_t piece) {
+    NodalGreens& solver = *greens[static_cast<std::size_t>(worker)];
+    solver.solve(std::span(loaded_).subspan(piece * together % (loaded_.size() - together + 1), together));
+    for (std::size_t i = 0; i < together; ++i) (void)solver.of(i);
+  });
+  const double M = static_cast<double>(setup_.positions.nodes.size()),
+               G = static_cast<double>(loaded_.size());
+  out.series = chunk(case_.orders(), true) * std::ceil(M / kLanes) +
+               loads * std::ceil(G / static_cast<double>(together));
+  const EdgeCounts edges = case_.handheld() ? EdgeCounts{} : edgeCounts(setup_, basis_.order());
+  if (edges.solved > 0)
+    out.edges = chunk({edges.degree, edges.degree}, false) * static_cast<double>(edges.solved) / kLanes;
+  const FitCounts counts{rows / 3.0,
+                         M,
+                         G,
+                         static_cast<double>(basis_.size()),
+                         partSeen(setup_.surface, setup_.positions.nodes, near_radius_),
+                         partSeen(setup_.surface, loaded_, near_radius_)};
+  out.fit = fitWork(counts, out.modes, case_.modes.has_value(), case_.sweepsOrDefault()) /
+            productRate(options_.workers);
+  constexpr double kWritten = 1e8;  // bytes a second
+  out.write = out.file / kWritten;
+  out.memory = std::max(out.memory, peakBytes());
+  out.probe = watch.seconds();
+  return out;
+}
+
+Estimate estimateDisplacementSeries(const Case& c, const mesh::TetMesh& organ, const BuildOptions& options,
+                                    BuildReport& report) {
+  const ChosenOrgan chosen(c, organ, options, report);
+  Estimate out = DisplacementBuilder(chosen, options, report).estimate();
+  out.factor = report.factor_seconds;
+  out.mesh_error = report.mesh_error_seconds;
+  out.orders = report.orders_seconds;
+  return out;
+}
+
+}  // namespace palpate::solver

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "tools/solver/build/build_model_parts.h"
+#include "tools/solver/build/displacement_builder.h"
+#include "tools/solver/build/displacement_fields.h"
+
+namespace palpate::solver {
+
+namespace {
+
+constexpr int kFewModes = 100;              ///< to begin with, where their number is not given
+constexpr double kWider = 4.0 / 3.0;        ///< near fields, where the most modes are not enough
+constexpr double kWidestNearField = 8.001;  ///< in patch radii
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+std::string text(double x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.4g", x);
+  return buffer;
+}
+
+double nearBytes(std::span<const NearNodes> near, int coefficients) {
+  double bytes = 0.0;
+  for (const NearNodes& nodes : near) bytes += 12.0 * coefficients * static_cast<double>(nodes.nodes.size());
+  return bytes;
+}
+
+/// The near field is part of the model; this program and the server hold all of it in memory.
+constexpr double kMostNearBytes = 2147483648.0;
+
+}  // namespace
+
+/// @throw CaseError  a near field that is too large
+void DisplacementBuilder::checkNear() const {
+  const double bytes = nearBytes(near_, basis_.size()) + nearBytes(near_loaded_, 3);
+  if (bytes > kMostNearBytes)
+    throw CaseError("model.near_radius = " + text(near_radius_) + " m makes a near field of " +
+                    text(1e-6 * bytes) + " MB; the limit is " + text(1e-6 * kMostNearBytes) + " MB");
+}
+
+std::vector<NearNodes> DisplacementBuilder::nearOf(std::span<const std::int32_t> nodes) const {
+  std::vector<NearNodes> near;
+  for (const std::int32_t node : nodes)
+    near.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], near_radius_));
+  return near;
+}
+
+/// @param travel  m, of each; empty: d_ref
+std::vector<FitSource> DisplacementBuilder::fitSources(std::span<const std::int32_t> nodes,
+                                                       std::span<const double> travel) const {
+  std::vector<FitSource> sources;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3& place = setup_.surface.positions[at(nodes[i])];
+    // Large travel is rare and must not cost accuracy at small travel.
+    const double ball = travel.empty() ? d_ref_ : std::min(d_ref_, travel[i]);
+    sources.push_back({place, fitWeights(setup_.surface, place, near_radius_), ball, d_ref_});
+  }
+  return sources;
+}
+
+FitOptions DisplacementBuilder::fitOptions() const {
+  FitOptions options;
+  options.error = report_.fit_asked;
+  options.modes = case_.modes.value_or(budget_ ? budget_->modes() : kFewModes);
+  options.head_start = 3;
+  options.sweeps = case_.sweepsOrDefault();
+  options.reweighted = std::min(2, options.sweeps);
+  options.workers = options_.workers;
+  options.quiet = options_.quiet;
+  return options;
+}
+
+/// Near fields that reach further, where as many modes as may be miss the asked error. @return whether there are such
+bool DisplacementBuilder::widenNear() {
+  const double wider = kWider * near_radius_;
+  if (report_.fit_p95 <= report_.fit_asked || report_.fit_asked == 0.0 || case_.near_radius ||
+      wider > kWidestNearField * setup_.patch_radius)
+    return false;
+  const double growth = std::pow(kWider, 2);  // of their nodes, about
+  if (growth * (nearBytes(near_, basis_.size()) + nearBytes(near_loaded_, 3)) > kMostNearBytes) return false;
+  near_radius_ = wider;
+  near_ = nearOf(setup_.positions.nodes);
+  near_loaded_ = nearOf(loaded_);
+  return true;
+}
+
+/// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.
+void DisplacementBuilder::fit(const FieldTable& table, const FieldTable& greens) {
+  report_.fit_asked = case_.modes || budget_ ? 0.0 : case_.fieldErrorOrDefault();
+  do {
+    const std::vector<FitSource> sources = fitSources(setup_.positions.nodes, data_.contact_domain_radius);
+    const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
+    const FarField far = fitFarField(problem, fitOptions());
+    report_.fit_errors = far.errors;
+    std::vector<float> largest = far.largest;
+    std::sort(largest.begin(), largest.end());
+    report_.fit_p95 = largest[largest.size() - 1 - largest.size() / 20];
+    report_.fit_max = largest.back();
+    data_.modes_X.assign(far.X.data(), far.X.data() + far.X.size());
+    if (!widenNear()) return storeFields(problem, far, greens);
+  } while (true);
+}
+
+void DisplacementBuilder::storeFields(const FitProblem& problem, const FarField& far,
+                                      const FieldTable& greens) {
+  const std::vector<FitSource> loaded = fitSources(loaded_, {});
+  const MonomialBasis linear(1);
+  const FitProblem by_load{greens, linear, setup_.surface.areas, setup_.surface.positions, loaded, d_ref_};
+  data_.green_node = loaded_;
+  storeGreens(by_load, far.X, near_loaded_, options_.workers, data_);
+  if (budget_)
+    storeCompactFields(problem, far);
+  else
+    (void)storeNearField(problem, far, near_, options_.workers, data_);
+}
+
+}  // namespace palpate::solver
