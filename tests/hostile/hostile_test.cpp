@@ -86,7 +86,7 @@ TEST_F(Hostility, TouchesNoToolThatBehaves) {
 class LongHostility : public Hostility {};
 
 TEST_F(LongHostility, TouchesNoToolThatBehaves) {
-  play(2.5, 97);
+  play(1.0, 42);
 }
 
 }  // namespace

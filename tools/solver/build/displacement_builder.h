@@ -50,6 +50,8 @@ class DisplacementBuilder {
   void storePosition(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii);
   void solveGreens(FieldTable& greens);
   void fit(const FieldTable& table, const FieldTable& greens);
+  [[nodiscard]] double probeSeries(const SeriesOrders& orders, bool radii) const;
+  [[nodiscard]] double probeGreens() const;
   [[nodiscard]] FitOptions fitOptions() const;
   void checkNear() const;
   bool widenNear();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/solver/build/estimate.h"
-
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -21,6 +19,7 @@
 #include "tools/solver/build/displacement_builder.h"
 #include "tools/solver/build/displacement_fields.h"
 #include "tools/solver/build/edge_fields.h"
+#include "tools/solver/build/estimate.h"
 #include "tools/solver/fit/gram_sums.h"
 #include "tools/solver/series/nodal_greens.h"
 
@@ -159,45 +158,50 @@ Estimate DisplacementBuilder::sizes() const {
   return out;
 }
 
+/// Of a chunk of positions, s. @param radii  whether their domains count
+double DisplacementBuilder::probeSeries(const SeriesOrders& orders, bool radii) const {
+  const std::vector<Patch>& all = setup_.positions.patches;
+  const std::size_t count = std::min<std::size_t>(kLanes, all.size());
+  std::vector<std::unique_ptr<SeriesSolver>> solvers;
+  for (int w = 0; w < options_.workers; ++w)
+    solvers.push_back(std::make_unique<SeriesSolver>(setup_.model, factor_, orders));
+  std::vector<std::vector<float>> fields(solvers.size());
+  return secondsEach(options_.workers, [&](int worker, std::size_t piece) {
+    const auto patches = std::span(all).subspan(piece * kLanes % (all.size() - count + 1), count);
+    SeriesSolver& solver = *solvers[static_cast<std::size_t>(worker)];
+    solver.solve(patches);
+    if (radii) (void)solver.domainRadii(criteriaOf(case_));
+    std::vector<float>& own = fields[static_cast<std::size_t>(worker)];
+    own.resize(count * static_cast<std::size_t>(solver.basis().size()) * 3 * setup_.surface.nodes.size());
+    solver.copyDisplacements(setup_.surface.nodes, own);
+  });
+}
+
+/// Of a chunk of loads, s.
+double DisplacementBuilder::probeGreens() const {
+  const std::size_t count = std::min(loaded_.size(), NodalGreens::kMost);
+  std::vector<std::unique_ptr<NodalGreens>> solvers;
+  for (int w = 0; w < options_.workers; ++w)
+    solvers.push_back(std::make_unique<NodalGreens>(setup_.model, factor_, setup_.surface));
+  return secondsEach(options_.workers, [&](int worker, std::size_t piece) {
+    NodalGreens& solver = *solvers[static_cast<std::size_t>(worker)];
+    solver.solve(std::span(loaded_).subspan(piece * count % (loaded_.size() - count + 1), count));
+    for (std::size_t i = 0; i < count; ++i) (void)solver.of(i);
+  });
+}
+
 /// A few positions, loads and edges are solved on all workers; the fit is counted in products.
 Estimate DisplacementBuilder::estimate() const {
   const Stopwatch watch;
   Estimate out = sizes();
-  const double rows = 3.0 * static_cast<double>(setup_.surface.nodes.size());
-  const std::size_t workers = static_cast<std::size_t>(options_.workers);
-  const auto patches = [&](std::size_t piece) {
-    const std::size_t all = setup_.positions.patches.size(), count = std::min<std::size_t>(kLanes, all);
-    return std::span(setup_.positions.patches).subspan(piece * kLanes % (all - count + 1), count);
-  };
-  const auto chunk = [&](const SeriesOrders& orders, bool radii) {
-    std::vector<std::unique_ptr<SeriesSolver>> series(workers);
-    std::vector<std::vector<float>> fields(workers);
-    for (auto& one : series) one = std::make_unique<SeriesSolver>(setup_.model, factor_, orders);
-    return secondsEach(options_.workers, [&](int worker, std::size_t piece) {
-      SeriesSolver& solver = *series[static_cast<std::size_t>(worker)];
-      solver.solve(patches(piece));
-      if (radii) (void)solver.domainRadii(criteriaOf(case_));
-      std::vector<float>& own = fields[static_cast<std::size_t>(worker)];
-      own.resize(patches(piece).size() * static_cast<std::size_t>(solver.basis().size() * rows));
-      solver.copyDisplacements(setup_.surface.nodes, own);
-    });
-  };
-  std::vector<std::unique_ptr<NodalGreens>> greens(workers);
-  for (auto& one : greens) one = std::make_unique<NodalGreens>(setup_.model, factor_, setup_.surface);
-  const std::size_t together = std::min(loaded_.size(), NodalGreens::kMost);
-  const double loads = secondsEach(options_.workers, [&](int worker, std::size_t piece) {
-    NodalGreens& solver = *greens[static_cast<std::size_t>(worker)];
-    solver.solve(std::span(loaded_).subspan(piece * together % (loaded_.size() - together + 1), together));
-    for (std::size_t i = 0; i < together; ++i) (void)solver.of(i);
-  });
   const double M = static_cast<double>(setup_.positions.nodes.size()),
                G = static_cast<double>(loaded_.size());
-  out.series = chunk(case_.orders(), true) * std::ceil(M / kLanes) +
-               loads * std::ceil(G / static_cast<double>(together));
+  out.series = probeSeries(case_.orders(), true) * std::ceil(M / kLanes) +
+               probeGreens() * std::ceil(G / static_cast<double>(NodalGreens::kMost));
   const EdgeCounts edges = case_.handheld() ? EdgeCounts{} : edgeCounts(setup_, basis_.order());
   if (edges.solved > 0)
-    out.edges = chunk({edges.degree, edges.degree}, false) * static_cast<double>(edges.solved) / kLanes;
-  const FitCounts counts{rows / 3.0,
+    out.edges = probeSeries({edges.degree, edges.degree}, false) * static_cast<double>(edges.solved) / kLanes;
+  const FitCounts counts{static_cast<double>(setup_.surface.nodes.size()),
                          M,
                          G,
                          static_cast<double>(basis_.size()),
