@@ -23,6 +23,7 @@ MADE = {
     "palpate/core/status_flag_list.h": "core/base",
     "palpate/live_parameter_list.h": None,
     "palpate_haptic_flags.h": "clients/haptic",
+    "tools/examine/certify/report/page_template.h": "tools/examine/certify",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # What may hold a comment's beginning without being one, then the comment; only raw strings and comments are blanked.

@@ -6,7 +6,7 @@
 
 #include "core/devices/path/path.h"
 #include "palpate/report/program.h"
-#include "palpate/report/svg_plot.h"
+#include "tools/program/svg_plot.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
 
@@ -98,12 +98,12 @@ Json jsonOf(const Session& s) {
 }
 
 std::string plotOf(const Session& s) {
-  report::SvgPlot plot;
+  program::SvgPlot plot;
   plot.title = "palpate-device --preset " + s.preset + " --motion " + s.kind;
   plot.x_label = "time / s";
   plot.y_label = "tip below the rest surface / mm";
   const auto curve = [&](const char* name, const Trace& trace) {
-    report::Series series{name, {}, {}, {}};
+    program::Series series{name, {}, {}, {}};
     for (std::size_t i = 0; i < trace.position.size(); ++i) {
       series.x.push_back(static_cast<double>(i) * trace.dt);
       series.y.push_back(1e3 * depthOf(s.motion, trace.position[i]));

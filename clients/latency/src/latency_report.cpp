@@ -3,7 +3,7 @@
 
 #include "palpate/client/time_summary.h"
 #include "palpate/report/program.h"
-#include "palpate/report/svg_plot.h"
+#include "tools/program/svg_plot.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
 
@@ -32,8 +32,8 @@ const char* phaseName(const dds::ServerStatus& server) {
   }
 }
 
-report::Series barsOf(const char* name, const rt::CycleStats& histogram) {
-  report::Series series{name, {}, {}, {}};
+program::Series barsOf(const char* name, const rt::CycleStats& histogram) {
+  program::Series series{name, {}, {}, {}};
   for (const auto& bar : client::barsOf(histogram, 10)) {
     series.x.push_back(bar.from_ns * 1e-3);
     series.x_end.push_back(bar.to_ns * 1e-3);
@@ -94,7 +94,7 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
 }
 
 std::string plotOf(const LatencyLog& log) {
-  report::SvgPlot plot;
+  program::SvgPlot plot;
   plot.title = "palpate-latency: " + std::to_string(log.received()) + " ticks";
   plot.x_label = "time / us";
   plot.y_label = "samples";

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "palpate/report/program.h"
-#include "palpate/report/svg_plot.h"
+#include "tools/program/svg_plot.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
 
@@ -147,7 +147,7 @@ program::Json jsonOf(const Played& played, const Recording& recording) {
 }
 
 std::string plotOf(const Played& played, const Recording& recording) {
-  report::SvgPlot plot;
+  program::SvgPlot plot;
   plot.title = "palpate-tool --script " + played.script + ": force on the tool";
   plot.x_label = "time / s";
   plot.y_label = "force / N";
@@ -171,13 +171,13 @@ std::string comparisonOf(const Recording& recording, const Recording& beside) {
 
 std::string plotOfBoth(const Played& played, const Recording& recording, const Played& other,
                        const Recording& beside) {
-  report::SvgPlot plot;
+  program::SvgPlot plot;
   plot.title = "palpate-tool --script " + played.script + ": size of the force on the tool";
   plot.x_label = "depth / mm";
   plot.y_label = "force / N";
   for (const auto& [name, path, answers] :
        {std::tuple("here", &played, &recording), std::tuple("beside", &other, &beside)}) {
-    report::Series& curve = plot.series.emplace_back();
+    program::Series& curve = plot.series.emplace_back();
     curve.name = printed("%s, node %lld", name, static_cast<long long>(path->spot.mesh_tag));
     for (const Sample& sample : answers->samples) {
       if (depthOf(*path, sample) < 0.0) continue;

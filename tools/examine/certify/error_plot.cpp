@@ -4,117 +4,44 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/program/numbers.h"
-#include "tools/program/printed.h"
-#include "tools/program/xml.h"
-
 namespace palpate::certify {
 
 namespace {
 
-using program::printed;
+using program::Look;
+using program::Series;
 
-// px
-constexpr double kWidth = 760, kHeight = 440, kLeft = 76, kRight = 20, kTop = 72, kBottom = 56;
-constexpr double kLeast = 1e-6;  // of the errors that are told apart
+constexpr double kLeast = 1e-4;  // per cent, of the errors that are told apart
 
-// The same grounds as the plots of clients/report.
-constexpr const char* kStyle = R"(<style>
-svg { background: #ffffff; color: #1f2328; }
-text { font: 13px sans-serif; fill: currentColor; }
-.title { font-size: 16px; font-weight: bold; }
-.grid { stroke: currentColor; stroke-opacity: 0.2; }
-.force { stroke: #c0262d; fill: #c0262d; } .field { stroke: #2563a8; fill: #2563a8; } .beyond { fill: none; }
-@media (prefers-color-scheme: dark) { svg { background: #0d1117; color: #e6edf3; } }
-</style>
-)";
-
-std::string textAt(double x, double y, const std::string& text, const char* extra = "") {
-  return printed("<text x=\"%.1f\" y=\"%.1f\"%s>", x, y, extra) + program::xmlEscaped(text) + "</text>\n";
-}
-
-std::string mark(double x, double y, bool force, bool beyond) {
-  const std::string kind = printed("class=\"%s%s\"", force ? "force" : "field", beyond ? " beyond" : "");
-  if (force) return printed("<circle %s cx=\"%.1f\" cy=\"%.1f\" r=\"4\"/>\n", kind.c_str(), x, y);
-  return printed("<rect %s x=\"%.1f\" y=\"%.1f\" width=\"7\" height=\"7\"/>\n", kind.c_str(), x - 3.5,
-                 y - 3.5);
-}
-
-/// abs(d) along x, errors by decades along y.
-struct Axes {
-  double longest{0.0};         // m
-  int lowest{0}, highest{-2};  // decades
-  [[nodiscard]] double x(double length) const { return kLeft + (kWidth - kLeft - kRight) * length / longest; }
-  [[nodiscard]] double y(double error) const {
-    const double part = (std::log10(std::max(error, kLeast)) - lowest) / (highest - lowest);
-    return kHeight - kBottom - (kHeight - kTop - kBottom) * part;
-  }
-};
-
-Axes axesOf(const std::vector<const Finding*>& findings) {
-  Axes axes;
-  double longest = 0.0;
-  for (const Finding* f : findings) {
-    longest = std::max(longest, f->touch.d.norm());
-    for (const double error : {f->force_error, f->field_error}) {
-      const double decade = std::log10(std::max(error, kLeast));
-      axes.lowest = std::min(axes.lowest, static_cast<int>(std::floor(decade)));
-      axes.highest = std::max(axes.highest, static_cast<int>(std::ceil(decade)));
+Series marksOf(const std::vector<Finding>& findings, Outcome outcome, double Finding::*error) {
+  const bool force = error == &Finding::force_error, beyond = outcome == Outcome::kBeyond;
+  Series series;
+  series.name = std::string(force ? "force" : "field") + (beyond ? ", beyond the domain" : "");
+  series.look = force ? (beyond ? Look::kRings : Look::kDiscs) : (beyond ? Look::kFrames : Look::kSquares);
+  series.colour = force ? 1 : 0;
+  for (const Finding& finding : findings)
+    if (finding.outcome == outcome) {
+      series.x.push_back(1e3 * finding.touch.d.norm());
+      series.y.push_back(100.0 * finding.*error);
     }
-  }
-  axes.longest = longest > 0.0 ? 1.05 * longest : 1e-3;
-  axes.lowest = std::min(axes.lowest, axes.highest - 1);
-  return axes;
-}
-
-std::string grid(const Axes& axes) {
-  std::string svg;
-  for (int decade = axes.lowest; decade <= axes.highest; ++decade) {
-    const double y = axes.y(std::pow(10.0, decade));
-    svg += printed("<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", kLeft, y, kWidth - kRight) +
-           textAt(kLeft - 8, y + 4, printed("%g %%", std::pow(10.0, decade + 2)), " text-anchor=\"end\"");
-  }
-  for (const double mm : program::niceTicks(0.0, 1e3 * axes.longest, 6)) {
-    const double x = axes.x(1e-3 * mm);
-    if (x > kWidth - kRight) continue;
-    svg += printed("<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>\n", x, kTop, kHeight - kBottom) +
-           textAt(x, kHeight - kBottom + 20, printed("%g", mm), " text-anchor=\"middle\"");
-  }
-  return svg +
-         textAt(0.5 * (kLeft + kWidth - kRight), kHeight - 12, "length of d, mm", " text-anchor=\"middle\"");
-}
-
-std::string legend() {
-  std::string svg;
-  double x = kLeft;
-  for (const bool beyond : {false, true})
-    for (const bool force : {true, false}) {
-      svg +=
-          mark(x, 50, force, beyond) +
-          textAt(x + 10, 54, std::string(force ? "force" : "field") + (beyond ? ", beyond the domain" : ""));
-      x += beyond ? 190 : 80;
-    }
-  return svg;
+  return series;
 }
 
 }  // namespace
 
-std::string errorPlot(const std::string& title, const std::vector<Finding>& findings) {
-  std::vector<const Finding*> solved;
-  for (const Finding& finding : findings)
-    if (finding.outcome == Outcome::kWithin || finding.outcome == Outcome::kBeyond)
-      solved.push_back(&finding);
-  const Axes axes = axesOf(solved);
-  std::string svg = printed(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n",
-      kWidth, kHeight, kWidth, kHeight);
-  svg += kStyle + textAt(kLeft, 28, title, " class=\"title\"") + legend() + grid(axes);
-  for (const Finding* f : solved) {
-    const double x = axes.x(f->touch.d.norm());
-    const bool beyond = f->outcome == Outcome::kBeyond;
-    svg += mark(x, axes.y(f->field_error), false, beyond) + mark(x, axes.y(f->force_error), true, beyond);
-  }
-  return svg + "</svg>\n";
+program::SvgPlot errorPlot(const std::vector<Finding>& findings) {
+  program::SvgPlot plot;
+  plot.x_label = "length of d / mm";
+  plot.y_label = "error / %";
+  plot.log_y = true;
+  for (const Outcome outcome : {Outcome::kWithin, Outcome::kBeyond})
+    for (double Finding::*const error : {&Finding::force_error, &Finding::field_error})
+      plot.series.push_back(marksOf(findings, outcome, error));
+  double least = 0.1;
+  for (const Series& series : plot.series)
+    for (const double error : series.y) least = std::min(least, std::max(error, kLeast));
+  plot.log_floor = std::pow(10.0, std::floor(std::log10(least)));
+  return plot;
 }
 
 }  // namespace palpate::certify

@@ -9,6 +9,7 @@
 
 #include "core/response/patch_response.h"
 #include "tools/examine/certify/certify_error.h"
+#include "tools/examine/certify/draws.h"
 #include "tools/examine/query/answer.h"
 #include "tools/program/printed.h"
 #include "tools/solver/base/parallel.h"
@@ -17,22 +18,6 @@
 namespace palpate::certify {
 
 namespace {
-
-constexpr std::size_t kMostDraws = 20;  // times samples
-
-/// The next touches, of which as many as are missing lie in the domain.
-std::vector<Finding> draw(const MetaModel& model, TouchSampler& touches, std::size_t missing,
-                          std::size_t most) {
-  std::vector<Finding> drawn;
-  for (std::size_t within = 0; within < missing && drawn.size() < most;) {
-    Finding finding;
-    finding.touch = touches.next();
-    finding.flagged = isBeyond(model, finding.touch);
-    if (!finding.flagged) ++within;
-    drawn.push_back(finding);
-  }
-  return drawn;
-}
 
 /// Those that are solved: all in the domain, and the first `flagged` of the others.
 std::vector<Finding*> chosen(std::vector<Finding>& drawn, std::size_t flagged) {
@@ -114,20 +99,22 @@ std::size_t Examination::count(Outcome outcome) const {
 Examination examine(const MetaModel& model, const query::Organ& organ, TouchSampler& touches, double travel,
                     const Extent& extent) {
   Examiner examiner(model, organ, travel, extent.threads);
-  Examination all;
   std::size_t flagged = 0;
-  while (true) {
-    const std::size_t within = all.count(Outcome::kWithin),
-                      left = kMostDraws * extent.samples - all.findings.size();
-    if (within == extent.samples || left == 0) return all;
-    std::vector<Finding> drawn = draw(model, touches, extent.samples - within, left);
+  const auto next = [&] {
+    Finding finding;
+    finding.touch = touches.next();
+    finding.flagged = isBeyond(model, finding.touch);
+    return finding;
+  };
+  const auto solve = [&](std::vector<Finding>& drawn) {
     const std::vector<Finding*> list = chosen(drawn, extent.samples - flagged);
     flagged += static_cast<std::size_t>(
         std::count_if(list.begin(), list.end(), [](const Finding* finding) { return finding->flagged; }));
     solver::Progress progress("full solutions", list.size());
     examiner.solve(list, progress);
-    all.findings.insert(all.findings.end(), drawn.begin(), drawn.end());
-  }
+  };
+  return {drawAndSolve(extent.samples, next, solve,
+                       [](const Finding& finding) { return finding.outcome == Outcome::kWithin; })};
 }
 
 bool isBeyond(const MetaModel& model, const Touch& touch) {

@@ -3,6 +3,7 @@
 //
 // Sample runs:  palpate-certify liver.h5
 //               palpate-certify liver.h5 --samples 93 --json --plot errors.svg
+//               palpate-certify liver.h5 --report liver_report --youngs-modulus-error 0.2
 //               palpate-certify liver.h5 --seed 7 --samples 100 --json    # measures only
 #include <unistd.h>
 
@@ -22,6 +23,7 @@
 #include "tools/examine/certify/examination.h"
 #include "tools/examine/certify/pair_examination.h"
 #include "tools/examine/certify/quantile_bound.h"
+#include "tools/examine/certify/report/report.h"
 #include "tools/modelfile/write_certificate.h"
 #include "tools/program/certificate_line.h"
 #include "tools/program/command_line.h"
@@ -34,9 +36,9 @@ namespace palpate::certify {
 namespace {
 
 struct Options {
-  std::string model, plot;
+  std::string model, plot, report;
   int samples{59}, threads{solver::machineThreads()};
-  std::optional<double> travel, length;
+  std::optional<double> travel, length, modulus_error;
   std::optional<std::int64_t> seed;
   bool two_tools{false}, inward{false}, json{false}, no_write{false};
 
@@ -58,6 +60,10 @@ void describe(program::Options line, Options& options) {
   line.flag("--two-tools", &options.two_tools,
             "certify pairs of tools too, 1.5 to 8 patch radii apart: twice as many");
   line.add("--plot", &options.plot, "draw the errors over the length of d (.svg)");
+  line.add("--report", &options.report, "folder for report.html and report.json: what the model is good for");
+  line.add("--youngs-modulus-error", &options.modulus_error,
+           "with --report: how well E is known, relative, such as 0.2; a band on its force curves")
+      .range(0.0, 1.0);
   line.flag("--no-write", &options.no_write, "leave the file as it is");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.add("--threads", &options.threads, "worker threads").range(1, 1024);
@@ -76,14 +82,13 @@ void checkKind(const MetaModel& model, const std::string& path) {
 }
 
 /// A range lets NaN through. @throw CertifyError
-void checkNumber(const char* option, const std::optional<double>& value) {
-  if (value && std::isnan(*value))
-    throw CertifyError(std::string(option) + " is nan, expected a length in m");
+void checkNumber(const char* option, const std::optional<double>& value, const char* expected) {
+  if (value && std::isnan(*value)) throw CertifyError(std::string(option) + " is nan, expected " + expected);
 }
 
 Drawing drawingOf(const MetaModel& model, const Options& options) {
-  checkNumber("--travel", options.travel);
-  checkNumber("--length", options.length);
+  checkNumber("--travel", options.travel, "a length in m");
+  checkNumber("--length", options.length, "a length in m");
   if (options.seed && *options.seed < 0)
     throw CertifyError("--seed is " + std::to_string(*options.seed) + ", expected 0 or more");
   const Travel travel = travelOf(model.attributes(), options.travel);
@@ -113,14 +118,32 @@ std::string reasonNotToWrite(const Options& options, const Examination& found) {
   return {};
 }
 
-/// What a person reads in the last lines.
-std::string summary(const Options& options, const std::string& certificate, const std::string& not_written) {
-  const std::string line = options.measures()
-                               ? "measured, not a certificate: other touches than a certificate's"
-                               : program::certificateLine(certificate);
-  return line + '\n' +
-         (not_written.empty() ? "written into " + options.model
-                              : "not written into " + options.model + " (" + not_written + ")");
+/// Certified, or why not, in one line.
+std::string statusOf(const Options& options, const std::string& certificate) {
+  return options.measures() ? "measured, not a certificate: other touches than a certificate's"
+                            : program::certificateLine(certificate);
+}
+
+/// Whether the file has it now. @param reason  of reasonNotToWrite()
+std::string writtenText(const Options& options, const std::string& reason) {
+  return reason.empty() ? "written into " + options.model
+                        : "not written into " + options.model + " (" + reason + ")";
+}
+
+/// Nothing where none is asked for. @throw program::WriteError, CertifyError
+std::optional<ReportFolder> reportFolderOf(const Options& options) {
+  checkNumber("--youngs-modulus-error", options.modulus_error, "a share, 0 to 1");
+  if (options.modulus_error && options.report.empty())
+    throw CertifyError("--youngs-modulus-error goes with --report: it is a band on its force curves");
+  if (options.report.empty()) return {};
+  return ReportFolder(options.report);
+}
+
+void writePlot(const Options& options, const Examination& found) {
+  program::SvgPlot plot = errorPlot(found.findings);
+  plot.title =
+      "Errors of " + std::filesystem::path(options.model).filename().string() + " against full Newton";
+  program::writeFile(options.plot, plot.render());
 }
 
 void examineModel(const Options& options) {
@@ -131,6 +154,7 @@ void examineModel(const Options& options) {
   const query::Organ organ = query::organOf(model, modelfile::readVolumeMesh(options.model));
   if (options.mayWrite()) checkWritable(std::filesystem::canonical(options.model));
   if (!options.plot.empty()) checkWritable(options.plot);
+  const std::optional<ReportFolder> report = reportFolderOf(options);
   // 2. Touches that no fit has seen, each beside its full solution.
   const Drawing drawing = drawingOf(model, options);
   TouchSampler touches(model, drawing.range, drawing.seed);
@@ -145,12 +169,12 @@ void examineModel(const Options& options) {
   const std::string text = certificate.dump();
   const std::string not_written = reasonNotToWrite(options, found);
   if (not_written.empty()) modelfile::writeCertificate(options.model, text, model.digest());
-  if (!options.plot.empty())
-    program::writeFile(options.plot,
-                       errorPlot("Errors of " + std::filesystem::path(options.model).filename().string() +
-                                     " against full Newton",
-                                 found.findings));
-  // 4. The report.
+  if (!options.plot.empty()) writePlot(options, found);
+  if (report)
+    writeReport(*report, {options.model, model, organ, drawing, found, certificate},
+                statusOf(options, text) + "; " + writtenText(options, not_written), options.modulus_error,
+                extent.threads);
+  // 4. The answer.
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.json) {
     certificate["model"] = options.model;
@@ -164,8 +188,8 @@ void examineModel(const Options& options) {
     std::cout << certificate.dump(2, program::Keys::kAsWritten) << '\n';
     return;
   }
-  std::cout << toText(certificate, drawing) << summary(options, text, not_written)
-            << program::printed(", %.1f s\n", seconds);
+  std::cout << toText(certificate, drawing) << statusOf(options, text) << '\n'
+            << writtenText(options, not_written) << program::printed(", %.1f s\n", seconds);
 }
 
 /// What a part that knows no file has to say gets the file's name.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "tools/examine/certify/draws.h"
 #include "tools/examine/certify/quantile_bound.h"
 #include "tools/examine/query/together.h"
 #include "tools/solver/base/parallel.h"
@@ -13,22 +14,14 @@ namespace palpate::certify {
 
 namespace {
 
-constexpr std::size_t kMostDraws = 20;  // times pairs
-
-std::vector<PairFinding> draw(const MetaModel& model, TouchSampler& touches, std::size_t missing,
-                              std::size_t most) {
+PairFinding drawPair(const MetaModel& model, TouchSampler& touches) {
   const double a = model.attributes().patch_radius;
-  std::vector<PairFinding> drawn;
-  for (std::size_t within = 0; within < missing && drawn.size() < most;) {
-    PairFinding pair;
-    pair.touches = touches.nextPair(kNearestPair * a, kFarthestPair * a);
-    pair.distance = (pair.touches[1].position - pair.touches[0].position).norm();
-    pair.flagged = std::any_of(pair.touches.begin(), pair.touches.end(),
-                               [&](const Touch& touch) { return isBeyond(model, touch); });
-    if (!pair.flagged) ++within;
-    drawn.push_back(pair);
-  }
-  return drawn;
+  PairFinding pair;
+  pair.touches = touches.nextPair(kNearestPair * a, kFarthestPair * a);
+  pair.distance = (pair.touches[1].position - pair.touches[0].position).norm();
+  pair.flagged = std::any_of(pair.touches.begin(), pair.touches.end(),
+                             [&](const Touch& touch) { return isBeyond(model, touch); });
+  return pair;
 }
 
 /// NaN is larger than any number.
@@ -77,21 +70,16 @@ void solvePairs(const MetaModel& model, const query::Organ& organ, ReferenceSolv
 
 std::vector<PairFinding> examinePairs(const MetaModel& model, const query::Organ& organ,
                                       TouchSampler& touches, double travel, const Extent& extent) {
-  const std::size_t wanted = 2 * extent.samples;
   ReferenceSolver reference(organ, model.attributes().patch_radius, extent.threads);
-  std::vector<PairFinding> all;
-  while (true) {
-    const auto solved = static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [](const PairFinding& pair) { return pair.solved; }));
-    const std::size_t left = kMostDraws * wanted - all.size();
-    if (solved == wanted || left == 0) return all;
-    std::vector<PairFinding> drawn = draw(model, touches, wanted - solved, left);
+  const auto solve = [&](std::vector<PairFinding>& drawn) {
     std::vector<PairFinding*> within;
     for (PairFinding& pair : drawn)
       if (!pair.flagged) within.push_back(&pair);
     solvePairs(model, organ, reference, travel, extent.threads, within);
-    all.insert(all.end(), drawn.begin(), drawn.end());
-  }
+  };
+  return drawAndSolve(
+      2 * extent.samples, [&] { return drawPair(model, touches); }, solve,
+      [](const PairFinding& pair) { return pair.solved; });
 }
 
 std::optional<double> leastDistance(std::span<const PairFinding> solved, double patch_radius, double error) {

@@ -2,7 +2,7 @@
 #include "tools/examine/feel/contrast_map.h"
 
 #include "core/surface/surface_mesh.h"
-#include "tools/examine/feel/surface_picture.h"
+#include "tools/picture/surface_picture.h"
 #include "tools/program/printed.h"
 #include "tools/program/vtu.h"
 
@@ -14,7 +14,7 @@ std::string contrastSvg(const Pair& pair, const ContrastField& field,
                         const std::vector<RegionContrast>& regions, double depth) {
   const ModelView& view = pair.model.view();
   const std::size_t most = largest(field);
-  SurfacePicture picture;
+  picture::SurfacePicture picture;
   picture.title = printed("Contrast F / F_without - 1 of the normal force, %.3g mm deep", 1e3 * depth);
   picture.bar_label = "contrast / %";
   picture.surface.positions = view.surface_positions;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/examine/feel/drawn_surface.h"
+#include "tools/picture/drawn_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "tools/program/numbers.h"
 #include "tools/program/printed.h"
 
-namespace palpate::feel {
+namespace palpate::picture {
 
 namespace {
 
@@ -99,6 +99,11 @@ ColourSteps::ColourSteps(const std::vector<std::optional<double>>& numbers) {
   ends_ = low < high ? program::niceTicks(low, high, 10) : std::vector{0.0, 1.0};
 }
 
+std::size_t ColourSteps::stepOf(double number) const {
+  const auto inner = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, number);
+  return static_cast<std::size_t>(inner - ends_.begin()) - 1;
+}
+
 std::string ColourSteps::colour(std::size_t step, double light) const {
   const double place = count() > 1 ? static_cast<double>(step) / static_cast<double>(count() - 1) *
                                          static_cast<double>(kColours.size() - 1)
@@ -152,6 +157,21 @@ std::string drawnSurface(const ColouredSurface& surface, const Camera& camera, c
   return svg;
 }
 
+bool isHidden(const ColouredSurface& surface, const Camera& camera, const Vec3& X) {
+  const Vec3 p = camera.place(X);
+  const double rounding = 0.5 / camera.scale();  // m
+  const auto cross = [](const Vec3& a, const Vec3& b) { return a.x() * b.y() - a.y() * b.x(); };
+  for (const SeenTriangle& triangle : seenTriangles(surface, camera)) {
+    std::array<Vec3, 3> to;
+    for (std::size_t k = 0; k < 3; ++k) to[k] = camera.place(positionOf(surface, triangle.node[k])) - p;
+    const Vec3 weight(cross(to[1], to[2]), cross(to[2], to[0]), cross(to[0], to[1]));  // y goes down
+    if (weight.maxCoeff() > 0.0 || weight.sum() == 0.0) continue;
+    const double over = weight.dot(Vec3(to[0].z(), to[1].z(), to[2].z())) / weight.sum();
+    if (over > rounding) return true;
+  }
+  return false;
+}
+
 std::string outlineOf(const RegionSurface& surface, const Camera& camera) {
   const auto place = [&](std::uint32_t node) {
     return camera.place(Eigen::Map<const Vec3>(surface.positions.data() + 3 * std::size_t{node}));
@@ -181,4 +201,4 @@ std::string outlineOf(const RegionSurface& surface, const Camera& camera) {
   return d;
 }
 
-}  // namespace palpate::feel
+}  // namespace palpate::picture

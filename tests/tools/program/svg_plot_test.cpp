@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tools/program/svg_plot.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "palpate/report/svg_plot.h"
 #include "palpate/testing/xml_fault.h"
 
-namespace palpate::report {
+namespace palpate::program {
 namespace {
 
 using palpate::testing::xmlFault;
@@ -65,6 +66,23 @@ TEST(Svg, BarsOnLogarithmicAxesSkipZeros) {
   EXPECT_EQ(countOf(svg, "<rect class=\"bar"), 2U);
 }
 
+TEST(Svg, MarksAndBandsAreDrawnAndNamed) {
+  SvgPlot plot;
+  plot.width = 480;
+  plot.log_y = true;
+  plot.log_floor = 0.01;
+  plot.series = {{"band", {0, 1}, {1, 2}, {}, {2, 4}},
+                 {"discs", {0, 1}, {1, 0.0001}, {}, {}, Look::kDiscs},
+                 {"frames", {0, 1}, {1, 2}, {}, {}, Look::kFrames, 0}};
+  const std::string svg = plot.render();
+  EXPECT_EQ(xmlFault(svg), "");
+  EXPECT_NE(svg.find("width=\"480\""), std::string::npos);
+  EXPECT_EQ(countOf(svg, "<polygon class=\"band c0\""), 1U);
+  EXPECT_EQ(countOf(svg, "<circle class=\"mark c1\""), 3U);  // one in the legend
+  EXPECT_EQ(countOf(svg, "<rect class=\"mark c0 hollow\""), 3U);
+  EXPECT_NE(svg.find("cy=\"368\""), std::string::npos) << "what is below the floor sits on it";
+}
+
 TEST(Svg, OfNothingOrOneValueStillHasAxes) {
   SvgPlot plot;
   EXPECT_EQ(xmlFault(plot.render()), "");
@@ -81,7 +99,9 @@ TEST(Svg, RejectsNumbersItCannotShow) {
   EXPECT_THROW((void)plot.render(), std::invalid_argument);
   plot.series = {{"odd", {0, 1}, {0}, {}}};
   EXPECT_THROW((void)plot.render(), std::invalid_argument);
+  plot.series = {{"odd band", {0, 1}, {0, 1}, {}, {1}}};
+  EXPECT_THROW((void)plot.render(), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace palpate::report
+}  // namespace palpate::program

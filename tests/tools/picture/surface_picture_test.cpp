@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/examine/feel/surface_picture.h"
+#include "tools/picture/surface_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <map>
 
 #include "palpate/testing/xml_fault.h"
-#include "tools/examine/feel/drawn_surface.h"
+#include "tools/picture/drawn_surface.h"
 
-namespace palpate::feel {
+namespace palpate::picture {
 
 namespace {
 
@@ -134,6 +134,39 @@ TEST(SurfacePicture, OutlineOfAnOctahedronIsASquare) {
   EXPECT_EQ(d.back(), 'Z');
 }
 
+TEST(SurfacePicture, MarksBehindTheSurfaceAreHidden) {
+  Tetrahedra two;
+  two.addAbove(5.0);
+  const ColouredSurface shown = two.with(std::vector<std::optional<double>>(8));
+  const Camera camera(shown, kSquare);
+  EXPECT_FALSE(isHidden(shown, camera, Vec3(0.2, 0.2, 5.0)));
+  EXPECT_TRUE(isHidden(shown, camera, Vec3(0.2, 0.2, 0.0))) << "the other one is in front";
+  EXPECT_TRUE(isHidden(shown, camera, Vec3(0.2, 0.2, 4.0))) << "on its back";
+  EXPECT_FALSE(isHidden(shown, camera, Vec3(0.9, 0.9, 0.0))) << "beside it";
+  SurfacePicture picture;
+  picture.surface = shown;
+  picture.marks = {{Vec3(0.2, 0.2, 5.0), 1.0}, {Vec3(0.3, 0.3, 0.0), 2.0}, {Vec3(0.1, 0.4, 5.0), 3.0, true}};
+  const std::string svg = picture.svg();
+  EXPECT_EQ(testing::xmlFault(svg), "");
+  const auto count = [&](const char* part) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(part); at != std::string::npos; at = svg.find(part, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("<circle class=\"mark\""), 1U);
+  EXPECT_EQ(count("<rect class=\"mark\""), 1U);
+  EXPECT_NE(svg.find(">3<"), std::string::npos) << "the bar covers marks";
+}
+
+TEST(SurfacePicture, ANumberLiesInItsStep) {
+  const ColourSteps steps(std::vector<std::optional<double>>{0.0, 10.0});
+  ASSERT_EQ(steps.count(), 10U);
+  EXPECT_EQ(steps.stepOf(-1.0), 0U);
+  EXPECT_EQ(steps.stepOf(3.5), 3U);
+  EXPECT_EQ(steps.stepOf(10.0), 9U);
+  EXPECT_EQ(steps.stepOf(99.0), 9U);
+}
+
 TEST(SurfacePicture, TextsAreEscapedAndLengthsAreRound) {
   Tetrahedra small;
   for (double& x : small.positions) x *= 0.1;
@@ -146,4 +179,4 @@ TEST(SurfacePicture, TextsAreEscapedAndLengthsAreRound) {
   EXPECT_NE(svg.find(">50 mm<"), std::string::npos);
 }
 
-}  // namespace palpate::feel
+}  // namespace palpate::picture

@@ -12,7 +12,7 @@
 #include "core/base/types.h"
 #include "core/data/region_surfaces.h"
 
-namespace palpate::feel {
+namespace palpate::picture {
 
 /// A closed surface seen from far away, coloured in steps by numbers at its nodes. Borrows positions and triangles.
 struct ColouredSurface {
@@ -22,7 +22,7 @@ struct ColouredSurface {
   Vec3 towards_eye = Vec3::UnitZ();            ///< unit; up is z, or y where one looks along z
 };
 
-/// Steps of the colours: round numbers that cover all of the surface's, and zero.
+/// Steps of the colours: round numbers that cover all that are shown, and zero.
 class ColourSteps {
  public:
   explicit ColourSteps(const std::vector<std::optional<double>>& numbers);
@@ -30,6 +30,8 @@ class ColourSteps {
   [[nodiscard]] std::size_t count() const { return ends_.size() - 1; }
   /// Where step i begins, and the one before ends.
   [[nodiscard]] double end(std::size_t i) const { return ends_[i]; }
+  /// The step that a number lies in; the first or the last beyond them.
+  [[nodiscard]] std::size_t stepOf(double number) const;
   /// "#rrggbb". @param light  0 black to 1
   [[nodiscard]] std::string colour(std::size_t step, double light) const;
 
@@ -63,7 +65,10 @@ class Camera {
 [[nodiscard]] std::string drawnSurface(const ColouredSurface& surface, const Camera& camera,
                                        const ColourSteps& steps);
 
+/// Something of the closed surface lies between a point on it and the eye. Cost O(T log T).
+[[nodiscard]] bool isHidden(const ColouredSurface& surface, const Camera& camera, const Vec3& X);
+
 /// The edge of what the eye would see of a region's surface: data of an SVG path, closed lines.
 [[nodiscard]] std::string outlineOf(const RegionSurface& surface, const Camera& camera);
 
-}  // namespace palpate::feel
+}  // namespace palpate::picture
