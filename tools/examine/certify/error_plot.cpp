@@ -6,32 +6,22 @@
 
 #include "tools/program/numbers.h"
 #include "tools/program/printed.h"
-#include "tools/program/xml.h"
+#include "tools/program/svg.h"
 
 namespace palpate::certify {
 
 namespace {
 
 using program::printed;
+using program::svgText;
 
 // px
 constexpr double kWidth = 760, kHeight = 440, kLeft = 76, kRight = 20, kTop = 72, kBottom = 56;
 constexpr double kLeast = 1e-6;  // of the errors that are told apart
 
-// The same grounds as the plots of clients/report.
-constexpr const char* kStyle = R"(<style>
-svg { background: #ffffff; color: #1f2328; }
-text { font: 13px sans-serif; fill: currentColor; }
-.title { font-size: 16px; font-weight: bold; }
-.grid { stroke: currentColor; stroke-opacity: 0.2; }
-.force { stroke: #c0262d; fill: #c0262d; } .field { stroke: #2563a8; fill: #2563a8; } .beyond { fill: none; }
-@media (prefers-color-scheme: dark) { svg { background: #0d1117; color: #e6edf3; } }
-</style>
+constexpr const char* kStyle =
+    R"(.force { stroke: #c0262d; fill: #c0262d; } .field { stroke: #2563a8; fill: #2563a8; } .beyond { fill: none; }
 )";
-
-std::string textAt(double x, double y, const std::string& text, const char* extra = "") {
-  return printed("<text x=\"%.1f\" y=\"%.1f\"%s>", x, y, extra) + program::xmlEscaped(text) + "</text>\n";
-}
 
 std::string mark(double x, double y, bool force, bool beyond) {
   const std::string kind = printed("class=\"%s%s\"", force ? "force" : "field", beyond ? " beyond" : "");
@@ -72,16 +62,16 @@ std::string grid(const Axes& axes) {
   for (int decade = axes.lowest; decade <= axes.highest; ++decade) {
     const double y = axes.y(std::pow(10.0, decade));
     svg += printed("<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", kLeft, y, kWidth - kRight) +
-           textAt(kLeft - 8, y + 4, printed("%g %%", std::pow(10.0, decade + 2)), " text-anchor=\"end\"");
+           svgText(kLeft - 8, y + 4, printed("%g %%", std::pow(10.0, decade + 2)), " text-anchor=\"end\"");
   }
   for (const double mm : program::niceTicks(0.0, 1e3 * axes.longest, 6)) {
     const double x = axes.x(1e-3 * mm);
     if (x > kWidth - kRight) continue;
     svg += printed("<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>\n", x, kTop, kHeight - kBottom) +
-           textAt(x, kHeight - kBottom + 20, printed("%g", mm), " text-anchor=\"middle\"");
+           svgText(x, kHeight - kBottom + 20, printed("%g", mm), " text-anchor=\"middle\"");
   }
   return svg +
-         textAt(0.5 * (kLeft + kWidth - kRight), kHeight - 12, "length of d, mm", " text-anchor=\"middle\"");
+         svgText(0.5 * (kLeft + kWidth - kRight), kHeight - 12, "length of d, mm", " text-anchor=\"middle\"");
 }
 
 std::string legend() {
@@ -91,7 +81,7 @@ std::string legend() {
     for (const bool force : {true, false}) {
       svg +=
           mark(x, 50, force, beyond) +
-          textAt(x + 10, 54, std::string(force ? "force" : "field") + (beyond ? ", beyond the domain" : ""));
+          svgText(x + 10, 54, std::string(force ? "force" : "field") + (beyond ? ", beyond the domain" : ""));
       x += beyond ? 190 : 80;
     }
   return svg;
@@ -105,10 +95,8 @@ std::string errorPlot(const std::string& title, const std::vector<Finding>& find
     if (finding.outcome == Outcome::kWithin || finding.outcome == Outcome::kBeyond)
       solved.push_back(&finding);
   const Axes axes = axesOf(solved);
-  std::string svg = printed(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n",
-      kWidth, kHeight, kWidth, kHeight);
-  svg += kStyle + textAt(kLeft, 28, title, " class=\"title\"") + legend() + grid(axes);
+  std::string svg = program::svgStart(kWidth, kHeight, kStyle) +
+                    svgText(kLeft, 28, title, " class=\"title\"") + legend() + grid(axes);
   for (const Finding* f : solved) {
     const double x = axes.x(f->touch.d.norm());
     const bool beyond = f->outcome == Outcome::kBeyond;

@@ -5,35 +5,26 @@
 
 #include "tools/program/numbers.h"
 #include "tools/program/printed.h"
-#include "tools/program/xml.h"
+#include "tools/program/svg.h"
 
 namespace palpate::feel {
 
 namespace {
 
 using program::printed;
+using program::svgText;
 
 // px
 constexpr double kWidth = 860, kMargin = 24, kTop = 56, kLine = 22;
 constexpr double kBarRoom = 110, kBarWidth = 18, kStepHeight = 26;
 constexpr Frame kFrame{kMargin, kTop, kWidth - 2.0 * kMargin - kBarRoom, 560};
 
-// The same grounds as the plots of clients/report.
-constexpr const char* kStyle = R"(<style>
-svg { background: #ffffff; color: #1f2328; }
-text { font: 13px sans-serif; fill: currentColor; }
-.title { font-size: 16px; font-weight: bold; }
-.surface { fill: currentColor; stroke: currentColor; stroke-width: 0.9; stroke-linejoin: round; }
+constexpr const char* kStyle =
+    R"(.surface { fill: currentColor; stroke: currentColor; stroke-width: 0.9; stroke-linejoin: round; }
 .line { fill: none; stroke: currentColor; stroke-width: 1.5; }
 .under { fill: none; stroke: #ffffff; stroke-width: 4; stroke-opacity: 0.8; }
 .over { fill: none; stroke: #c0262d; stroke-width: 2; } .dashed { stroke-dasharray: 6 4; }
-@media (prefers-color-scheme: dark) { svg { background: #0d1117; color: #e6edf3; } }
-</style>
 )";
-
-std::string textAt(double x, double y, const std::string& text, const char* extra = "") {
-  return printed("<text x=\"%.1f\" y=\"%.1f\"%s>", x, y, extra) + program::xmlEscaped(text) + "</text>\n";
-}
 
 /// With a light rim, so that it shows on all colours.
 std::string rimmed(const std::string& d, const char* extra = "") {
@@ -47,10 +38,10 @@ std::string crossAt(double x, double y) {
 std::string colourBar(const SurfacePicture& picture, const ColourSteps& steps) {
   const double left = kWidth - kMargin - kBarRoom + 30;
   const double top = kTop + 28;
-  std::string svg = textAt(left, top - 14, picture.bar_label);
+  std::string svg = svgText(left, top - 14, picture.bar_label);
   for (std::size_t i = 0; i <= steps.count(); ++i) {
     const double y = top + kStepHeight * static_cast<double>(steps.count() - i);
-    svg += textAt(left + kBarWidth + 6, y + 4, printed("%.6g", steps.end(i)));
+    svg += svgText(left + kBarWidth + 6, y + 4, printed("%.6g", steps.end(i)));
     if (i == steps.count()) break;
     svg += printed("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", left,
                    y - kStepHeight, kBarWidth, kStepHeight, steps.colour(i, 1.0).c_str());
@@ -67,16 +58,16 @@ std::string lengthBar(const Camera& camera, double y) {
   const double length = program::niceTicks(0.0, kFrame.width / camera.scale() / 5.0, 1)[1];
   const double px = length * camera.scale(), left = kFrame.left;
   return printed("<path class=\"line\" d=\"M%.1f %.1fv8h%.1fv-8\"/>\n", left, y - 8, px) +
-         textAt(left + px + 8, y, printed("%.6g mm", 1e3 * length));
+         svgText(left + px + 8, y, printed("%.6g mm", 1e3 * length));
 }
 
 std::string legend(const SurfacePicture& picture, double y) {
   constexpr double kLeft = kFrame.left + 330;
-  std::string svg = crossAt(kLeft, y - 5) + textAt(kLeft + 24, y, picture.cross_label);
+  std::string svg = crossAt(kLeft, y - 5) + svgText(kLeft + 24, y, picture.cross_label);
   for (const Inside& inside : picture.inside) {
     y += kLine;
     svg +=
-        rimmed(printed("M%.1f %.1fh28", kLeft - 14, y - 5), " dashed") + textAt(kLeft + 24, y, inside.name);
+        rimmed(printed("M%.1f %.1fh28", kLeft - 14, y - 5), " dashed") + svgText(kLeft + 24, y, inside.name);
   }
   return svg;
 }
@@ -88,10 +79,8 @@ std::string SurfacePicture::svg() const {
   const Camera camera(surface, kFrame);
   const double below = std::max(camera.bottom(), barBottom(steps)) + 36;
   const double height = below + kLine * static_cast<double>(inside.size()) + 16;
-  std::string svg = printed(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n",
-      kWidth, height, kWidth, height);
-  svg += kStyle + textAt(kMargin, 28, title, " class=\"title\"");
+  std::string svg =
+      program::svgStart(kWidth, height, kStyle) + svgText(kMargin, 28, title, " class=\"title\"");
   svg += "<g class=\"surface\">\n" + drawnSurface(surface, camera, steps) + "</g>\n";
   for (const Inside& part : inside) {
     const std::string d = outlineOf(*part.surface, camera);
