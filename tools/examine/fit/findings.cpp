@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "tools/examine/fit/runs_test.h"
+#include "tools/examine/fit/sign_runs.h"
 
 namespace palpate::fit {
 

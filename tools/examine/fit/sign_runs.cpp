@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/examine/fit/runs_test.h"
+#include "tools/examine/fit/sign_runs.h"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>

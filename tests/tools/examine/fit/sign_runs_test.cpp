@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/examine/fit/runs_test.h"
+#include "tools/examine/fit/sign_runs.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace palpate::fit {
 namespace {
 
-TEST(RunsTest, FewRunsAreImprobableAndManyAreNot) {
+TEST(SignRuns, FewRunsAreImprobableAndManyAreNot) {
   std::vector<double> halves(40, 1.0), turns(40, 1.0);
   for (std::size_t i = 0; i < 40; ++i) {
     if (i >= 20) halves[i] = -1.0;
@@ -26,7 +26,7 @@ TEST(RunsTest, FewRunsAreImprobableAndManyAreNot) {
   EXPECT_NEAR(*probabilityOfRuns(some), 0.5 * std::erfc((21.0 - 14.5) / std::sqrt(2.0 * 9.7436)), 1e-4);
 }
 
-TEST(RunsTest, NoiseFailsAsOftenAsItSays) {
+TEST(SignRuns, NoiseFailsAsOftenAsItSays) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> noise;
   int rare = 0;
@@ -39,7 +39,7 @@ TEST(RunsTest, NoiseFailsAsOftenAsItSays) {
   EXPECT_LT(rare, 150);
 }
 
-TEST(RunsTest, SaysNothingOfFewPoints) {
+TEST(SignRuns, SaysNothingOfFewPoints) {
   std::vector<double> residuals(9, 1.0);
   residuals.insert(residuals.end(), 30, -1.0);
   EXPECT_FALSE(probabilityOfRuns(residuals));
