@@ -31,7 +31,8 @@ soft organ in large deformation, over DDS. The organ's answers come from a
 model file, which palpate-solve computes beforehand.
 
 This package holds the server with a systemd unit, the page that shows the
-organ in a browser, and the programs that play, measure and inspect.")
+organ in a browser, and the programs that play, measure, inspect and find an
+organ's stiffness from measurements.")
 
 set(CPACK_DEBIAN_SOLVER_PACKAGE_NAME ${PALPATE_PACKAGE_solver})
 set(CPACK_DEBIAN_SOLVER_PACKAGE_SECTION science)

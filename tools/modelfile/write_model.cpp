@@ -95,16 +95,15 @@ void makeGroup(const Hdf5Handle& file, const std::string& name) {
   require(group.valid(), name);
 }
 
-void makeGroups(const Hdf5Handle& file, const ModelData& data) {
+void makeGroups(const Hdf5Handle& file, const ModelAttributes& attributes, const ModelView& view) {
   for (const char* path : {dataset::kSurfacePositions.path, dataset::kContactNode.path, dataset::kModesX.path,
                            dataset::kNearNode.path, dataset::kMeshNodes.path})
     makeGroup(file, groupOf(path));
-  const ModelAttributes& attributes = data.attributes;
   if (attributes.parameters == Parameters::kLevel) makeGroup(file, groupOf(dataset::kLevelsZ.path));
   if (attributes.parameters == Parameters::kDisplacement) makeGroup(file, groupOf(dataset::kGreenNode.path));
-  if (!data.edge_offset.empty()) makeGroup(file, groupOf(dataset::kEdgeNode.path));
-  if (!data.region_name.empty()) makeGroup(file, groupOf(dataset::kRegionName.path));
-  if (!data.spring_node.empty()) makeGroup(file, groupOf(dataset::kSpringNode.path));
+  if (!view.edge_offset.empty()) makeGroup(file, groupOf(dataset::kEdgeNode.path));
+  if (!view.region_name.empty()) makeGroup(file, groupOf(dataset::kRegionName.path));
+  if (!view.spring_node.empty()) makeGroup(file, groupOf(dataset::kSpringNode.path));
 }
 
 template <typename T>
@@ -224,13 +223,11 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   return v;
 }
 
-void writeAll(const std::string& path, const ModelData& data) {
+void writeAll(const std::string& path, const ModelAttributes& attributes, const ModelView& view,
+              bool compact) {
   Hdf5Handle file = createFile(path);
-  ModelAttributes attributes = data.attributes;
-  attributes.force_order = forceOrder(attributes);
-  makeGroups(file, data);
-  const PackedFields fields = packFields(data);
-  writeContent(file, attributes, viewOf(data, fields), data.compact);
+  makeGroups(file, attributes, view);
+  writeContent(file, attributes, view, compact);
   require(file.closeNow(), path);
   sync(path);
 }
@@ -252,11 +249,19 @@ std::uint64_t storedBytes(const ModelData& data) {
 }
 
 void writeModel(const std::filesystem::path& path, const ModelData& data) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out
   checkSizes(data);
+  ModelAttributes attributes = data.attributes;
+  attributes.force_order = forceOrder(attributes);
+  const PackedFields fields = packFields(data);
+  writeModel(path, attributes, viewOf(data, fields), data.compact);
+}
+
+void writeModel(const std::filesystem::path& path, const ModelAttributes& attributes, const ModelView& view,
+                bool compact) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out
   program::FileBeside beside(path);
   try {
-    writeAll(beside.path(), data);
+    writeAll(beside.path(), attributes, view, compact);
     beside.takePlace();
     syncFolder(path);
   } catch (const program::WriteError& error) {

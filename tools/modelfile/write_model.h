@@ -15,6 +15,12 @@ namespace palpate::modelfile {
 /// written
 void writeModel(const std::filesystem::path& path, const ModelData& data);
 
+/// The same of numbers as a file has them, fields in whole numbers.
+/// @param attributes  force_order as in a file, not 0  @param view  of sizes that fit each other, such as a loaded model's
+/// @param compact  each array in the fewest bytes that hold its numbers  @throw ModelFileError
+void writeModel(const std::filesystem::path& path, const ModelAttributes& attributes, const ModelView& view,
+                bool compact);
+
 /// About what writeModel() makes of it, bytes: arrays, and what HDF5 adds to them. @param data  parts may be empty
 [[nodiscard]] std::uint64_t storedBytes(const ModelData& data);
 

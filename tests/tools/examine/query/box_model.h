@@ -56,20 +56,20 @@ struct BoxCase {
 };
 
 /// The model of the box. Its near field covers the box whole: what the modes miss is all in there.
-/// @param scratch  folder for the solver's
+/// @param scratch  folder for the solver's  @param stiffer  what E of all its parts and the springs are multiplied by
 inline modelfile::ModelData boxModelData(const std::filesystem::path& scratch,
                                          const std::string& law = "stvk", int element_order = 1,
-                                         BoxCase::Kind kind = BoxCase::kPlain) {
+                                         BoxCase::Kind kind = BoxCase::kPlain, double stiffer = 1.0) {
   solver::Case c;
   c.mesh = "box";
   c.accessible = "accessible";
   c.law = law;
   c.element_order = element_order;
-  c.E = 1e5;
+  c.E = stiffer * 1e5;
   c.nu = 0.4;
   if (kind == BoxCase::kRegionAndSprings) {
-    c.regions.push_back({"nodule", 5e5, 0.3, "stable-neo-hookean", "case"});
-    c.springs.push_back({"bed", BoxCase::kBed, "case"});
+    c.regions.push_back({"nodule", stiffer * 5e5, 0.3, "stable-neo-hookean", "case"});
+    c.springs.push_back({"bed", stiffer * BoxCase::kBed, "case"});
   }
   c.patch_radius = 0.012;
   c.modes = 10;
@@ -83,8 +83,8 @@ inline modelfile::ModelData boxModelData(const std::filesystem::path& scratch,
 }
 
 inline void writeBoxModel(const std::filesystem::path& path, const std::string& law = "stvk",
-                          int element_order = 1, BoxCase::Kind kind = BoxCase::kPlain) {
-  modelfile::writeModel(path, boxModelData(path.parent_path(), law, element_order, kind));
+                          int element_order = 1, BoxCase::Kind kind = BoxCase::kPlain, double stiffer = 1.0) {
+  modelfile::writeModel(path, boxModelData(path.parent_path(), law, element_order, kind, stiffer));
 }
 
 /// The model of the box, loaded, and its full problem.
