@@ -81,17 +81,21 @@ struct FitCounts {
   double positions_seen, loads_seen;  ///< of positions or loads, those whose weights a node has
 };
 
-/// Multiplications and additions of the fit: a head start on a part of the positions, sweeps over all, and the loads.
-double fitWork(const FitCounts& c, double n, bool given, int sweeps) {
-  const double grams = n * n * c.surface_nodes, solving = n * n * n;
+/// Seconds of the fit: a head start on a part of the positions, sweeps over all, and the loads. Weights and the constant are
+/// those of five organs of 400 to 6000 surface nodes.
+/// @param rate  productRate()
+double fitSeconds(const FitCounts& c, double n, bool given, int sweeps, double rate) {
+  constexpr double kSlower = 2.0;   // the small factorizations
+  constexpr double kBesides = 1.5;  // of all work, over what is counted here
+  const double grams = n * n * c.surface_nodes, solving = kSlower * n * n * n;
   const auto y = [&](double sources, double seen, double columns) {
     return sources * (seen * grams + 6.0 * n * c.surface_nodes * columns + solving);
   };
-  const double sweep = y(c.positions, c.positions_seen, c.coefficients) +
-                       c.positions * c.positions_seen * grams +
-                       6.0 * n * c.surface_nodes * c.positions * c.coefficients + c.surface_nodes * solving;
-  const double head = given ? 0.3 : 1.2;  // sweeps, of fewer positions and at first of fewer modes
-  return (sweeps + head) * sweep + 0.5 * sweep + y(c.loads, c.loads_seen, 3.0);
+  const double x = c.positions * (c.positions_seen * grams + 6.0 * n * c.surface_nodes * c.coefficients) +
+                   c.surface_nodes * solving;
+  const double sweep = y(c.positions, c.positions_seen, c.coefficients) + x;
+  const double head = given ? 0.8 : 1.5, constant = given ? 1.0 : 3.0;  // sweeps; s
+  return constant + kBesides * ((sweeps + head) * sweep + y(c.loads, c.loads_seen, 3.0)) / rate;
 }
 
 /// Part of all pairs that are closer than three near radii, where weights differ from the area's.
@@ -153,8 +157,9 @@ Estimate DisplacementBuilder::sizes() const {
   const double sums = 2.0 * n * n * options_.workers *
                       static_cast<double>(GramSums::blockSize(static_cast<Eigen::Index>(n), options_.workers,
                                                               loaded_.size()));
-  const double fit = 4.0 * nodes * (M + G) + 8.0 * n * M * C + 32.0 * n * rows + work + sums;
-  out.memory = residentBytes() + std::max(fit + floats, 2.0 * floats);
+  constexpr double kLibraries = 3e7;  // OpenBLAS, HDF5, stacks
+  const double fit = 4.0 * nodes * std::max(M, G) + 8.0 * n * M * C + 32.0 * n * rows + work + sums;
+  out.memory = kLibraries + residentBytes() + std::max(fit + 0.25 * floats, 2.0 * floats);
   return out;
 }
 
@@ -207,8 +212,8 @@ Estimate DisplacementBuilder::estimate() const {
                          static_cast<double>(basis_.size()),
                          partSeen(setup_.surface, setup_.positions.nodes, near_radius_),
                          partSeen(setup_.surface, loaded_, near_radius_)};
-  out.fit = fitWork(counts, out.modes, case_.modes.has_value(), case_.sweepsOrDefault()) /
-            productRate(options_.workers);
+  out.fit = fitSeconds(counts, out.modes, case_.modes.has_value(), case_.sweepsOrDefault(),
+                       productRate(options_.workers));
   constexpr double kWritten = 1e8;  // bytes a second
   out.write = out.file / kWritten;
   out.memory = std::max(out.memory, peakBytes());
