@@ -16,6 +16,7 @@ set(PALPATE_CORE_SOURCES
   surface/bounding_volumes.cpp
   surface/contact_patches.cpp
   surface/contact_surface.cpp
+  surface/divided_surface.cpp
   surface/smooth_places.cpp
   surface/surface_distance.cpp
   surface/surface_mesh.cpp
