@@ -46,10 +46,9 @@ export class Stage {
 
   /** @throws Error when the browser has no WebGL 2 */
   constructor(private readonly canvas: HTMLCanvasElement) {
-    const context = contextOf(canvas);
-    this.drawnBy = nameOfRenderer(context);
+    this.drawnBy = nameOfRenderer();
     this.software = /swiftshader|llvmpipe|softpipe|basic render/i.test(this.drawnBy);
-    this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: !this.software, powerPreference: 'high-performance' });
     this.renderer.debug.checkShaderErrors = false; // to ask waits for the shaders' compiler
     this.renderer.setClearColor(0x000000, 0);
     this.camera.up.set(0, 0, 1);
@@ -141,19 +140,13 @@ export class Stage {
   }
 }
 
-/** The picture's edges are smoothed by hardware only: software makes more pixels where it has the time. @throws Error without WebGL 2 */
-function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext {
-  const settings: WebGLContextAttributes = { alpha: true, stencil: false, powerPreference: 'high-performance' };
-  const hardware = canvas.getContext('webgl2', { ...settings, antialias: true, failIfMajorPerformanceCaveat: true });
-  const context = hardware ?? canvas.getContext('webgl2', { ...settings, antialias: false });
-  if (!context) throw new Error('this browser has no WebGL 2');
-  return context;
-}
-
 /** Asked once. Asking a context waits for all that it still draws. */
-function nameOfRenderer(gl: WebGL2RenderingContext): string {
-  const ext = gl.getExtension('WEBGL_debug_renderer_info');
-  return String(gl.getParameter(ext ? ext.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+function nameOfRenderer(): string {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const ext = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = gl ? String(gl.getParameter(ext ? ext.UNMASKED_RENDERER_WEBGL : gl.RENDERER)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return name;
 }
 
 /** Frees its memory on the graphics card. */
