@@ -53,6 +53,7 @@ struct Face {
       near_node.push_back(0);
       offset.push_back(static_cast<std::int64_t>(g) + 1);
     }
+    view.surface_mesh_tag = tags;
     view.surface_positions = positions;
     view.surface_triangles = drawn;
     view.contact_triangles = corners;
@@ -68,6 +69,7 @@ struct Face {
   std::vector<std::int16_t> Y, near;
   std::vector<float> scales;
   std::vector<std::int64_t> offset{0};
+  std::array<std::int64_t, 6> tags{1, 2, 3, 4, 5, 6};
   std::array<double, 18> positions{0, 0, 0, 2, 0, 0, 0, 2, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0};
   std::array<std::int32_t, 12> drawn{0, 5, 4, 5, 1, 3, 4, 3, 2, 3, 4, 5};
   std::array<std::int32_t, 3> corners{0, 1, 2};
