@@ -9,6 +9,7 @@ set(PALPATE_CORE_SOURCES
   data/load_driven_checks.cpp
   data/model_checks.cpp
   data/model_content.cpp
+  data/model_digests.cpp
   data/model_reader.cpp
   data/model_source.cpp
   data/parameter_functions.cpp

@@ -127,15 +127,4 @@ Digest contentDigest(const ModelAttributes& a, const ModelView& v) {
   return hash.finish();
 }
 
-ModelDigests digestsOf(const ModelContents& contents) {
-  const auto ofText = [](const std::string& text) {
-    return sha256(std::as_bytes(std::span<const char>(text)));
-  };
-  ModelDigests digests;
-  digests.provenance = ofText(contents.attributes.provenance);
-  digests.content = contentDigest(contents.attributes, contents.view);
-  digests.certificate = ofText(contents.attributes.certificate);
-  return digests;
-}
-
 }  // namespace palpate

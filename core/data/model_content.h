@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/data/datasets.h"
-#include "core/data/model_reader.h"
 #include "core/data/model_view.h"
 #include "core/data/sha256.h"
 
@@ -112,12 +111,5 @@ using LengthTable = std::map<std::string_view, std::uint64_t>;
 /// Name, type, shape and bytes of all attributes and datasets above.           docs/model_file.md, Digest
 /// The provenance is not in it: the same organ solved twice is the same model. O(bytes).
 [[nodiscard]] Digest contentDigest(const ModelAttributes& attributes, const ModelView& view);
-
-/// What a model's own digests are compared with.
-struct ModelDigests {
-  Digest provenance, content, certificate;  ///< of the texts, and of contentDigest()
-};
-/// In the order of the members. O(bytes).
-[[nodiscard]] ModelDigests digestsOf(const ModelContents& contents);
 
 }  // namespace palpate

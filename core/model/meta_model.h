@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/data/load_error.h"
-#include "core/data/model_content.h"
+#include "core/data/model_digests.h"
 #include "core/data/model_reader.h"
 #include "core/data/model_view.h"
 #include "core/data/parameter_functions.h"

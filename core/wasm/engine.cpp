@@ -16,7 +16,7 @@
 
 #include "core/base/status_flags.h"
 #include "core/data/array_reader.h"
-#include "core/data/model_content.h"
+#include "core/data/model_digests.h"
 #include "core/data/model_reader.h"
 #include "core/response/largest_stiffness.h"
 #include "core/response/patch_response.h"
