@@ -9,6 +9,7 @@ set(PALPATE_CORE_SOURCES
   data/load_driven_checks.cpp
   data/model_checks.cpp
   data/model_content.cpp
+  data/model_digests.cpp
   data/model_reader.cpp
   data/model_source.cpp
   data/parameter_functions.cpp
@@ -16,6 +17,7 @@ set(PALPATE_CORE_SOURCES
   surface/bounding_volumes.cpp
   surface/contact_patches.cpp
   surface/contact_surface.cpp
+  surface/divided_surface.cpp
   surface/smooth_places.cpp
   surface/surface_distance.cpp
   surface/surface_mesh.cpp

@@ -2,6 +2,8 @@
 #include "core/data/array_reader.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace palpate {
@@ -32,7 +34,7 @@ const T& ArrayReader::attribute(const char* name, const char* expected) const {
 }
 
 void ArrayReader::numbers(const char* attribute, std::span<double> values) const {
-  const std::vector<double>& found = this->attribute<std::vector<double>>(attribute, "a float");
+  const std::vector<double>& found = this->attribute<std::vector<double>>(attribute, "a number");
   if (found.size() != values.size())
     fail(std::string("attribute ") + attribute + " is " + std::to_string(found.size()) +
          " values, expected " + std::to_string(values.size()));
@@ -40,7 +42,13 @@ void ArrayReader::numbers(const char* attribute, std::span<double> values) const
 }
 
 int ArrayReader::integer(const char* attribute) const {
-  return this->attribute<int>(attribute, "an integer");
+  const std::vector<double>& found = this->attribute<std::vector<double>>(attribute, "an integer");
+  const auto fits = [](double x) {
+    return x == std::trunc(x) && std::abs(x) <= std::numeric_limits<int>::max();
+  };
+  if (found.size() != 1 || !fits(found.front()))
+    fail(std::string("attribute ") + attribute + " is not an integer");
+  return static_cast<int>(found.front());
 }
 
 std::string ArrayReader::text(const char* attribute) const {

@@ -14,11 +14,10 @@
 
 namespace palpate {
 
-/// A model that somebody else has read, array by array: a page, by a library of its own. Attributes are texts, whole numbers
-/// or floats.
+/// A model that somebody else has read, array by array: a page, by a library of its own. Attributes are texts or numbers.
 class ArrayReader final : public ModelSource {
  public:
-  using Attribute = std::variant<std::string, int, std::vector<double>>;
+  using Attribute = std::variant<std::string, std::vector<double>>;
 
   /// @param name  how the model is called in messages
   explicit ArrayReader(std::string name) : ModelSource(std::move(name)) {}

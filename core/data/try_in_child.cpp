@@ -27,7 +27,7 @@ void setLimits([[maybe_unused]] std::size_t bytes) {
   ::setrlimit(RLIMIT_CPU, &seconds);
   ::setrlimit(RLIMIT_CORE, &core);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they take all addresses themselves
-  const rlim_t addresses = addressSpace() + kRoom + 4 * bytes;
+  const rlim_t addresses = addressSpace() + kRoom + 8 * bytes;       // of 8 bits, as 64
   rlimit now{};
   if (::getrlimit(RLIMIT_AS, &now) != 0 || now.rlim_cur <= addresses) return;
   const rlimit lower{addresses, addresses};

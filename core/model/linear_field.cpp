@@ -39,7 +39,9 @@ LinearField::LinearField(const ModelView& view)
       const auto end = [&](std::size_t turn) {
         return sources_[index(view.contact_triangles[3 * f + (k + turn) % 3])][0];
       };
-      if (middle == kNone && end(1) >= 0 && end(2) >= 0) middle = {end(1), end(2)};
+      if (middle != kNone || end(1) < 0 || end(2) < 0) continue;
+      middle = {end(1), end(2)};
+      shares_loads_ = true;
     }
   reach_ = near_.reach(pointsOf(view.surface_positions, view.green_node), view.surface_positions);
 }

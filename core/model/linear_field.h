@@ -35,6 +35,8 @@ class LinearField {
 
   /// Whether what the node carries is answered for.
   [[nodiscard]] bool carries(std::int32_t node) const noexcept { return sources_[index(node)][0] >= 0; }
+  /// Whether any node's load is shared, so that a patch may have two sources for a node.
+  [[nodiscard]] bool sharesLoads() const noexcept { return shares_loads_; }
   /// The sources of a patch's loads. @param[out] out  made by room(). Cost O(k) for k nodes of the patch. Real-time: yes.
   void find(const PatchNodes& patch, PatchSources& out) const noexcept PALPATE_NONBLOCKING;
   /// Sources with room for those of any patch. @param nodes  that a patch has, at most. Not real-time.
@@ -64,6 +66,7 @@ class LinearField {
   Amplitudes amplitudes_;  // [G][3][n] Z, m/N
   NearField near_;         // [G], of 3 loads
   double reach_{0.0};
+  bool shares_loads_{false};
 };
 
 }  // namespace palpate

@@ -46,7 +46,8 @@ MetaModel MetaModel::load(const std::filesystem::path& path) {
   tryInChild(path.string(), size, [&] { (void)read(); });  // HDF5 trusts what it reads
   ModelContents contents = read();
   requireMemory(path, "what is computed from it", bytesOfTables(contents.view));
-  return of({image, size, image->locked()}, std::move(contents), path.string());
+  const ModelDigests digests = digestsOf(contents);
+  return of({image, size, image->locked()}, std::move(contents), digests, path.string());
 }
 
 }  // namespace palpate

@@ -64,13 +64,14 @@ void checkLoadedNodes(const ModelView& view, const ContactPatches& patches, cons
 
 /// Dimples are summed from the amplitudes of all patches: some seconds at this most, 50,000 nodes of 216 in a patch and 370
 /// modes; and from those of all edges, 16 coefficients of 150,000 edges and 400 modes.
-void checkDimpleWork(const ModelView& view, const ModelAttributes& attributes,
-                     const ContactPatches& patches) {
+void checkDimpleWork(const ModelView& view, const ModelAttributes& attributes, const ContactPatches& patches,
+                     const LinearField& field) {
   constexpr std::size_t kMost = 4'000'000'000, kMostOfEdges = 1'000'000'000;
-  if (view.modes() > 0 && patches.entries() > kMost / view.modes())
+  const std::size_t for_each = view.modes() * (field.sharesLoads() ? 2 : 1);  // of the modes' amplitudes
+  if (for_each > 0 && patches.entries() > kMost / for_each)
     throw std::invalid_argument("patch_radius is " + std::to_string(attributes.patch_radius) +
                                 " m, expected one of patches with at most " +
-                                std::to_string(kMost / view.modes()) + " nodes together for " +
+                                std::to_string(kMost / for_each) + " nodes together for " +
                                 std::to_string(view.modes()) + " modes, found " +
                                 std::to_string(patches.entries()));
   if (view.modes() > 0 && view.edge_scale.size() > kMostOfEdges / view.modes())
@@ -97,30 +98,26 @@ std::size_t edgeRows(const ModelView& view) {
   return view.edge_offset.empty() ? 0 : view.edge_scale.size() / (view.edge_offset.size() - 1);
 }
 
-/// The content is what the writer wrote. @return its digest
-Digest verified(const ModelContents& contents, const std::string& name) {
-  const std::string& provenance = contents.attributes.provenance;
-  compare(name, "provenance_digest", contents.stored.provenance,
-          sha256(std::as_bytes(std::span<const char>(provenance))));
-  const Digest digest = contentDigest(contents.attributes, contents.view);
-  compare(name, "digest", contents.stored.content, digest);
-  if (contents.attributes.certificate.empty()) return digest;
-  compare(name, "certificate_digest", contents.stored.certificate,
-          sha256(std::as_bytes(std::span<const char>(contents.attributes.certificate))));
-  if (contents.stored.certified != digest.hex())
-    throw LoadError(name + ": the certificate belongs to the content " +
-                    contents.stored.certified.substr(0, 64) + ", the digest of this content is " +
-                    digest.hex());
-  return digest;
+/// The content is what the writer wrote.
+void verify(const ModelContents& contents, const ModelDigests& computed, const std::string& name) {
+  const StoredDigests& stored = contents.stored;
+  compare(name, "provenance_digest", stored.provenance, computed.provenance);
+  compare(name, "digest", stored.content, computed.content);
+  if (contents.attributes.certificate.empty()) return;
+  compare(name, "certificate_digest", stored.certificate, computed.certificate);
+  if (stored.certified != computed.content.hex())
+    throw LoadError(name + ": the certificate belongs to the content " + stored.certified.substr(0, 64) +
+                    ", the digest of this content is " + computed.content.hex());
 }
 
 }  // namespace
 
-MetaModel MetaModel::of(ModelImage image, ModelContents contents, const std::string& name) {
-  const Digest digest = verified(contents, name);
+MetaModel MetaModel::of(ModelImage image, ModelContents contents, const ModelDigests& digests,
+                        const std::string& name) {
+  verify(contents, digests, name);
   checkContents(contents.attributes, contents.view, name);
   try {
-    return MetaModel(std::move(image), std::move(contents), digest);
+    return MetaModel(std::move(image), std::move(contents), digests.content);
   } catch (const std::invalid_argument& error) {
     throw LoadError(name + ": " + error.what());
   }
@@ -180,7 +177,7 @@ MetaModel::MetaModel(ModelImage image, ModelContents contents, const Digest& dig
       linear_field_(view_) {
   if (!isDisplacementDriven()) return;
   checkLoadedNodes(view_, patches_, linear_field_);
-  checkDimpleWork(view_, attributes_, patches_);
+  checkDimpleWork(view_, attributes_, patches_, linear_field_);
   dimple_ = ContactDimple({view_, surface_, places_, patches_, stiffness_, mixing_, far_field_, amplitudes_,
                            near_field_, edge_field_, linear_field_, index(functions_.size()),
                            edge_coefficients_, functions_.reference()});

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/data/load_error.h"
+#include "core/data/model_digests.h"
 #include "core/data/model_reader.h"
 #include "core/data/model_view.h"
 #include "core/data/parameter_functions.h"
@@ -40,9 +41,10 @@ class MetaModel {
   /// (docs/model_file.md).
   /// @throw LoadError one sentence: file, dataset, found, expected. Real-time: no (reads, allocates).
   [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
-  /// A model whose arrays lie in memory already. @param name  how it is called in messages
-  /// @throw LoadError  as load(), for numbers and digest. Real-time: no.
-  [[nodiscard]] static MetaModel of(ModelImage image, ModelContents contents, const std::string& name);
+  /// A model whose arrays lie in memory already. @param digests  computed of these  @param name  how it is called in messages
+  /// @throw LoadError  as load(), for numbers and digests. Real-time: no.
+  [[nodiscard]] static MetaModel of(ModelImage image, ModelContents contents, const ModelDigests& digests,
+                                    const std::string& name);
 
   [[nodiscard]] const ModelAttributes& attributes() const noexcept { return attributes_; }
   [[nodiscard]] bool isDisplacementDriven() const noexcept {

@@ -9,7 +9,7 @@ namespace palpate {
 
 namespace {
 
-/// Children hold a quarter of the triangles, rounded up: 2^31 triangles make 16 levels, three waiting on each.
+/// Children hold a quarter of the faces, rounded up: 2^31 triangles make 17 levels, three waiting on each.
 constexpr std::size_t kStack = 64;
 
 /// x as a float that lies a little further along `way`, 1 or -1.
@@ -28,15 +28,24 @@ struct BoundingVolumes::Box {
   std::array<float, 3> low{kInfinity, kInfinity, kInfinity}, high{kInfinity, kInfinity, kInfinity};
 };
 
-BoundingVolumes::BoundingVolumes(std::span<const double> positions, std::span<const std::int32_t> triangles)
-    : positions_(positions), triangles_(triangles) {
-  std::vector<Leaf> leaves(triangles.size() / 3);
-  for (std::size_t t = 0; t < leaves.size(); ++t) {
-    const auto triangle = static_cast<std::int32_t>(t);
-    leaves[t] = {(corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0, triangle};
-  }
-  nodes_.reserve(leaves.size() / 2);
-  if (!leaves.empty()) (void)build(leaves);
+BoundingVolumes::BoundingVolumes(std::span<const double> positions, std::span<const std::int32_t> triangles,
+                                 int levels)
+    : positions_(positions), triangles_(triangles), levels_(levels) {
+  std::vector<Leaf> leaves((triangles.size() / 3) >> (2 * levels));
+  for (std::size_t f = 0; f < leaves.size(); ++f) leaves[f] = leafOf(static_cast<std::int32_t>(f));
+  nodes_.reserve(triangles.size() / 6);
+  if (leaves.size() == 1 && levels > 0)
+    (void)buildFace(0, levels);
+  else if (!leaves.empty())
+    (void)build(leaves);
+}
+
+/// A face by the mean of its corners: corner k is node k of the part that lies there at each level.
+BoundingVolumes::Leaf BoundingVolumes::leafOf(std::int32_t face) const {
+  const std::int32_t parts = 1 << (2 * levels_), turn = (parts - 1) / 3;
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) sum += corner(face * parts + k * turn, k);
+  return {sum / 3.0, face};
 }
 
 Vec3 BoundingVolumes::corner(std::int32_t triangle, int k) const noexcept PALPATE_NONBLOCKING {
@@ -44,7 +53,7 @@ Vec3 BoundingVolumes::corner(std::int32_t triangle, int k) const noexcept PALPAT
   return Eigen::Map<const Vec3>(positions_.data() + 3 * static_cast<std::size_t>(triangles_[entry]));
 }
 
-BoundingVolumes::Box BoundingVolumes::boxOf(std::int32_t triangle) const {
+BoundingVolumes::Box BoundingVolumes::boxOfTriangle(std::int32_t triangle) const {
   const Vec3 A = corner(triangle, 0), B = corner(triangle, 1), C = corner(triangle, 2);
   Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -98,20 +107,36 @@ std::int32_t BoundingVolumes::build(std::span<Leaf> leaves) {
   const auto parts = divided(leaves);
   for (std::size_t k = 0; k < kChildren; ++k) {
     const std::span<Leaf> part = parts[k];
-    const std::int32_t child = part.empty()       ? ~leaves.front().triangle
-                               : part.size() == 1 ? ~part.front().triangle
-                                                  : build(part);
-    const Box box = part.empty() ? Box{}
-                    : child < 0  ? boxOf(~child)
-                                 : boxOf(nodes_[static_cast<std::size_t>(child)]);
-    Node& node = nodes_[static_cast<std::size_t>(self)];
-    node.child[k] = child;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      node.low[axis][k] = box.low[axis];
-      node.high[axis][k] = box.high[axis];
-    }
+    if (part.empty())
+      adopt(self, k, Box{}, ~0);
+    else
+      adopt(self, k, part.size() == 1 ? buildFace(part.front().face, levels_) : build(part));
   }
   return self;
+}
+
+/// @param levels  how often it was divided  @return its node, or ~triangle
+std::int32_t BoundingVolumes::buildFace(std::int32_t face, int levels) {
+  if (levels == 0) return ~face;
+  const auto self = static_cast<std::int32_t>(nodes_.size());
+  nodes_.emplace_back();
+  for (std::size_t k = 0; k < kChildren; ++k)
+    adopt(self, k, buildFace(4 * face + static_cast<std::int32_t>(k), levels - 1));
+  return self;
+}
+
+void BoundingVolumes::adopt(std::int32_t self, std::size_t k, std::int32_t child) {
+  const Box box = child < 0 ? boxOfTriangle(~child) : boxOf(nodes_[static_cast<std::size_t>(child)]);
+  adopt(self, k, box, child);
+}
+
+void BoundingVolumes::adopt(std::int32_t self, std::size_t k, const Box& box, std::int32_t child) {
+  Node& node = nodes_[static_cast<std::size_t>(self)];
+  node.child[k] = child;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    node.low[axis][k] = box.low[axis];
+    node.high[axis][k] = box.high[axis];
+  }
 }
 
 BoundingVolumes::Distances BoundingVolumes::squaredDistances(const Node& node,

@@ -13,12 +13,14 @@
 namespace palpate {
 
 /// A tree of boxes over triangles, four children to a node, in one flat array. Children hold a quarter of the
-/// triangles, so that the depth is at most 16 and the traversal's stack has a fixed size.
+/// triangles, so that the depth is at most 17 and the traversal's stack has a fixed size. Faces that were divided into four, level
+/// by level (face_points.h), are the tree's lower part as they are: nothing is sorted there.
 class BoundingVolumes {
  public:
   BoundingVolumes() = default;
   /// @param positions [Ns][3], @param triangles [T][3], indices checked by the caller; both borrowed.
-  BoundingVolumes(std::span<const double> positions, std::span<const std::int32_t> triangles);
+  /// @param levels  how often faces were divided; O(T + F log F) for F faces
+  BoundingVolumes(std::span<const double> positions, std::span<const std::int32_t> triangles, int levels = 0);
 
   struct Hit {
     std::int32_t triangle{-1};
@@ -41,13 +43,17 @@ class BoundingVolumes {
 
   struct Leaf {
     Vec3 centre;
-    std::int32_t triangle;
+    std::int32_t face;
   };
   struct Box;
 
+  [[nodiscard]] Leaf leafOf(std::int32_t face) const;
   std::int32_t build(std::span<Leaf> leaves);
+  std::int32_t buildFace(std::int32_t face, int levels);
+  void adopt(std::int32_t self, std::size_t k, std::int32_t child);
+  void adopt(std::int32_t self, std::size_t k, const Box& box, std::int32_t child);
   [[nodiscard]] static std::array<std::span<Leaf>, kChildren> divided(std::span<Leaf> leaves);
-  [[nodiscard]] Box boxOf(std::int32_t triangle) const;
+  [[nodiscard]] Box boxOfTriangle(std::int32_t triangle) const;
   [[nodiscard]] static Box boxOf(const Node& node);
   [[nodiscard]] static Distances squaredDistances(const Node& node,
                                                   const Vec3& p) noexcept PALPATE_NONBLOCKING;
@@ -56,6 +62,7 @@ class BoundingVolumes {
 
   std::span<const double> positions_;
   std::span<const std::int32_t> triangles_;
+  int levels_{0};
   std::vector<Node> nodes_;
 };
 

@@ -50,7 +50,6 @@ class ContactSurface {
     Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();  // dn/dX, 1/m
     Eigen::Matrix3f rest = Eigen::Matrix3f::Zero();    // d(rest point)/dX
   };
-  void findRestPoints(const SurfaceMesh& rest, std::span<Vec3> points) const;
   void findSlopes(std::span<const Vec3> rest_points);
 
   std::vector<double> positions_;        // [N][3], m

@@ -62,15 +62,17 @@ SurfaceMesh::SurfaceMesh(const ModelView& view)
 }
 
 SurfaceMesh::SurfaceMesh(std::span<const double> positions, std::span<const std::int32_t> triangles,
-                         std::vector<Vec3> node_normals, std::vector<std::uint8_t> reachable)
+                         int levels, std::vector<Vec3> node_normals,
+                         std::vector<std::array<std::int32_t, 3>> neighbours,
+                         std::vector<std::uint8_t> reachable)
     : positions_(positions),
       triangles_(triangles),
+      neighbours_(std::move(neighbours)),
       node_normals_(std::move(node_normals)),
       reachable_(std::move(reachable)),
       triangle_at_node_(positions.size() / 3, -1),
-      tree_(positions, triangles) {
+      tree_(positions, triangles, levels) {
   buildFaceNormals();
-  findNeighbours();
 }
 
 Vec3 SurfaceMesh::nodePosition(std::int32_t node) const noexcept PALPATE_NONBLOCKING {
@@ -78,11 +80,13 @@ Vec3 SurfaceMesh::nodePosition(std::int32_t node) const noexcept PALPATE_NONBLOC
 }
 
 void SurfaceMesh::buildFaceNormals() {
+  face_normals_.reserve(index(triangles()));
   for (std::int32_t t = 0; t < triangles(); ++t) {
     const std::array<Vec3, 3> corner = corners(t);
     const Vec3 area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-    if (!(area.norm() > 0.0) || !std::isfinite(area.norm())) refuse(t, "has no area");
-    face_normals_.push_back(area.normalized());
+    const double size = area.norm();
+    if (!(size > 0.0) || !std::isfinite(size)) refuse(t, "has no area");
+    face_normals_.push_back(area / size);
     for (std::size_t k = 0; k < 3; ++k) triangle_at_node_[index(triangles_[3 * index(t) + k])] = t;
   }
 }

@@ -49,13 +49,20 @@ class SurfaceMesh {
   /// is not
   ///        closed and consistently oriented (then inside and outside would mean nothing)
   explicit SurfaceMesh(const ModelView& view);
-  /// A surface without contact positions. @param node_normals  [Ns] unit, @param reachable  [T] 1: an anchor may be
-  /// there; the spans are borrowed. @throw std::invalid_argument as above
-  SurfaceMesh(std::span<const double> positions, std::span<const std::int32_t> triangles,
-              std::vector<Vec3> node_normals, std::vector<std::uint8_t> reachable);
+  /// A surface without contact positions, divided from one that is sound: its parts are sound too. O(T).
+  /// @param levels  how often faces were divided (face_points.h)  @param node_normals  [Ns] unit
+  /// @param neighbours  [T] across the edge opposite to node k  @param reachable  [T] 1: an anchor may be there
+  /// The spans are borrowed. @throw std::invalid_argument naming the triangle, when one has no area
+  SurfaceMesh(std::span<const double> positions, std::span<const std::int32_t> triangles, int levels,
+              std::vector<Vec3> node_normals, std::vector<std::array<std::int32_t, 3>> neighbours,
+              std::vector<std::uint8_t> reachable);
 
   [[nodiscard]] int nodes() const noexcept { return static_cast<int>(positions_.size() / 3); }
   [[nodiscard]] int triangles() const noexcept { return static_cast<int>(triangles_.size() / 3); }
+  /// [T] the triangles across the edges opposite to each one's nodes.
+  [[nodiscard]] std::span<const std::array<std::int32_t, 3>> neighbours() const noexcept {
+    return neighbours_;
+  }
 
   /// Nearest point of the rest surface to c; sign by the angle-weighted pseudonormal of the feature (face,
   /// edge or vertex) it lies on, which is right for any closed surface, thin ones included.

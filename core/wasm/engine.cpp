@@ -3,6 +3,7 @@
 // organ at a time. What fails says so in words; nothing throws into the page. core/wasm/README.md
 #include <emscripten.h>
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <memory>
@@ -15,6 +16,7 @@
 
 #include "core/base/status_flags.h"
 #include "core/data/array_reader.h"
+#include "core/data/model_digests.h"
 #include "core/data/model_reader.h"
 #include "core/response/largest_stiffness.h"
 #include "core/response/patch_response.h"
@@ -37,7 +39,17 @@ Vec3 normalThere() {
 }
 
 std::unique_ptr<ArrayReader> reader;
+ModelContents contents;
 std::string said;
+
+ModelDigests digestsAt(const std::uint8_t* bytes) {
+  ModelDigests digests;
+  for (Digest* const digest : {&digests.provenance, &digests.content, &digests.certificate}) {
+    std::copy_n(bytes, digest->bytes.size(), digest->bytes.begin());
+    bytes += digest->bytes.size();
+  }
+  return digests;
+}
 
 template <class Work>
 const char* inWords(Work&& work) {
@@ -71,10 +83,6 @@ EMSCRIPTEN_KEEPALIVE void palpate_text(const char* name, const char* text) {
   reader->addAttribute(name, std::string(text));
 }
 
-EMSCRIPTEN_KEEPALIVE void palpate_integer(const char* name, int value) {
-  reader->addAttribute(name, value);
-}
-
 EMSCRIPTEN_KEEPALIVE void palpate_numbers(const char* name, const double* values, int count) {
   reader->addAttribute(name, std::vector<double>(values, values + count));
 }
@@ -90,15 +98,24 @@ EMSCRIPTEN_KEEPALIVE void* palpate_array(const char* path, int type, int rank, c
   return room;
 }
 
-/// All attributes and arrays are there: checks them and makes the organ, which replaces the one before.
+/// All attributes and arrays are there: reads them, and notes what digests are to be computed of (sha256_page.cpp).
 /// @return empty, or what is wrong, one sentence
-EMSCRIPTEN_KEEPALIVE const char* palpate_load(const char* name, double tip_radius) {
+EMSCRIPTEN_KEEPALIVE const char* palpate_read(const char* name) {
   return inWords([&] {
     organ.reset();
+    contents = readModel(*reader, name);
+    (void)digestsOf(contents);
+  });
+}
+
+/// Checks what was read and makes the organ, which replaces the one before. @param digests  computed of it, one after the other
+/// @return empty, or what is wrong, one sentence
+EMSCRIPTEN_KEEPALIVE const char* palpate_load(const char* name, const std::uint8_t* digests,
+                                              double tip_radius) {
+  return inWords([&] {
     const std::unique_ptr<ArrayReader> from = std::move(reader);
-    ModelContents contents = readModel(*from, name);
     MetaModel model = MetaModel::of({from->memory(), static_cast<std::size_t>(from->bytes()), true},
-                                    std::move(contents), name);
+                                    std::exchange(contents, {}), digestsAt(digests), name);
     StepConfig config;
     config.tip_radius = tip_radius;
 

@@ -10,6 +10,7 @@ export interface Shape {
 export interface Organ {
   readonly id: string;
   readonly nodes: number;
+  readonly certificate: string; // of the model file; empty: it has none
   readonly parameters: { modelModulus: number; modulus: number; friction: number; forceLimit: number };
   mesh(): Shape & {
     readonly accessible: Uint8Array;
@@ -35,4 +36,4 @@ export interface Organ {
   surface(): Float32Array | undefined;
 }
 
-export function makeOrgan(makeModule: unknown, settings: object, hdf5: unknown, file: unknown, size: number, name: string, tipRadius?: number): Promise<Organ>;
+export function makeOrgan(makeModule: unknown, settings: object, hdf5: unknown, bytes: ArrayBuffer, name: string, tipRadius?: number): Promise<Organ>;

@@ -1,62 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// An organ in a page or in node: core as WebAssembly, with a model file that h5wasm has opened.
-const TYPES = { '<d': 0, '<f': 1, '<h': 2, '<i': 3, '<q': 4, '<B': 5, '<b': 7 };
+// An organ in a page or in node: core as WebAssembly, with the bytes of a model file, which jsfive finds its way through.
+const TYPES = { '<f8': 0, '<f4': 1, '<i2': 2, '<i4': 3, '<i8': 4, '<u1': 5, '<i1': 7 };
 const OTHER = 6; // of a region's name, text of a fixed length; core refuses what is neither
-const MOST_AT_ONCE = 4e6; // bytes that h5wasm holds beside the file and core
+const LAYOUT = 8; // HDF5's message that says where a dataset's bytes are, and the class of those that lie in one piece:
+const CONTIGUOUS = 1;
+const SHORT = 4096; // bytes of a text that core forgets once it was hashed
 
-const bytesOf = ({ metadata, shape }) => metadata.size * (shape ?? []).reduce((product, length) => product * length, shape ? 1 : 0);
-
-/** Calls visit(bytes, at) with a dataset's bytes as the file has them, some rows at a time: views of h5wasm's memory. */
-function forEachPart(hdf5, dataset, visit) {
-  const [rows = 1, ...others] = dataset.shape ?? [0];
-  const row = rows > 0 ? bytesOf(dataset) / rows : 0;
-  if (row === 0) return;
-  const most = Math.min(rows, Math.max(1, Math.floor(MOST_AT_ONCE / row)));
-  const place = hdf5._malloc(most * row);
-  if (place === 0) throw new Error(`${dataset.path}: the page has no memory left`);
-  try {
-    for (let first = 0; first < rows; first += most) {
-      const count = Math.min(most, rows - first);
-      const slab = dataset.shape.length === 0 ? [null, null, null] : slabOf(first, count, others);
-      hdf5.get_dataset_data(dataset.file_id, dataset.path, ...slab, BigInt(place));
-      visit(hdf5.HEAPU8.subarray(place, place + count * row), first * row);
-    }
-  } finally {
-    hdf5._free(place);
-  }
-}
-
-/** Rows of an array as HDF5 names them: counts, offsets, strides. */
-const slabOf = (first, count, others) => [
-  [count, ...others].map(BigInt),
-  [first, ...others.map(() => 0)].map(BigInt),
-  [1, ...others.map(() => 1)].map(BigInt),
-];
-
-/** Calls visit(path, dataset) for what lies where a model's datasets lie: in a group of the file, "contact/force". */
-function forEachDataset(file, visit) {
-  for (const key of file.keys()) {
+/** The datasets of a file that lie where a model's do, in a group: path "contact/force", type, shape, bytes and where they begin. */
+function* datasetsOf(file) {
+  for (const key of file.keys) {
     const group = file.get(key);
-    if (group?.type !== 'Group') continue;
-    for (const name of group.keys()) {
-      const thing = group.get(name);
-      if (thing?.type === 'Dataset') visit(`${key}/${name}`, thing);
+    if (!Array.isArray(group?.keys)) continue;
+    for (const name of group.keys) {
+      const { dtype, shape, _dataobjects: found } = group.get(name) ?? {};
+      if (!shape) continue;
+      const bytes = shape.reduce((product, length) => product * length, Number(/\d+$/.exec(dtype)?.[0]));
+      const [, , layout, place] = found._get_data_message_properties(found.find_msg_type(LAYOUT)[0].get('offset_to_message'));
+      const at = layout === CONTIGUOUS ? Number(new DataView(found.fh).getBigUint64(place, true)) : undefined;
+      yield { path: `${key}/${name}`, type: TYPES[dtype] ?? OTHER, shape, bytes, at };
     }
   }
 }
 
 /**
- * Refuses what would take more memory than its file has bytes, before any is taken. Numbers count as they are stored.
+ * Refuses, before any memory is taken, what has not all its bytes in the file. Numbers count as they are stored.
  * @param size  of the file  @param before  bytes of the datasets before  @throws Error  file, dataset, found, expected
  */
-function checkSize(name, path, { metadata }, bytes, before, size) {
+function checkPlace(name, { path, bytes, at }, before, size) {
   const fail = (what) => {
     throw new Error(`${name}: /${path} ${what}`);
   };
   if (!(bytes <= size)) fail(`has ${bytes} bytes, more than the file's ${size} can hold`);
   if (!(before + bytes <= size)) fail(`brings the datasets to ${before + bytes} bytes, more than the file's ${size} can hold`);
-  if (metadata.chunks) fail('is chunked, expected contiguous');
-  if (metadata.vlen) fail('has parts of any length, expected numbers or names of 64 bytes');
+  if (at === undefined) fail('is not in one piece, expected a contiguous dataset');
+  if (bytes > 0 && !(at + bytes <= size)) fail(`ends at byte ${at + bytes}, beyond the file's ${size}`);
 }
 
 /** The engine's memory and functions, with texts and arrays of numbers as arguments. */
@@ -101,64 +78,90 @@ class Engine {
   }
 }
 
-function giveAttributes(engine, file) {
+function giveAttributes(engine, { attrs }, name) {
   const { module } = engine;
-  for (const [name, { value, metadata }] of Object.entries(file.attrs)) {
-    const whole = metadata.type === 0; // H5T_INTEGER
-    const fits = !ArrayBuffer.isView(value) && Number(value) === (Number(value) | 0);
-    if (typeof value === 'string') engine.with([name, value], (n, text) => module._palpate_text(n, text));
-    else if (whole && fits) engine.with([name], (n) => module._palpate_integer(n, Number(value)));
-    else if (whole) engine.with([name, 'whole numbers'], (n, text) => module._palpate_text(n, text)); // none that a model has
-    else {
-      const numbers = Float64Array.from(ArrayBuffer.isView(value) ? value : [value], Number);
-      engine.with([name, numbers], (n, values) => module._palpate_numbers(n, values, numbers.length));
-    }
+  if (attrs.format !== 'palpate-model') throw new Error(`${name}: attribute format is "${attrs.format}", expected "palpate-model"`);
+  for (const [key, value] of Object.entries(attrs)) {
+    const numbers = [value].flat().map(Number);
+    if (typeof value === 'string') engine.with([key, value], (n, text) => module._palpate_text(n, text));
+    else engine.with([key, Float64Array.from(numbers)], (n, values) => module._palpate_numbers(n, values, numbers.length));
   }
 }
 
-function giveArrays(engine, hdf5, file, size, name) {
+function giveArrays(engine, file, bytes, name) {
   const { module } = engine;
   let total = 0;
-  forEachDataset(file, (path, dataset) => {
-    const bytes = bytesOf(dataset);
-    checkSize(name, path, dataset, bytes, total, size);
-    total += bytes;
-    const type = TYPES[dataset.dtype] ?? OTHER;
-    const shape = Float64Array.from(dataset.shape ?? [], Number);
-    const place = engine.with([path, shape], (place, lengths) => module._palpate_array(place, type, shape.length, lengths, bytes));
+  for (const dataset of datasetsOf(file)) {
+    checkPlace(name, dataset, total, bytes.byteLength);
+    total += dataset.bytes;
+    const { path, type, shape } = dataset;
+    const place = engine.with([path, Float64Array.from(shape)], (n, lengths) => module._palpate_array(n, type, shape.length, lengths, dataset.bytes));
     if (place === 0) throw new Error(`${path}: the page has no memory left`);
-    forEachPart(hdf5, dataset, (part, at) => module.HEAPU8.set(part, place + at));
-  });
+    if (dataset.bytes > 0) module.HEAPU8.set(new Uint8Array(bytes, dataset.at, dataset.bytes), place);
+  }
+}
+
+/** Reads a model's bytes into the engine. @returns its certificate @throws Error  file, what is wrong */
+function give(engine, hdf5, bytes, name) {
+  let file;
+  try {
+    file = new hdf5.File(bytes, name);
+  } catch {
+    throw new Error(`${name} is no HDF5 file`);
+  }
+  giveAttributes(engine, file, name);
+  giveArrays(engine, file, bytes, name);
+  return file.attrs.certificate ?? '';
+}
+
+/** What core wants hashed lies in its memory, or is a short text of which there is a copy: all of it in one piece. */
+function joined(module, parts) {
+  const out = new Uint8Array(parts.reduce((sum, { size }) => sum + size, 0));
+  let at = 0;
+  for (const { place, size, copy } of parts) {
+    out.set(copy ?? module.HEAPU8.subarray(place, place + size), at);
+    at += size;
+  }
+  return out;
+}
+
+/** The digests that palpate_read() asks for, computed by the page. */
+async function digestsOf(module, sha256) {
+  const digests = [];
+  for (const parts of module.digested) digests.push(...(await sha256(joined(module, parts))));
+  return Uint8Array.from(digests);
 }
 
 /**
  * Makes an organ of a model file.
  * @param makeModule  what build/wasm/palpate_core.mjs exports
- * @param settings    for it: sha256() gives an object with add(bytes) and finish(); locateFile, wasmBinary as emscripten has them
- * @param hdf5        what h5wasm.ready gives  @param file  h5wasm's File, open; it is closed
- * @param size  bytes of the file: datasets that claim more are refused
+ * @param settings    for it: sha256(bytes) gives 32 bytes, or a promise of them; locateFile, wasmBinary as emscripten has them
+ * @param hdf5        the module jsfive
+ * @param bytes       the file, an ArrayBuffer
  * @param name        how it is called in messages  @param tipRadius  m
  * @throws Error  one sentence: file, dataset, found, expected
  */
-export async function makeOrgan(makeModule, settings, hdf5, file, size, name, tipRadius = 0.005) {
-  const engine = new Engine(await makeModule({ ...settings }));
-  engine.with([name], (n) => engine.module._palpate_begin(n));
-  try {
-    giveAttributes(engine, file);
-    giveArrays(engine, hdf5, file, size, name);
-  } finally {
-    file.close();
-  }
-  const wrong = engine.with([name], (n) => engine.text(engine.module._palpate_load(n, tipRadius)));
-  if (wrong !== '') throw new Error(wrong);
-  return new Organ(engine);
+export async function makeOrgan(makeModule, settings, hdf5, bytes, name, tipRadius = 0.005) {
+  const engine = new Engine(await makeModule({ ...settings, digested: [], keepFrom: SHORT }));
+  const { module } = engine;
+  const must = (place) => {
+    const wrong = engine.text(place);
+    if (wrong !== '') throw new Error(wrong);
+  };
+  engine.with([name], (n) => module._palpate_begin(n));
+  const certificate = give(engine, hdf5, bytes, name);
+  must(engine.with([name], (n) => module._palpate_read(n)));
+  const digests = await digestsOf(module, settings.sha256);
+  must(engine.with([name, digests], (n, place) => module._palpate_load(n, place, tipRadius)));
+  return new Organ(engine, certificate);
 }
 
 /** One model that is felt. Arrays that it gives are views of the engine's memory: valid until the next call. */
 export class Organ {
-  constructor(engine) {
+  constructor(engine, certificate) {
     this.engine = engine;
     this.module = engine.module;
+    this.certificate = certificate;
     this.nodes = this.module._palpate_nodes();
     this.room = this.module._malloc(8 * 32);
     this.inputBytes = this.module._palpate_input_bytes();

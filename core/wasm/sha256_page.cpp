@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 by the page: Module.sha256() gives an object with add(bytes) and finish(), which returns 32 bytes.
+// The page computes SHA-256, by its browser, which takes its time: what is to be hashed is only noted here, in Module.digested,
+// and a digest is not known. core/wasm/engine.cpp
 #include <emscripten.h>
 
 #include <cstdint>
@@ -11,41 +12,29 @@ namespace palpate {
 namespace {
 
 // clang-format off
-EM_JS(int, beginDigest, (), {
-  Module.digests = Module.digests || [null];
-  return Module.digests.push(Module.sha256()) - 1;
+EM_JS(void, beginDigest, (), {
+  Module.digested.push([]);
 });
-EM_JS(void, addToDigest, (int digest, const void* bytes, std::size_t size), {
-  Module.digests[digest].add(HEAPU8.subarray(bytes, bytes + size));
-});
-EM_JS(void, finishDigest, (int digest, void* out), {
-  HEAPU8.set(Module.digests[digest].finish(), out);
-});
-EM_JS(void, forgetDigest, (int digest), {
-  Module.digests[digest] = null;
+// What is short may be a text that is gone when the page looks.
+EM_JS(void, addToDigest, (const void* bytes, std::size_t size), {
+  Module.digested.at(-1).push({place: bytes, size, copy: size < Module.keepFrom ? HEAPU8.slice(bytes, bytes + size) : undefined});
 });
 // clang-format on
 
-int numberOf(const void* context) {
-  return static_cast<int>(reinterpret_cast<std::intptr_t>(context));
-}
-
 }  // namespace
 
-void Sha256::Free::operator()(void* context) const noexcept {
-  forgetDigest(numberOf(context));
+void Sha256::Free::operator()(void* /*context*/) const noexcept {}
+
+Sha256::Sha256() {
+  beginDigest();
 }
 
-Sha256::Sha256() : context_(reinterpret_cast<void*>(std::intptr_t{beginDigest()})) {}
-
 void Sha256::add(std::span<const std::byte> bytes) {
-  addToDigest(numberOf(context_.get()), bytes.data(), bytes.size());
+  addToDigest(bytes.data(), bytes.size());
 }
 
 Digest Sha256::finish() {
-  Digest digest;
-  finishDigest(numberOf(context_.get()), digest.bytes.data());
-  return digest;
+  return {};
 }
 
 }  // namespace palpate

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/data/hdf5_handle.h"
 #include "core/model/meta_model.h"
@@ -52,6 +53,20 @@ inline void deleteThing(const std::filesystem::path& path, const char* attribute
   const Hdf5Handle file = openForSpoiling(path);
   if (attribute != nullptr) H5Adelete(file.get(), attribute);
   if (link != nullptr) H5Ldelete(file.get(), link, H5P_DEFAULT);
+}
+
+/// A dataset in the place of another, with room for its numbers, which are not written.
+inline void replaceDataset(const std::filesystem::path& path, const char* dataset, hid_t type,
+                           const std::vector<hsize_t>& shape) {
+  const Hdf5Handle file = openForSpoiling(path);
+  H5Ldelete(file.get(), dataset, H5P_DEFAULT);
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(creation.get(), H5D_FILL_TIME_NEVER);
+  const Hdf5Handle made(
+      H5Dcreate2(file.get(), dataset, type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Dclose);
+  ASSERT_TRUE(made.valid());
 }
 
 }  // namespace palpate::testing

@@ -43,7 +43,7 @@ TEST(ArrayReader, GivesBackWhatItGot) {
   Pairs pairs({2, 3}, 6);
   ArrayReader& reader = pairs.reader;
   reader.addAttribute("law", std::string("stvk"));
-  reader.addAttribute("order", 3);
+  reader.addAttribute("order", std::vector<double>{3.0});
   reader.addAttribute("load_direction", std::vector<double>{0.0, 0.6, 0.8});
   Lengths lengths;
   const std::span<const float> found = reader.dataset(kPairs, lengths);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <stdexcept>
+#include <vector>
 
 #include "../load_case.h"
 #include "core/data/available_memory.h"
@@ -95,6 +96,24 @@ TEST(LoadDeathTest, TablesLargerThanTheAddressSpaceAreRefusedInOneLine) {
   modelfile::writeModel(file.path(), goodData());
   EXPECT_EXIT(loadUnder(RLIMIT_AS, addressSpace() + 32 * kMiB, file.path()), ::testing::ExitedWithCode(0),
               "tables.h5: what is computed from it needs [0-9]+ MiB of memory, [0-9]+ MiB are available");
+}
+
+TEST(LoadDeathTest, NumbersInFewBytesWhoseCopyHasNoRoomAreRefusedInOneLine) {
+  const TemporaryFile file("narrow.h5");
+  modelfile::writeModel(file.path(), goodData());
+  replaceDataset(file.path(), "near/node", H5T_STD_I8LE, {32 * kMiB});
+  EXPECT_EXIT(loadUnder(RLIMIT_AS, addressSpace() + 128 * kMiB, file.path()), ::testing::ExitedWithCode(0),
+              "narrow.h5: a copy of what it has in fewer bytes needs 128 MiB of memory, [0-9]+ MiB are "
+              "available .ulimit -v.");
+}
+
+/// A file of 16 MiB in 8 bits whose numbers are wanted in 64, and 32 MiB for what HDF5 takes.
+TEST(TryInChild, HasRoomForACopyOfNumbersInFewBytes) {
+  EXPECT_NO_THROW(tryInChild("model.h5", 16 * kMiB, [] {
+    std::vector<double> copy(16 * kMiB), rest(4 * kMiB);
+    copy.back() = rest.back() = 1.0;
+  }));
+  EXPECT_THROW(tryInChild("model.h5", 16 * kMiB, [] { std::vector<double> copy(32 * kMiB); }), LoadError);
 }
 #endif
 

@@ -40,7 +40,85 @@ Mat3 stiffnessAt(const ContactPoint& s) {
   return value.K;
 }
 
+/// One face of six nodes, 3 to 5 in the middles of its edges, and Green's functions of some of its nodes: two modes, and a near
+/// field at node 0.
+struct Face {
+  explicit Face(std::vector<std::int32_t> nodes) : green_node(std::move(nodes)) {
+    for (std::size_t g = 0; g < green_node.size(); ++g) {
+      for (int number = 0; number < 6; ++number)
+        Y.push_back(static_cast<std::int16_t>(7 * (int(g) + 2) * (number + 1) - 30));
+      for (const float scale : {0.5F, 0.25F, 2.0F}) scales.push_back(scale);
+      for (int number = 0; number < 9; ++number)
+        near.push_back(static_cast<std::int16_t>(5 * (int(g) + 1) * (number + 2) - 40));
+      near_node.push_back(0);
+      offset.push_back(static_cast<std::int64_t>(g) + 1);
+    }
+    view.surface_mesh_tag = tags;
+    view.surface_positions = positions;
+    view.surface_triangles = drawn;
+    view.contact_triangles = corners;
+    view.modes_X_scale = mode_scale;
+    view.green_node = green_node;
+    view.green_Y = Y;
+    view.green_Y_scale = view.green_near_scale = scales;
+    view.green_offset = offset;
+    view.green_near_node = near_node;
+    view.green_near = near;
+  }
+  std::vector<std::int32_t> green_node, near_node;
+  std::vector<std::int16_t> Y, near;
+  std::vector<float> scales;
+  std::vector<std::int64_t> offset{0};
+  std::array<std::int64_t, 6> tags{1, 2, 3, 4, 5, 6};
+  std::array<double, 18> positions{0, 0, 0, 2, 0, 0, 0, 2, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0};
+  std::array<std::int32_t, 12> drawn{0, 5, 4, 5, 1, 3, 4, 3, 2, 3, 4, 5};
+  std::array<std::int32_t, 3> corners{0, 1, 2};
+  std::array<float, 2> mode_scale{1.0F, 1.0F};
+  ModelView view;
+};
+
+/// Of a load on one node: the modes' amplitudes, and what node 0 moves by near it.
+struct Moved {
+  std::vector<float> y;
+  Vec3 near;
+};
+Moved movedBy(const LinearField& field, std::int32_t node, const Vec3& f) {
+  PatchNodes patch;
+  patch.count = 1;
+  patch.node = {node};
+  patch.weight = {1.0};
+  PatchSources sources = field.room(1);
+  field.find(patch, sources);
+  Moved moved{std::vector<float>(2), field.nearAt(sources, 0) * f};
+  field.addAmplitudes(sources, f, moved.y);
+  return moved;
+}
+
 }  // namespace
+
+TEST(LinearField, ALoadInTheMiddleOfAnEdgeIsHalfOfEachEnds) {
+  const Face face({0, 1, 2, 4});
+  const LinearField field(face.view);
+  EXPECT_TRUE(field.sharesLoads());
+  const Vec3 f(0.3, -0.2, 0.5);
+  const Moved middle = movedBy(field, 5, f), one = movedBy(field, 0, f), other = movedBy(field, 1, f);
+  ASSERT_GT(std::abs(one.y[0] - other.y[0]), 1.0F);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_FLOAT_EQ(middle.y[k], 0.5F * (one.y[k] + other.y[k]));
+  EXPECT_LT((middle.near - 0.5 * (one.near + other.near)).norm(), 1e-6 * middle.near.norm());
+  // Node 4 has a Green's function of its own.
+  const Moved own = movedBy(field, 4, f), first = movedBy(field, 2, f);
+  EXPECT_GT(std::abs(own.y[0] - 0.5F * (one.y[0] + first.y[0])), 1.0F);
+}
+
+TEST(LinearField, ALoadInTheMiddleOfAnEdgeIsNotCarriedWithoutBothEnds) {
+  const Face face({0, 1});
+  const LinearField field(face.view);
+  EXPECT_TRUE(field.carries(5));
+  EXPECT_FALSE(field.carries(3));
+  EXPECT_FALSE(field.carries(4));
+  const Face alone({0, 3, 4, 5});
+  EXPECT_FALSE(LinearField(alone.view).sharesLoads());
+}
 
 TEST(ContactDimple, IsTheFieldAtContactPositions) {
   Random random;

@@ -2,7 +2,7 @@
 // node compare.mjs WASM_FOLDER NODE_MODULES MODEL ANSWERS: core as WebAssembly against core_answers' file of the same model.
 // Prints the largest differences, and ends with 1 where one is larger than it may be.
 import { createHash } from 'node:crypto';
-import { readFileSync, statSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
@@ -11,17 +11,13 @@ import { makeOrgan } from '../../../core/wasm/organ.mjs';
 const [folder, modules, modelPath, answersPath] = process.argv.slice(2).map((path) => resolve(path));
 globalThis.self ??= { location: { href: import.meta.url } }; // emscripten's code is made for a worker
 const { default: makeModule } = await import(pathToFileURL(join(folder, 'palpate_core.mjs')).href);
-const { default: h5wasm } = await import(pathToFileURL(join(modules, 'h5wasm/dist/node/hdf5_hl.js')).href);
-const hdf5 = await h5wasm.ready;
+const hdf5 = await import(pathToFileURL(join(modules, 'jsfive/dist/esm/index.mjs')).href);
 
-const sha256 = () => {
-  const hash = createHash('sha256');
-  return { add: (bytes) => void hash.update(bytes), finish: () => new Uint8Array(hash.digest()) };
-};
+const sha256 = (bytes) => createHash('sha256').update(bytes).digest();
 const began = performance.now();
-const file = new h5wasm.File(modelPath, 'r');
+const bytes = new Uint8Array(readFileSync(modelPath)).buffer;
 const settings = { sha256, wasmBinary: readFileSync(join(folder, 'palpate_core.wasm')) };
-const organ = await makeOrgan(makeModule, settings, hdf5, file, statSync(modelPath).size, modelPath);
+const organ = await makeOrgan(makeModule, settings, hdf5, bytes, modelPath);
 console.log(`model ${organ.id}: loaded in ${(performance.now() - began).toFixed(0)} ms`);
 
 const data = readFileSync(answersPath);

@@ -2,6 +2,8 @@
 #include "tools/examine/bench/reference_field.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "core/base/multi_index.h"
 
@@ -32,6 +34,11 @@ std::vector<Load> loadsOf(const ModelData& data, const MetaModel& model, const F
   std::vector<Load> loads;
   for (std::size_t i = 0; i < patch.count; ++i) {
     const auto green = std::find(data.green_node.begin(), data.green_node.end(), patch.node[i]);
+    if (green == data.green_node.end())
+      throw std::invalid_argument(
+          "/green/node lacks node " + std::to_string(patch.node[i]) +
+          ": fields of a model in which nodes share their loads (--target handheld) are "
+          "not compared");
     loads.push_back({static_cast<std::size_t>(green - data.green_node.begin()),
                      source.gain * patch.weight[i] * (stiffness.K * source.parameter)});
   }

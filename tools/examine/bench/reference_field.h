@@ -11,7 +11,8 @@
 namespace palpate::bench {
 
 /// y of one tool, m, from the data in double precision. @param[in] model  the data as loaded, for surface,
-/// functions, patches and their stiffness only
+/// functions, patches and their stiffness only. @throw std::invalid_argument  a node of the patch has no Green's function of its
+/// own, which is so in a handheld model
 [[nodiscard]] std::vector<double> referenceAmplitudes(const modelfile::ModelData& data,
                                                       const MetaModel& model, const FieldSource& source);
 
@@ -19,7 +20,7 @@ namespace palpate::bench {
 [[nodiscard]] std::vector<double> referenceModes(const modelfile::ModelData& data, std::span<const float> y);
 
 /// Far plus near field of one tool, m, in double precision: plain sums that share nothing with core's
-/// kernels. @return [Ns][3]
+/// kernels. @return [Ns][3]  @throw std::invalid_argument  as above
 [[nodiscard]] std::vector<double> referenceField(const modelfile::ModelData& data, const MetaModel& model,
                                                  const FieldSource& source);
 

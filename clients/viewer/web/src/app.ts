@@ -3,13 +3,13 @@ import { viewerAddress, type Received, type Said } from './connection';
 import { Figures } from './figures';
 import { flagsOfStatus, RecentFlags } from './flags';
 import { Hand } from './hand';
+import { Keeping } from './keeping';
 import { Keys } from './keys';
 import { Legend } from './legend';
 import { Line, type LineListener } from './line';
 import { admit, door, doorAtLast } from './login';
-import { recall, remember } from './memory';
 import { ModelFiles, namedModel } from './model_files';
-import { forget, keep } from './offline';
+import { forget } from './offline';
 import type { Colouring } from './organ';
 import { OrganView } from './organ_view';
 import { download, element, followInputKind, numberIn, setText, timeStamp } from './page';
@@ -29,13 +29,11 @@ import { Vibration } from './vibration';
 
 const PANEL_MS = 250;
 const CHART_MS = 40;
-const EMPTY_MS = 100; // between pictures without an organ
+const EMPTY_MS = 100; // between looks at a page without an organ
 const NOTICE_MS = 5000;
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
-const KEEP_AFTER_MS = 1500; // the organ comes before its copy
 const SLOW_MS = 30_000; // of reading a model, after which another one is asked for
-const MODEL = `model ${new URL('./', location.href).href}`; // of this page's memory: the address of the last one named
 const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
 /** The page: listens to the viewer, draws, and lets people press. */
@@ -66,7 +64,7 @@ export class App implements LineListener {
   private readonly flags = new RecentFlags();
   private readonly vibration = new Vibration();
   private readonly modelFiles = new ModelFiles((file) => this.line.open({ model: file }), (text) => this.notice(text));
-  private toKeep: string | undefined; // the model's address, until its organ is there
+  private readonly keeping = new Keeping(() => this.hand.pressing, (why) => (this.panel.kept = why));
 
   constructor() {
     this.stage = new Stage(this.canvas);
@@ -95,7 +93,7 @@ export class App implements LineListener {
     const model = namedModel(document);
     const again = model.address !== '' || Boolean(navigator.serviceWorker?.controller); // opened without a network
     const here = model.exported ? 'other' : again ? await doorAtLast() : await door();
-    if (here === 'other' || (here === 'silent' && again)) return this.alone(model.wrong ? '' : model.address || (recall(MODEL) ?? ''), model.wrong);
+    if (here === 'other' || (here === 'silent' && again)) return this.alone(model.wrong ? '' : model.address || this.keeping.last, model.wrong);
     if (model.address) this.notice('A palpate-viewer serves this page, so it shows the organ of a palpate-server, not the model named.');
     void forget();
     await admit(here === 'asks');
@@ -108,22 +106,13 @@ export class App implements LineListener {
     this.modelFiles.want();
     this.panel.alone();
     if (model) {
-      this.toKeep = model;
+      this.keeping.want(model);
       this.line.open({ model });
     } else {
       this.setState(wrong ? 'bad' : 'wait', wrong || 'no organ');
       this.modelFiles.offer(wrong || 'There is no palpate-viewer here, and no model is named.');
-      void this.keep('');
+      void this.keeping.keep('');
     }
-  }
-
-  /** Copies take the processor's time: not while somebody presses. */
-  private keepSoon(model: string): void {
-    setTimeout(() => (this.hand.pressing ? this.keepSoon(model) : void this.keep(model)), KEEP_AFTER_MS);
-  }
-
-  private async keep(model: string): Promise<void> {
-    this.panel.kept = await keep(model);
   }
 
   link(open: boolean, text: string): void {
@@ -149,11 +138,7 @@ export class App implements LineListener {
     this.view = new OrganView(mesh, this.stage, this.tipRadius);
     this.view.setColouring(this.colouring);
     this.view.showInside(this.regionList.show(mesh));
-    const { toKeep } = this;
-    this.toKeep = undefined;
-    if (toKeep === undefined) return;
-    remember(MODEL, toKeep); // a home screen opens the page without it
-    this.keepSoon(toKeep);
+    this.keeping.organCame();
   }
 
   frame(frame: Frame, received: readonly Received[]): void {
@@ -178,6 +163,7 @@ export class App implements LineListener {
   private announced(message: Said): void {
     this.setTip(numberIn(message, 'tip_radius'));
     this.regionList.announce(message);
+    setText(element('certificate', HTMLParagraphElement), String(message['certificate'] ?? ''));
   }
 
   private setTip(radius: number): void {
@@ -248,9 +234,8 @@ export class App implements LineListener {
 
   /** One turn of the display: draws what changed, and nothing while all is at rest. */
   private turn(nowMs: number): void {
-    const next = (): number => requestAnimationFrame((then) => this.turn(then));
-    if (this.view) next();
-    else setTimeout(next, EMPTY_MS); // leaves the processor to the worker that loads
+    if (this.view) requestAnimationFrame((then) => this.turn(then));
+    else setTimeout(() => this.turn(performance.now()), EMPTY_MS); // no pictures: leaves the processor to the worker that loads
     const tool = toolToShow(this.frame_?.tools ?? []);
     const due = this.quality.due(nowMs);
     if (due) this.drawChanges(nowMs, tool);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worker with the organ itself, in the place of the line to a viewer: core as WebAssembly, a model file, and the ticks.
-import { sha256 } from '@noble/hashes/sha2.js';
+import * as hdf5 from 'jsfive';
 import { makeOrgan } from '../../../../core/wasm/organ.mjs';
 import { HandOver } from './hand_over';
 import type { FromPage, ToPage } from './line';
 import { OrganHost } from './organ_host';
 
-const FOLDER = '/given';
-const FILE = 'model'; // there, whatever it is called outside
 const SAY_MS = 250; // between words on how far it is
 
 const tell = (message: ToPage, transfer: Transferable[] = []): void => postMessage(message, { transfer });
@@ -18,24 +16,39 @@ const state = (server: string, text: string): void => tell({ kind: 'said', said:
 
 const megabytes = (bytes: number): string => (bytes / 1e6).toFixed(1);
 
+interface Given {
+  readonly bytes: ArrayBuffer;
+  readonly name: string;
+}
+
 /** The file, with a word on the way. @throws Error where the address has none */
-async function fetched(address: string): Promise<File> {
+async function fetched(address: string): Promise<Given> {
   const answer = await fetch(address, { cache: 'no-cache' });
   if (!answer.ok || !answer.body) throw new Error(`${address}: the web server answers ${answer.status}`);
   const packed = answer.headers.has('content-encoding'); // then the length is that of what is sent
   const size = packed ? 0 : Number(answer.headers.get('content-length')) || 0;
+  const parts: Uint8Array[] = [];
   let [got, nextMs] = [0, 0];
-  const counted = new TransformStream<Uint8Array, Uint8Array>({
-    transform(part, out) {
-      got += part.length;
-      out.enqueue(part);
-      if (performance.now() < nextMs) return;
-      nextMs = performance.now() + SAY_MS;
-      state('starting', `fetching the model: ${megabytes(got)} MB${size > 0 ? ` of ${megabytes(size)}` : ''}`);
-    },
-  });
-  const bytes = await new Response(answer.body.pipeThrough(counted)).blob(); // the browser's memory or disk, not this worker's
-  return new File([bytes], nameIn(address));
+  const reader = answer.body.getReader();
+  for (let next = await reader.read(); !next.done; next = await reader.read()) {
+    parts.push(next.value);
+    got += next.value.length;
+    if (performance.now() < nextMs) continue;
+    nextMs = performance.now() + SAY_MS;
+    state('starting', `fetching the model: ${megabytes(got)} MB${size > 0 ? ` of ${megabytes(size)}` : ''}`);
+  }
+  return { bytes: joined(parts, got), name: nameIn(address) };
+}
+
+/** Forgets the parts. */
+function joined(parts: Uint8Array[], size: number): ArrayBuffer {
+  const out = new Uint8Array(size);
+  let at = 0;
+  for (const part of parts.splice(0)) {
+    out.set(part, at);
+    at += part.length;
+  }
+  return out.buffer;
 }
 
 /** A model's name for people. */
@@ -48,10 +61,12 @@ function nameIn(address: string): string {
   }
 }
 
-const digest = (): object => {
-  const hash = sha256.create();
-  return { add: (part: Uint8Array) => void hash.update(part), finish: () => hash.digest() };
-};
+/** By the browser; browsers have none for pages that come without https. */
+async function digest(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
+  if (isSecureContext) return new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
+  const { sha256 } = await import('@noble/hashes/sha2.js');
+  return sha256(bytes);
+}
 
 /** core, which lies beside the page. @throws Error where it does not */
 async function core(): Promise<{ makeModule: unknown; locateFile: (path: string) => string }> {
@@ -68,19 +83,13 @@ async function core(): Promise<{ makeModule: unknown; locateFile: (path: string)
 async function open(source: string | File): Promise<void> {
   tell({ kind: 'clock', reading: { tripMs: 0, offsetUs: 0 } });
   state('starting', 'fetching the model');
-  const [model, { default: h5wasm }, { makeModule, locateFile }] = await Promise.all([
-    typeof source === 'string' ? fetched(source) : source,
-    import('h5wasm'),
+  const [{ bytes, name }, { makeModule, locateFile }] = await Promise.all([
+    typeof source === 'string' ? fetched(source) : { bytes: await source.arrayBuffer(), name: source.name },
     core(),
   ]);
   state('starting', 'reading the model');
-  const hdf5 = await h5wasm.ready;
-  hdf5.FS.mkdir(FOLDER);
-  hdf5.FS.mount(hdf5.FS.filesystems.WORKERFS, { blobs: [{ name: FILE, data: model }] }, FOLDER); // reads where the file is: no copy of it here
-  const file = new h5wasm.File(`${FOLDER}/${FILE}`, 'r');
-  if (file.file_id < 0n) throw new Error(`${model.name} is no HDF5 file`);
-  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile }, hdf5, file, model.size, model.name);
-  host = new OrganHost(organ, model.name, {
+  const organ = await makeOrgan(makeModule, { sha256: digest, locateFile }, hdf5, bytes, name);
+  host = new OrganHost(organ, name, {
     said: (said) => tell({ kind: 'said', said }),
     mesh: (mesh) => tell({ kind: 'mesh', mesh }),
     frame: (frame) => handOver.add(frame, { bytes: 2 * frame.displacement.length, delayMs: 0 }),

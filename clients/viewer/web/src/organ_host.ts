@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Organ } from '../../../../core/wasm/organ.mjs';
+import { certificateLine } from './certificate';
 import { clockMs } from './clock';
 import type { Said } from './connection';
 import { later } from './press';
@@ -66,7 +67,7 @@ export class OrganHost {
     const { regions, ...surface } = organ.mesh();
     const names = regions.map(({ name, youngs_modulus }) => ({ name, youngs_modulus }));
     told.said({ type: 'state', server: 'serving', text: `${this.name}, in this page`, others: '' });
-    told.said({ type: 'mesh', tip_radius: TIP_RADIUS, model_id: organ.id, regions: names });
+    told.said({ type: 'mesh', tip_radius: TIP_RADIUS, model_id: organ.id, regions: names, certificate: certificateLine(organ.certificate) });
     told.mesh({ ...surface, regions, revision: 1 });
     this.status();
     setInterval(() => this.status(), STATUS_MS);
@@ -188,7 +189,7 @@ export class OrganHost {
   }
 
   private frame(nowMs: number): void {
-    this.nextFrameMs = Math.max(this.nextFrameMs + this.frameMs, nowMs);
+    this.nextFrameMs = Math.max(this.nextFrameMs + this.frameMs, nowMs - this.frameMs); // one that was late is made up for
     this.unshown = false;
     const u = this.organ.surface();
     if (u) ++this.fields.count;

@@ -87,7 +87,7 @@ export class Panel {
       this.rows.set(name, cell);
     }
     setText(cell, value);
-    cell.dataset['level'] = level;
+    if (cell.dataset['level'] !== level) cell.dataset['level'] = level;
   }
 
   private words(flags: number): void {

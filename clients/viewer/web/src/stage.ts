@@ -49,6 +49,7 @@ export class Stage {
     this.drawnBy = nameOfRenderer();
     this.software = /swiftshader|llvmpipe|softpipe|basic render/i.test(this.drawnBy);
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: !this.software, powerPreference: 'high-performance' });
+    this.renderer.debug.checkShaderErrors = false; // to ask waits for the shaders' compiler
     this.renderer.setClearColor(0x000000, 0);
     this.camera.up.set(0, 0, 1);
     this.scene.add(this.sky, this.key, this.key.target, this.rim, this.rim.target, this.floor);

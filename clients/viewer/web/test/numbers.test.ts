@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { certificateLine } from '../src/certificate';
 import { viewerUs, ViewerClock } from '../src/clock';
 import { DISPLACEMENT, encodedOf, labOf, linearOf, niceCeiling, STIFFNESS, type ColourMap } from '../src/colours';
 import { viewerAddress } from '../src/connection';
@@ -74,6 +75,16 @@ test('the flags are those of the IDL', () => {
   assert.ok(wire.length > 10);
   assert.deepEqual(FLAGS.map(({ name, bit }) => `${name} ${bit}`), wire);
   assert.deepEqual(flagWords(1 | 32).map(({ words }) => words), ['force held at its limit']);
+});
+
+test('a certificate is one line, and what is none is said', () => {
+  const good = { samples: 60, travel: 0.007, certified_area_fraction: 0.787, force_error: { bound_95_95: 0.00223 }, field_error: { bound_95_95: 0.00778 } };
+  const line = (changed: object): string => certificateLine(JSON.stringify({ ...good, ...changed }));
+  assert.equal(line({}), 'certified to 7 mm: force within 0.22 %, field within 0.78 % (95 % of touches in the domain, 95 % confidence), 79 % of touches are in it');
+  assert.equal(line({ samples: 6, force_error: null }), 'not certified for touches to 7 mm: 6 samples, a bound takes 59');
+  assert.equal(certificateLine(''), 'not certified');
+  for (const wrong of ['{', '[]', JSON.stringify({ ...good, travel: 2 }), JSON.stringify({ ...good, field_error: { bound_95_95: null } })])
+    assert.match(certificateLine(wrong), /^not certified: the certificate in the file has a form/);
 });
 
 test('a tool that nobody holds is no news', () => {

@@ -70,6 +70,13 @@ TEST(BenchModel, FieldOfTheLoadedModelIsThatOfTheData) {
   EXPECT_GT(error, 0.0) << "whole numbers are rounded: an error of nothing was not measured";
 }
 
+TEST(BenchModel, FieldOfNodesThatShareTheirLoadsIsNotCompared) {
+  ModelData data = syntheticModel(kSmall);
+  const MetaModel model = bench::throughFile(data);
+  data.green_node.clear();
+  EXPECT_THROW((void)errorOf(data, model), std::invalid_argument);
+}
+
 TEST(BenchModel, ErrorShowsAModeThatIsOff) {
   ModelData data = syntheticModel(kSmall);
   const MetaModel model = bench::throughFile(data);

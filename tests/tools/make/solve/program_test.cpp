@@ -349,6 +349,15 @@ TEST_F(SolveProgram, RefusesAPatchAsWideAsTheOrgan) {
   expectRefusal(solve({writeCase("[model]\npatch_radius = 0.5\n"), "-o", path("out.h5")}),
                 "model.patch_radius = 0.5 m");
 }
+TEST_F(SolveProgram, RefusesATargetOrASizeThatThereIsNot) {
+  const auto refuses = [this](std::vector<std::string> options, const std::string& part) {
+    options.insert(options.begin(), {path("block.msh"), "-o", path("out.h5")});
+    expectRefusal(solve(options), part);
+  };
+  refuses({"--target", "phone"}, "--target phone is not known (known: server, handheld)");
+  refuses({"--target", "handheld", "--size-limit", "1000"}, "--size-limit: Value 1000 not in range");
+  refuses({"--size-limit", "8e6"}, "model.size_limit does not go with model.target = \"server\"");
+}
 TEST_F(SolveProgram, RefusesAnUnknownOption) {
   expectRefusal(solve({path("block.msh"), "--bogus"}), "--bogus");
 }
