@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/base/index.h"
 #include "core/base/length.h"
@@ -188,11 +189,13 @@ double ContactResponse::domainRadius(const PositionMix& mix) const noexcept PALP
     return domain_radius_[static_cast<std::size_t>(mix.position[b])];
   };
   const auto count = static_cast<std::size_t>(mix.count);
-  double least = radius(0);
-  for (std::size_t b = 1; b < count; ++b) least = std::min(least, radius(b));
-  if (!(least > 0.0)) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < count; ++b)
+    if (mix.weight[b] > 0.0) least = std::min(least, radius(b));
+  if (count == 0 || !(least > 0.0)) return 0.0;
   double error = 0.0;  // at the least radius: about abs(d)^4 is what fields of degree 4 leave out of abs(d)
   for (std::size_t b = 0; b < count; ++b) {
+    if (!(mix.weight[b] > 0.0)) continue;
     const double part = least / radius(b);
     error += mix.weight[b] * part * part * part * part;
   }

@@ -5,6 +5,38 @@ const OTHER = 6; // of a region's name, text of a fixed length; core refuses wha
 const LAYOUT = 8; // HDF5's message that says where a dataset's bytes are, and the class of those that lie in one piece:
 const CONTIGUOUS = 1;
 const SHORT = 4096; // bytes of a text that core forgets once it was hashed
+const MOST_VALUES = 65536; // of all attributes of a file; those of a model have one to three
+
+/** What is wrong with a file, in words for people; jsfive's own errors name no file. */
+class Refusal extends Error {}
+
+/** @returns what look() finds  @throws Refusal  where jsfive stumbles: that sentence, or the one that look() throws */
+function reading(look, sentence) {
+  try {
+    return look();
+  } catch (error) {
+    throw error instanceof Refusal ? error : new Refusal(sentence, { cause: error });
+  }
+}
+
+/** From here on jsfive refuses attributes with too many values; it would make an array of them whether or not the file has their bytes. */
+function boundValues(found, name) {
+  const valueOf = found._attr_value.bind(found); // calls found._attr_value for values within values
+  let values = 0;
+  found._attr_value = (type, buffer, count, offset) => {
+    values += count;
+    if (!(count <= MOST_VALUES)) throw new Refusal(`${name}: an attribute has ${count} values, expected one to three`);
+    if (!(values <= MOST_VALUES)) throw new Refusal(`${name}: its attributes have more than ${MOST_VALUES} values, expected one to three each`);
+    return valueOf(type, buffer, count, offset);
+  };
+}
+
+/** A file whose attributes can be read within bounds. @throws Refusal */
+function opened(hdf5, bytes, name) {
+  const file = reading(() => new hdf5.File(bytes, name), `${name} is no HDF5 file, or a damaged one`);
+  boundValues(file._dataobjects, name);
+  return file;
+}
 
 /** The datasets of a file that lie where a model's do, in a group: path "contact/force", type, shape, bytes and where they begin. */
 function* datasetsOf(file) {
@@ -78,8 +110,9 @@ class Engine {
   }
 }
 
-function giveAttributes(engine, { attrs }, name) {
+function giveAttributes(engine, file, name) {
   const { module } = engine;
+  const attrs = reading(() => file.attrs, `${name}: its attributes cannot be read: the file is damaged`);
   if (attrs.format !== 'palpate-model') throw new Error(`${name}: attribute format is "${attrs.format}", expected "palpate-model"`);
   for (const [key, value] of Object.entries(attrs)) {
     const numbers = [value].flat().map(Number);
@@ -90,25 +123,21 @@ function giveAttributes(engine, { attrs }, name) {
 
 function giveArrays(engine, file, bytes, name) {
   const { module } = engine;
+  const datasets = reading(() => [...datasetsOf(file)], `${name}: its list of datasets cannot be read: the file is damaged`);
   let total = 0;
-  for (const dataset of datasetsOf(file)) {
+  for (const dataset of datasets) {
     checkPlace(name, dataset, total, bytes.byteLength);
     total += dataset.bytes;
     const { path, type, shape } = dataset;
     const place = engine.with([path, Float64Array.from(shape)], (n, lengths) => module._palpate_array(n, type, shape.length, lengths, dataset.bytes));
-    if (place === 0) throw new Error(`${path}: the page has no memory left`);
+    if (place === 0) throw new Error(`${name}: /${path}: the page has no memory left`);
     if (dataset.bytes > 0) module.HEAPU8.set(new Uint8Array(bytes, dataset.at, dataset.bytes), place);
   }
 }
 
 /** Reads a model's bytes into the engine. @returns its certificate @throws Error  file, what is wrong */
 function give(engine, hdf5, bytes, name) {
-  let file;
-  try {
-    file = new hdf5.File(bytes, name);
-  } catch {
-    throw new Error(`${name} is no HDF5 file`);
-  }
+  const file = opened(hdf5, bytes, name);
   giveAttributes(engine, file, name);
   giveArrays(engine, file, bytes, name);
   return file.attrs.certificate ?? '';

@@ -19,7 +19,7 @@ std::vector<T> times(double factor, std::span<const T> numbers, const char* name
   std::transform(numbers.begin(), numbers.end(), scaled.begin(),
                  [&](T number) { return static_cast<T>(factor * double{number}); });
   if (!std::all_of(scaled.begin(), scaled.end(), [](T number) { return std::isfinite(number); }))
-    throw ModelFileError(std::string(name) + " has numbers that are none at this E");
+    throw ModelFileError(std::string(name) + " has numbers that overflow at this E");
   return scaled;
 }
 
@@ -33,7 +33,7 @@ std::vector<double> timesAsStored(double factor, std::span<const double> numbers
   return scaled;
 }
 
-/// Whether its fields are in 8 bits, as those of compact files.
+/// Compact files have fields of 8 bits; there is no mark of it in the view.
 bool isCompact(const ModelView& view) {
   constexpr std::int16_t kMost = 127;
   return std::all_of(view.modes_X.begin(), view.modes_X.end(),

@@ -12,7 +12,7 @@ namespace palpate::modelfile {
 /// Force and stiffness go with E, unit loads move the organ by its inverse; modes, near fields and radii stay. The model's
 /// certificate is of another content and is left out.                                  docs/model_file.md
 /// @param model  driven by displacement  @param E  of the root, Pa, > 0  @param provenance  text of a JSON object
-/// @throw ModelFileError naming the file that cannot be written, or a number that is none at that E
+/// @throw ModelFileError naming the file that cannot be written, or numbers that overflow at that E
 void writeScaled(const std::filesystem::path& path, const MetaModel& model, double E,
                  const std::string& provenance);
 

@@ -5,35 +5,26 @@
 
 #include "tools/program/numbers.h"
 #include "tools/program/printed.h"
-#include "tools/program/xml.h"
+#include "tools/program/svg.h"
 
 namespace palpate::picture {
 
 namespace {
 
 using program::printed;
+using program::svgText;
 
 // px
 constexpr double kMargin = 24, kTop = 56, kLine = 22, kTallest = 560;
 constexpr double kBarRoom = 110, kBarWidth = 18, kStepHeight = 26;
 
-// The same grounds as the plots of clients/report.
-constexpr const char* kStyle = R"(<style>
-svg { background: #ffffff; color: #1f2328; }
-text { font: 13px sans-serif; fill: currentColor; }
-.title { font-size: 16px; font-weight: bold; }
-.surface { fill: currentColor; stroke: currentColor; stroke-width: 0.9; stroke-linejoin: round; }
+constexpr const char* kStyle =
+    R"(.surface { fill: currentColor; stroke: currentColor; stroke-width: 0.9; stroke-linejoin: round; }
 .mark { stroke: #1f2328; stroke-width: 1.2; }
 .line { fill: none; stroke: currentColor; stroke-width: 1.5; }
 .under { fill: none; stroke: #ffffff; stroke-width: 4; stroke-opacity: 0.8; }
 .over { fill: none; stroke: #c0262d; stroke-width: 2; } .dashed { stroke-dasharray: 6 4; }
-@media (prefers-color-scheme: dark) { svg { background: #0d1117; color: #e6edf3; } }
-</style>
 )";
-
-std::string textAt(double x, double y, const std::string& text, const char* extra = "") {
-  return printed("<text x=\"%.1f\" y=\"%.1f\"%s>", x, y, extra) + program::xmlEscaped(text) + "</text>\n";
-}
 
 /// With a light rim, so that it shows on all colours.
 std::string rimmed(const std::string& d, const char* extra = "") {
@@ -58,10 +49,10 @@ ColourSteps stepsOf(const SurfacePicture& picture) {
 std::string colourBar(const SurfacePicture& picture, const ColourSteps& steps) {
   const double left = picture.width - kMargin - kBarRoom + 30;
   const double top = topOf(picture) + 28;
-  std::string svg = textAt(picture.width - kMargin, top - 14, picture.bar_label, " text-anchor=\"end\"");
+  std::string svg = svgText(picture.width - kMargin, top - 14, picture.bar_label, " text-anchor=\"end\"");
   for (std::size_t i = 0; i <= steps.count(); ++i) {
     const double y = top + kStepHeight * static_cast<double>(steps.count() - i);
-    svg += textAt(left + kBarWidth + 6, y + 4, printed("%.6g", steps.end(i)));
+    svg += svgText(left + kBarWidth + 6, y + 4, printed("%.6g", steps.end(i)));
     if (i == steps.count()) break;
     svg += printed("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", left,
                    y - kStepHeight, kBarWidth, kStepHeight, steps.colour(i, 1.0).c_str());
@@ -78,7 +69,7 @@ std::string lengthBar(const Camera& camera, const Frame& frame, double y) {
   const double length = program::niceTicks(0.0, frame.width / camera.scale() / 5.0, 1)[1];
   const double px = length * camera.scale(), left = frame.left;
   return printed("<path class=\"line\" d=\"M%.1f %.1fv8h%.1fv-8\"/>\n", left, y - 8, px) +
-         textAt(left + px + 8, y, printed("%.6g mm", 1e3 * length));
+         svgText(left + px + 8, y, printed("%.6g mm", 1e3 * length));
 }
 
 /// A line for each entry. @param[in,out] y  px, of the line above, then of the last one
@@ -87,11 +78,11 @@ std::string legend(const SurfacePicture& picture, double& y) {
   std::string svg;
   if (picture.cross) {
     y += kLine;
-    svg += crossAt(kMargin + 14, y - 5) + textAt(kText, y, picture.cross_label);
+    svg += crossAt(kMargin + 14, y - 5) + svgText(kText, y, picture.cross_label);
   }
   for (const Inside& inside : picture.inside) {
     y += kLine;
-    svg += rimmed(printed("M%.1f %.1fh28", kMargin, y - 5), " dashed") + textAt(kText, y, inside.name);
+    svg += rimmed(printed("M%.1f %.1fh28", kMargin, y - 5), " dashed") + svgText(kText, y, inside.name);
   }
   return svg;
 }
@@ -131,11 +122,8 @@ std::string SurfacePicture::svg() const {
   std::string below = lengthBar(camera, frame, line);
   below += legend(*this, line);
   const double height = line + 16;
-  std::string svg = printed(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n",
-      width, height, width, height);
-  svg += kStyle;
-  if (!title.empty()) svg += textAt(kMargin, 28, title, " class=\"title\"");
+  std::string svg = program::svgStart(width, height, kStyle);
+  if (!title.empty()) svg += svgText(kMargin, 28, title, " class=\"title\"");
   svg += "<g class=\"surface\">\n" + drawnSurface(surface, camera, steps) + "</g>\n";
   return svg + overlays(*this, camera, steps) + colourBar(*this, steps) + below + "</svg>\n";
 }

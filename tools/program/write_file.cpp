@@ -39,4 +39,18 @@ void writeFile(const std::filesystem::path& path, const std::string& content) {
   writeFile(path, [&](std::ostream& file) { file << content; });
 }
 
+void checkWritable(const std::filesystem::path& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  if (access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(file, std::strerror(errno));
+  std::error_code ignored;  // a file that is not there is not a folder
+  if (std::filesystem::is_directory(file, ignored)) throw WriteError(file, std::strerror(EISDIR));
+}
+
+bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code ignored;  // of equivalent(): one of them is not there
+  return std::filesystem::equivalent(one, other, ignored) ||
+         std::filesystem::weakly_canonical(std::filesystem::absolute(one)) ==
+             std::filesystem::weakly_canonical(std::filesystem::absolute(other));
+}
+
 }  // namespace palpate::program

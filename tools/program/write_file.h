@@ -44,4 +44,11 @@ class FileBeside {
 void writeFile(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 void writeFile(const std::filesystem::path& path, const std::string& content);
 
+/// Before the work whose result it takes: the file's folder is there and can be written, and the file is not a folder.
+/// @throw WriteError
+void checkWritable(const std::filesystem::path& file);
+
+/// Whether two paths lead to one file, which need not be there: through links, or by "..".
+[[nodiscard]] bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other);
+
 }  // namespace palpate::program

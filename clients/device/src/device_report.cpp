@@ -6,9 +6,9 @@
 
 #include "core/devices/path/path.h"
 #include "palpate/report/program.h"
-#include "tools/program/svg_plot.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
+#include "tools/program/svg_plot.h"
 
 namespace palpate::device {
 namespace {

@@ -23,6 +23,7 @@ const completed: Plugin = {
       if (!text) throw new Error(`${folder} has no licence`);
       cpSync(join(folder, text), join(out, 'licences', `${name.replace('/', '-')}.txt`));
     }
+    cpSync('licences', join(out, 'licences'), { recursive: true }); // of what is inside these packages
     const entries = readdirSync(out, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
     const files = entries.map((entry) => join(entry.parentPath ?? entry.path, entry.name).slice(out.length + 1)).sort();
     writeFileSync(join(out, 'files.json'), JSON.stringify(files.filter((file) => file !== 'index.html'), undefined, 1));

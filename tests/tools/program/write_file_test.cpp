@@ -57,5 +57,33 @@ TEST_F(WriteFile, NamesTheTargetAndTheReason) {
   EXPECT_EQ(entries(), 1U);  // the folder
 }
 
+TEST_F(WriteFile, ChecksBeforeTheWorkWhetherItCan) {
+  const auto refusalOf = [](const std::filesystem::path& file) {
+    try {
+      checkWritable(file);
+    } catch (const WriteError& error) {
+      return error.reason();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusalOf(folder_ / "a.txt"), "");
+  EXPECT_EQ(refusalOf("a_file_of_the_working_directory.txt"), "");
+  EXPECT_EQ(refusalOf(folder_ / "missing" / "a.txt"), "No such file or directory");
+  EXPECT_EQ(refusalOf(folder_.path()), "Is a directory");
+  EXPECT_EQ(entries(), 0U);
+}
+
+TEST_F(WriteFile, KnowsOneFileByAllItsPaths) {
+  const std::filesystem::path file = folder_ / "a.txt", link = folder_ / "link";
+  EXPECT_TRUE(isSameFile(file, folder_.path() / "." / "a.txt"));  // not there yet
+  EXPECT_TRUE(isSameFile("b.txt", std::filesystem::current_path() / "b.txt"));
+  writeFile(file, std::string("a"));
+  std::filesystem::create_symlink(file, link);
+  EXPECT_TRUE(isSameFile(file, link));
+  EXPECT_FALSE(isSameFile(file, folder_ / "b.txt"));
+  writeFile(folder_ / "b.txt", std::string("a"));
+  EXPECT_FALSE(isSameFile(file, folder_ / "b.txt"));
+}
+
 }  // namespace
 }  // namespace palpate::program

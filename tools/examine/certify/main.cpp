@@ -5,13 +5,9 @@
 //               palpate-certify liver.h5 --samples 93 --json --plot errors.svg
 //               palpate-certify liver.h5 --report liver_report --youngs-modulus-error 0.2
 //               palpate-certify liver.h5 --seed 7 --samples 100 --json    # measures only
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -97,10 +93,12 @@ Drawing drawingOf(const MetaModel& model, const Options& options) {
           options.seed ? static_cast<std::uint64_t>(*options.seed) : seedOf(model)};
 }
 
-/// Before the hours that an examination may take. @throw program::WriteError
-void checkWritable(const std::filesystem::path& file) {
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  if (access(folder.c_str(), W_OK | X_OK) != 0) throw program::WriteError(file, std::strerror(errno));
+/// Before the hours that an examination may take. @throw CertifyError, program::WriteError
+void checkFiles(const Options& options) {
+  if (!options.plot.empty() && program::isSameFile(options.plot, options.model))
+    throw CertifyError("--plot is the model itself, " + options.plot + ": expected another file");
+  if (options.mayWrite()) program::checkWritable(std::filesystem::canonical(options.model));
+  if (!options.plot.empty()) program::checkWritable(options.plot);
 }
 
 /// Before an examination that a missing pair would lose. @param touches  a copy: what it draws is drawn again
@@ -146,14 +144,27 @@ void writePlot(const Options& options, const Examination& found) {
   program::writeFile(options.plot, plot.render());
 }
 
+/// The object of --json; keys in docs/json.md. @param answer  the certificate
+program::Json answerOf(program::Json answer, const Options& options, const MetaModel& model,
+                       const Drawing& drawing, const Examination& found, bool written, double seconds) {
+  answer["model"] = options.model;
+  answer["model_id"] = model.id();
+  answer["travel_from"] = drawing.travel.from;
+  answer["inward"] = options.inward;
+  answer["length"] = options.length ? program::Json(*options.length) : program::Json(nullptr);
+  answer["written"] = written;
+  answer["seconds"] = seconds;
+  answer["touches"] = touchesOf(found);
+  return answer;
+}
+
 void examineModel(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   // 1. The model, and the organ that it was made from.
   const MetaModel model = MetaModel::load(options.model);
   checkKind(model, options.model);
   const query::Organ organ = query::organOf(model, modelfile::readVolumeMesh(options.model));
-  if (options.mayWrite()) checkWritable(std::filesystem::canonical(options.model));
-  if (!options.plot.empty()) checkWritable(options.plot);
+  checkFiles(options);
   const std::optional<ReportFolder> report = reportFolderOf(options);
   // 2. Touches that no fit has seen, each beside its full solution.
   const Drawing drawing = drawingOf(model, options);
@@ -177,15 +188,9 @@ void examineModel(const Options& options) {
   // 4. The answer.
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.json) {
-    certificate["model"] = options.model;
-    certificate["model_id"] = model.id();
-    certificate["travel_from"] = drawing.travel.from;
-    certificate["inward"] = options.inward;
-    certificate["length"] = options.length ? program::Json(*options.length) : program::Json(nullptr);
-    certificate["written"] = not_written.empty();
-    certificate["seconds"] = seconds;
-    certificate["touches"] = touchesOf(found);
-    std::cout << certificate.dump(2, program::Keys::kAsWritten) << '\n';
+    const program::Json answer =
+        answerOf(certificate, options, model, drawing, found, not_written.empty(), seconds);
+    std::cout << answer.dump(2, program::Keys::kAsWritten) << '\n';
     return;
   }
   std::cout << toText(certificate, drawing) << statusOf(options, text) << '\n'

@@ -25,7 +25,8 @@ using Eigen::VectorXd;
 struct Residuals : Eigen::DenseFunctor<double> {
   const MeasuredCurve& curve;
   const Press& press;
-  double unit;  // m
+  double unit;             // m
+  double unit_scale{1.0};  // of the first unknown
 
   Residuals(const MeasuredCurve& of, const Press& by, double length, bool find_offset)
       : DenseFunctor(find_offset ? 2 : 1, static_cast<int>(of.points.size())),
@@ -33,23 +34,24 @@ struct Residuals : Eigen::DenseFunctor<double> {
         press(by),
         unit(length) {}
 
+  [[nodiscard]] double scale(const VectorXd& x) const { return unit_scale * x[0]; }
   [[nodiscard]] double offset(const VectorXd& x) const { return x.size() > 1 ? unit * x[1] : 0.0; }
+  [[nodiscard]] double error(Index i) const { return curve.points[static_cast<std::size_t>(i)].error; }
   [[nodiscard]] ForceAt at(const VectorXd& x, Index i) const {
     return press.at(curve.points[static_cast<std::size_t>(i)].depth - offset(x));
   }
   int operator()(const VectorXd& x, VectorXd& r) const {
     for (Index i = 0; i < r.size(); ++i) {
       const MeasuredPoint& point = curve.points[static_cast<std::size_t>(i)];
-      r[i] = (x[0] * at(x, i).force - point.force) / point.error;
+      r[i] = (scale(x) * at(x, i).force - point.force) / point.error;
     }
     return 0;
   }
   int df(const VectorXd& x, MatrixXd& J) const {
     for (Index i = 0; i < J.rows(); ++i) {
       const ForceAt f = at(x, i);
-      const double error = curve.points[static_cast<std::size_t>(i)].error;
-      J(i, 0) = f.force / error;
-      if (J.cols() > 1) J(i, 1) = -x[0] * unit * f.slope / error;
+      J(i, 0) = unit_scale * f.force / error(i);
+      if (J.cols() > 1) J(i, 1) = -scale(x) * unit * f.slope / error(i);
     }
     return 0;
   }
@@ -61,17 +63,30 @@ std::vector<double> sortedDepths(const MeasuredCurve& curve) {
   return {depths.begin(), depths.end()};
 }
 
+/// Over the points' errors. @throw FitError naming the curve: their powers would overflow
+VectorXd measuredForces(const Residuals& residuals) {
+  constexpr double kMost = 1e100;
+  VectorXd measured(residuals.values());
+  for (Index i = 0; i < measured.size(); ++i)
+    measured[i] = residuals.curve.points[static_cast<std::size_t>(i)].force / residuals.error(i);
+  if (const double largest = measured.cwiseAbs().maxCoeff(); !(largest <= kMost))
+    throw FitError(residuals.curve.name +
+                   program::printed(": forces are up to %g (over their errors, where the file has these), "
+                                    "expected at most %g",
+                                    largest, kMost));
+  return measured;
+}
+
 /// The best scale for an offset, and the sum of squares that it leaves.
 struct Start {
   VectorXd x;
   double squares{std::numeric_limits<double>::infinity()};
 };
 
+/// @param measured  forces over the points' errors
 Start bestScale(const Residuals& residuals, const VectorXd& at, const VectorXd& measured) {
-  VectorXd x = at, r(residuals.values());
-  x[0] = 1.0;
-  residuals(x, r);
-  const VectorXd f = r + measured;
+  VectorXd x = at, f(residuals.values());
+  for (Index i = 0; i < f.size(); ++i) f[i] = residuals.at(x, i).force / residuals.error(i);
   if (!(f.squaredNorm() > 0.0)) return {x};
   x[0] = f.dot(measured) / f.squaredNorm();
   return {x, (x[0] * f - measured).squaredNorm()};
@@ -80,9 +95,8 @@ Start bestScale(const Residuals& residuals, const VectorXd& at, const VectorXd& 
 /// Offsets from before the first reading up to where only as many points are in contact as it takes; the best.
 Start scan(const Residuals& residuals, const std::vector<double>& depths) {
   constexpr int kSteps = 50;
-  VectorXd x = VectorXd::Zero(residuals.inputs()), measured(residuals.values());
-  residuals(x, measured);
-  measured = -measured;  // over the points' errors
+  VectorXd x = VectorXd::Zero(residuals.inputs());
+  const VectorXd measured = measuredForces(residuals);
   Start best = bestScale(residuals, x, measured);
   if (residuals.inputs() < 2) return best;
   const double low = std::min(depths.front() - residuals.unit, 0.0), high = depths[depths.size() - 3];
@@ -94,15 +108,20 @@ Start scan(const Residuals& residuals, const std::vector<double>& depths) {
   return best;
 }
 
-VectorXd minimum(Residuals& residuals, const std::vector<double>& depths) {
+VectorXd minimum(const Residuals& of, const std::vector<double>& depths) {
   using Space = Eigen::LevenbergMarquardtSpace::Status;
-  VectorXd x = scan(residuals, depths).x;
+  VectorXd x = scan(of, depths).x;
+  // Columns of J of about the same length: the search takes a much shorter one for dependent.
+  Residuals residuals = of;
+  if (x[0] != 0.0) residuals.unit_scale = std::abs(x[0]);
+  x[0] /= residuals.unit_scale;
   Eigen::LevenbergMarquardt<Residuals> search(residuals);
   search.setXtol(1e-12);
   search.setFtol(1e-14);
   const Space end = search.minimize(x);
   if (end == Space::ImproperInputParameters || end == Space::TooManyFunctionEvaluation || !x.allFinite())
     throw FitError(residuals.curve.name + ": the fit does not converge");
+  x[0] *= residuals.unit_scale;
   return x;
 }
 
@@ -143,14 +162,14 @@ VectorXd standardErrors(const MatrixXd& J, const MatrixXd& A, const VectorXd& r,
   return (A * meat * A).diagonal().cwiseMax(alike).cwiseSqrt();
 }
 
-/// The most that each unknown moves when each force of the model is off by as much as it may, to first order.
+/// The most that each unknown moves when each force of the model is off by at most the given share, to first order.
 VectorXd modelErrors(const Residuals& residuals, const MatrixXd& J, const MatrixXd& A, const VectorXd& x,
                      const ModelError& model) {
   VectorXd most = VectorXd::Zero(J.cols());
   for (Index i = 0; i < J.rows(); ++i) {
     const double force = std::max(residuals.at(x, i).force, model.floor);
-    const double error = residuals.curve.points[static_cast<std::size_t>(i)].error;
-    most += (A * J.row(i).transpose()).cwiseAbs() * (model.share * std::abs(x[0]) * force / error);
+    most +=
+        (A * J.row(i).transpose()).cwiseAbs() * (model.share * std::abs(x[0]) * force / residuals.error(i));
   }
   return most;
 }
@@ -179,7 +198,7 @@ Estimate estimate(const MeasuredCurve& curve, const Press& press, const FitOptio
   if (depths.size() < 3)
     throw FitError(curve.name + " has " + std::to_string(depths.size()) +
                    " different depths, expected 3 or more");
-  Residuals residuals(curve, press, depths.back() - depths.front(), options.find_offset);
+  const Residuals residuals(curve, press, depths.back() - depths.front(), options.find_offset);
   const VectorXd x = minimum(residuals, depths);
   Estimate found;
   found.scale.value = x[0];

@@ -8,7 +8,7 @@
 
 namespace palpate::fit {
 
-/// What the model's own force may be off at every point: share |f|, but at least share floor.
+/// What the model's own force is taken to be off at most, at every point: share |f|, but at least share floor.
 struct ModelError {
   double share{0.0};
   double floor{0.0};  ///< N, of the model as it is
@@ -26,7 +26,7 @@ struct Found {
   double value{0.0};
   double standard_error{0.0};  ///< from the scatter of the curve
   double scatter{0.0};         ///< its quantile of Student's t times that
-  double model{0.0};           ///< the most that the model's own error adds
+  double model{0.0};  ///< the most that errors within ModelError add; no confidence covers larger ones
 
   [[nodiscard]] double halfWidth() const noexcept { return scatter + model; }
 };

@@ -32,7 +32,11 @@ double Findings::rmsResidual() const {
   return std::sqrt(squares / static_cast<double>(estimate.residual.size()));
 }
 
-double Findings::rSquared() const {
+std::optional<double> Findings::rSquared() const {
+  const auto [least, most] =
+      std::minmax_element(curve.points.begin(), curve.points.end(),
+                          [](const MeasuredPoint& a, const MeasuredPoint& b) { return a.force < b.force; });
+  if (!(least->force < most->force)) return {};
   const auto n = static_cast<double>(curve.points.size());
   double sum = 0.0, squares = 0.0;
   for (const MeasuredPoint& point : curve.points) sum += point.force;

@@ -30,7 +30,7 @@ struct Findings {
   [[nodiscard]] std::array<double, 2> offsetInterval() const;  ///< m
   [[nodiscard]] double largestForce() const;                   ///< of the curve, N
   [[nodiscard]] double rmsResidual() const;                    ///< N
-  [[nodiscard]] double rSquared() const;
+  [[nodiscard]] std::optional<double> rSquared() const;  ///< not weighted; nothing where all forces are alike
   /// Of the points in contact, in the order of depth: how probable so few changes of sign are; see probabilityOfRuns().
   [[nodiscard]] std::optional<double> runsProbability() const;
   /// The residuals follow each other where they should not, and are larger than the model's own error.

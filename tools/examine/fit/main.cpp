@@ -45,7 +45,7 @@ void describe(program::Options line, Options& options) {
            "what of the force was measured: its part along the direction, or its size")
       .oneOf({"along", "size"});
   line.flag("--no-offset", &options.no_offset,
-            "contact begins at depth 0; else where that is gets found too");
+            "contact begins at depth 0; else the fit finds where contact begins");
   line.add("--deepest", &options.deepest, "leave out readings of more depth, m");
   line.add("--confidence", &options.confidence, "of the interval of E").range(0.5, 0.9999);
   line.add("--plot", &options.plot, "draw points, curve and residuals (.svg)");
@@ -63,9 +63,6 @@ MetaModel modelOf(const Options& options) {
   if (!model.isDisplacementDriven())
     throw FitError(options.model + " is driven by " + std::string(toString(model.attributes().parameters)) +
                    "; fit takes displacement models");
-  std::error_code ignored;
-  if (!options.write.empty() && std::filesystem::equivalent(options.model, options.write, ignored))
-    throw FitError("--write is the model itself, " + options.write + ": expected another file");
   return model;
 }
 
@@ -136,8 +133,26 @@ void checkNumbers(const Options& options) {
     throw FitError("--deepest is " + std::to_string(*options.deepest) + ", expected a finite depth in m");
 }
 
+/// No file that is written is one that is read, or the other one that is written. @throw FitError
+void checkFiles(const Options& options) {
+  const auto checkOther = [](const char* option, const std::string& written, const char* taken,
+                             const std::string& file) {
+    if (!written.empty() && !file.empty() && program::isSameFile(written, file))
+      throw FitError(std::string(option) + " is the file of " + taken + ", " + written +
+                     ": expected another file");
+  };
+  checkOther("--plot", options.plot, "--model", options.model);
+  checkOther("--plot", options.plot, "--measured", options.measured);
+  checkOther("--write", options.write, "--model", options.model);
+  checkOther("--write", options.write, "--measured", options.measured);
+  checkOther("--write", options.write, "--plot", options.plot);
+  for (const std::string& file : {options.plot, options.write})
+    if (!file.empty()) program::checkWritable(file);
+}
+
 void run(const Options& options) {
   checkNumbers(options);
+  checkFiles(options);
   // 1. The model and the curve.
   const MetaModel model = modelOf(options);
   const MeasuredCurve curve = curveOf(options);

@@ -40,6 +40,14 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(first, text.find_last_not_of(kOutside) - first + 1);
 }
 
+/// Without regard to case. @param name  in lower case
+bool startsWith(std::string_view title, std::string_view name) {
+  const auto lower = [](char letter) { return letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter; };
+  return title.size() >= name.size() &&
+         std::equal(name.begin(), name.end(), title.begin(),
+                    [&](char wanted, char letter) { return wanted == lower(letter); });
+}
+
 std::vector<std::string_view> cellsOf(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   for (std::size_t start = 0; start <= line.size();) {
@@ -101,27 +109,37 @@ class CurveReader {
     titles_ = cellsOf(line_, separator_);
   }
 
-  /// The unit in a title such as "depth_mm", "depth [mm]"; nothing where the title is of something else.
+  /// The unit in a title such as "depth_mm", "Depth [mm]"; nothing where the title is of something else, as "depth_rate_mm".
   static std::optional<std::string_view> unitIn(std::string_view title, std::string_view name) {
-    if (!title.starts_with(name)) return {};
+    constexpr std::string_view kBetween = " _[(/";
+    if (!startsWith(title, name)) return {};
     const std::string_view rest = title.substr(name.size());
-    const std::size_t first = rest.find_first_not_of(" _[(/");
-    if (first == 0) return {};  // another name
+    const std::size_t first = rest.find_first_not_of(kBetween);
+    if (first == 0) return {};  // a longer word
     if (first == std::string_view::npos) return std::string_view();
-    const std::string_view unit = rest.substr(first);
-    return unit.substr(0, unit.find_last_not_of(" ])") + 1);
+    const std::string_view unit = rest.substr(first, rest.find_last_not_of(" ])") + 1 - first);
+    if (unit.find_first_of(kBetween) != std::string_view::npos) return {};  // more words than a unit
+    return unit;
   }
 
   std::optional<Column> column(std::string_view name, std::span<const Unit> units) const {
     std::optional<Column> found;
+    std::string_view unknown;  // a title whose unit is not among these
     for (std::size_t i = 0; i < titles_.size(); ++i) {
-      const std::string title(titles_[i]);
-      const auto unit = unitIn(title, name);
-      if (!unit || (name == "force" && unitIn(title, "force_error"))) continue;
+      const auto unit = unitIn(titles_[i], name);
+      if (!unit) continue;
+      const auto known =
+          std::find_if(units.begin(), units.end(), [&](const Unit& one) { return one.name == *unit; });
+      if (known == units.end()) {
+        unknown = titles_[i];
+        continue;
+      }
       if (found)
-        fail("two columns are " + std::string(name) + ": '" + found->title + "' and '" + title + "'");
-      found = Column{i, sizeOf(*unit, units, title), title};
+        fail("two columns are " + std::string(name) + ": '" + found->title + "' and '" +
+             std::string(titles_[i]) + "'");
+      found = Column{i, known->size, std::string(titles_[i])};
     }
+    if (!found && !unknown.empty()) failOfUnit(unknown, *unitIn(unknown, name), units);
     return found;
   }
 
@@ -131,14 +149,12 @@ class CurveReader {
          (name == "depth" ? "depth_mm" : "force_N") + ": found '" + std::string(trimmed(line_)) + "'");
   }
 
-  double sizeOf(std::string_view unit, std::span<const Unit> units, const std::string& title) const {
+  [[noreturn]] void failOfUnit(std::string_view title, std::string_view unit,
+                               std::span<const Unit> units) const {
     std::string known;
-    for (const Unit& one : units) {
-      if (one.name == unit) return one.size;
-      (known += known.empty() ? "" : ", ") += one.name;
-    }
-    fail("column '" + title + "' has " + (unit.empty() ? "no unit" : "the unit '" + std::string(unit) + "'") +
-         ", expected one of " + known);
+    for (const Unit& one : units) (known += known.empty() ? "" : ", ") += one.name;
+    fail("column '" + std::string(title) + "' has " +
+         (unit.empty() ? "no unit" : "the unit '" + std::string(unit) + "'") + ", expected one of " + known);
   }
 
   double number(const std::vector<std::string_view>& cells, const Column& column) const {

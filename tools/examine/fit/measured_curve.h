@@ -23,8 +23,9 @@ struct MeasuredCurve {
 
 /// Reads a table of text: a line that names the columns, then a line for each reading.
 /// Columns are parted by tabs, semicolons or commas, whichever the first line has. They are named depth, force and, where
-/// there is one, force_error, each with its unit: depth_mm, "depth [mm]", "depth (mm)" or depth/mm. Units: m, mm, um; N, mN, kN.
-/// Other columns, empty lines and lines that begin with # are left out.
+/// there is one, force_error, each with its unit: depth_mm, "depth [mm]", "depth (mm)" or depth/mm. Case
+/// matters in units only: m, mm, um; N, mN, kN. Other columns, such as depth_rate_mm_s or force_filtered_N, empty lines and lines that
+/// begin with # are left out.
 /// @throw FitError naming file, line, column and what stands there
 [[nodiscard]] MeasuredCurve readCurve(const std::filesystem::path& path);
 

@@ -9,7 +9,8 @@
 
 namespace palpate::fit {
 
-/// What the model's certificate bounds of the force's error, with its floor, 5 % of the force at the certified travel.
+/// What the model's certificate bounds of the force's error, with its floor, 5 % of the force at the certified travel:
+/// 95 % of touches are within it. At a place of the other 5 % the model is off by more, and so is E.
 /// @return nothing where the model is not certified, or has a certificate without such a bound  docs/design.md, Certificate
 [[nodiscard]] std::optional<ModelError> certifiedError(const ModelAttributes& attributes, const Press& press);
 

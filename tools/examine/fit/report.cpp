@@ -46,6 +46,13 @@ std::string modulusLines(const Findings& found) {
                  found.certified ? "" : " (assumed)");
 }
 
+std::string residualsLine(const Findings& found) {
+  const auto r_squared = found.rSquared();
+  return printed("residuals         rms %.4g N, %.3g %% of the largest force", found.rmsResidual(),
+                 100.0 * found.rmsResidual() / found.largestForce()) +
+         (r_squared ? printed("; R2 %.6f\n", *r_squared) : "\n");
+}
+
 std::string serverLines(const Findings& found) {
   const std::string E = shortModulus(found);
   return "for a server      palpate-server --youngs-modulus " + E + ", or [organ] youngs_modulus = " + E +
@@ -120,7 +127,7 @@ std::string ofTheMesh(const Findings& found) {
 std::string ofTheServer(const Findings& found) {
   constexpr double kLeast = 100.0, kMost = 1e9;  // Pa
   if (found.E() >= kLeast && found.E() <= kMost) return {};
-  return printed("E = %.6g Pa is none that a server takes: %g to %g Pa", found.E(), kLeast, kMost);
+  return printed("E = %.6g Pa is outside what a server takes: %g to %g Pa", found.E(), kLeast, kMost);
 }
 
 }  // namespace
@@ -128,7 +135,8 @@ std::string ofTheServer(const Findings& found) {
 Json toJson(const Findings& found) {
   const double model_E = found.model.attributes().E;
   const Estimate& e = found.estimate;
-  const auto runs = found.runsProbability(), mesh = meshError(found.model.attributes());
+  const auto runs = found.runsProbability(), mesh = meshError(found.model.attributes()),
+             r_squared = found.rSquared();
   return {{"E", found.E()},
           {"E_interval", found.interval()},
           {"confidence", found.options.confidence},
@@ -145,7 +153,7 @@ Json toJson(const Findings& found) {
           {"in_contact", e.in_contact},
           {"beyond_domain", e.beyond},
           {"rms_residual", found.rmsResidual()},
-          {"r_squared", found.rSquared()},
+          {"r_squared", r_squared ? Json(*r_squared) : Json(nullptr)},
           {"runs_probability", runs ? Json(*runs) : Json(nullptr)},
           {"other_form", found.isOfAnotherForm()},
           {"mesh_error", mesh ? Json(*mesh) : Json(nullptr)},
@@ -166,9 +174,7 @@ std::string toText(const Findings& found) {
                  x.z(), d.x(), d.y(), d.z()) +
          printed("curve             %zu points, %zu in contact, %zu beyond the domain of %.4g mm\n",
                  found.curve.points.size(), e.in_contact, e.beyond, 1e3 * found.press.domainRadius()) +
-         modulusLines(found) + regionLines(found) + offsetLine(found) +
-         printed("residuals         rms %.4g N, %.3g %% of the largest force; R2 %.6f\n", found.rmsResidual(),
-                 100.0 * found.rmsResidual() / found.largestForce(), found.rSquared()) +
+         modulusLines(found) + regionLines(found) + offsetLine(found) + residualsLine(found) +
          serverLines(found);
 }
 

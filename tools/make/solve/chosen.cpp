@@ -29,16 +29,13 @@ std::string listOf(const solver::TravelOrders& travel) {
 std::string whyOrders(const solver::Case& c, const solver::BuildReport& report) {
   if (!report.travel) return "given";
   const solver::TravelOrders& travel = *report.travel;
-  const bool enough = travel.within >= solver::kEnoughTouches;
-  return printed(
-             "%s%s touches of up to %.4g mm are within d_max at %d places, by degrees of field and force ",
-             c.order || c.force_order ? "given; "
-             : enough                 ? "the least with which at least 90 % of "
-                                      : "",
-             !(c.order || c.force_order) && !enough ? "none brings 90 % there, these bring most: of all"
-                                                    : "all",
-             1e3 * travel.travel, travel.places) +
-         listOf(travel);
+  const std::string touches =
+      printed("touches of up to %.4g mm are within d_max at %d places", 1e3 * travel.travel, travel.places);
+  if (c.order || c.force_order) return "given; of all " + touches + " " + listOf(travel);
+  if (travel.within >= solver::kEnoughTouches)
+    return "the least with which at least 90 % of all " + touches + ", by degrees of field and force " +
+           listOf(travel);
+  return "the most are within d_max: of all " + touches + ", by degrees of field and force " + listOf(travel);
 }
 
 std::string whyModes(const solver::Case& c, const solver::BuildReport& report) {
@@ -63,9 +60,9 @@ std::string whyEdges(const solver::Case& c, const solver::BuildReport& report) {
   if (c.handheld()) return "none: the field of a handheld model is less exact";
   if (edges.edges == 0) return "none: no edge is longer than 1.15 patch radii, or the fields are linear";
   const std::string tried = printed(
-      "of 16 tried the second adds %.3g %% of d at a travel of %.4g mm, a quarter of the asked error is %.3g "
-      "%%",
-      100.0 * edges.added, 1e3 * c.travelOrDefault(), 25.0 * c.fieldErrorOrDefault());
+      "of %zu tried the second largest adds %.3g %% of d at a travel of %.4g mm, a quarter of the asked "
+      "error is %.3g %%",
+      edges.tried, 100.0 * edges.added, 1e3 * c.travelOrDefault(), 25.0 * c.fieldErrorOrDefault());
   return (edges.solved == 0 ? "none: " : "all that are longer than 1.15 patch radii: ") + tried;
 }
 

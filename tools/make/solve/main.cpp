@@ -73,7 +73,12 @@ void tell(const solve_program::Options& options, const solver::Case& c, const me
     std::cout << found.dump(2) << '\n';
   else
     solve_program::printEstimate(found);
-  solver::requireRoom(estimate, c, build, build.output);
+  solver::Case chosen = c;
+  if (report.travel) {
+    chosen.order = report.travel->orders.fields;
+    chosen.force_order = report.travel->orders.answer;
+  }
+  solver::requireRoom(estimate, chosen, build, build.output);
 }
 
 void run(solve_program::Options options) {

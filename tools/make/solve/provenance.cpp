@@ -46,6 +46,10 @@ void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solv
                            {"seconds", stages(c.method, report)}};
   if (report.mesh_error) provenance["mesh_error"] = meshErrorOf(report);
   if (report.travel) provenance["travel"] = report.travel->travel;
+  if (c.method == solver::Method::kSeriesDisplacement) {
+    provenance["force_error"] = c.forceErrorOrDefault();
+    provenance["field_error"] = c.fieldErrorOrDefault();
+  }
   if (report.size) {
     provenance["target"] = "handheld";
     provenance["size"] = sizeOf(report);

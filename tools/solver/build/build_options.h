@@ -45,7 +45,8 @@ struct TravelOrders {
 struct EdgeChoice {
   std::size_t edges{0};   ///< longer than the patch is wide
   std::size_t solved{0};  ///< and stored; 0 where they add too little
-  double added{0.0};      ///< by the second of 16, of abs(d) at the travel
+  std::size_t tried{0};   ///< before that was known
+  double added{0.0};      ///< second largest of what those tried add, of abs(d) at the travel
 };
 
 /// What a size limit chose.

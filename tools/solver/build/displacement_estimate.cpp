@@ -8,9 +8,7 @@
 #include <fstream>
 #include <memory>
 #include <numeric>
-#include <set>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "tools/modelfile/write_model.h"
@@ -147,7 +145,7 @@ Estimate DisplacementBuilder::sizes() const {
              192.0 * (M + static_cast<double>(edges.all)) + n * (2.0 * rows + 4.0) +
              (M * Cm + 3.0 * G) * (2.0 * n + 8.0) + near * (6.0 * Cm + 4.0) + near_loads * 22.0 +
              near_edges * (6.0 * Ce + 4.0) + 4.0 * Ce * static_cast<double>(edges.all);
-  if (case_.handheld()) out.file = case_.sizeLimitOrDefault();
+  if (case_.handheld()) out.file = std::min(out.file, case_.sizeLimitOrDefault());
 
   // 2. Memory: the fit, or what the model is put together from.
   const double floats =
@@ -159,7 +157,8 @@ Estimate DisplacementBuilder::sizes() const {
                                                               loaded_.size()));
   constexpr double kLibraries = 3e7;  // OpenBLAS, HDF5, stacks
   const double fit = 4.0 * nodes * std::max(M, G) + 8.0 * n * M * C + 32.0 * n * rows + work + sums;
-  out.memory = kLibraries + residentBytes() + std::max(fit + 0.25 * floats, 2.0 * floats);
+  out.resident = residentBytes();
+  out.memory = kLibraries + out.resident + std::max(fit + 0.25 * floats, 2.0 * floats);
   return out;
 }
 
@@ -201,11 +200,16 @@ Estimate DisplacementBuilder::estimate() const {
   Estimate out = sizes();
   const double M = static_cast<double>(setup_.positions.nodes.size()),
                G = static_cast<double>(loaded_.size());
-  out.series = probeSeries(case_.orders(), true) * std::ceil(M / kLanes) +
-               probeGreens() * std::ceil(G / static_cast<double>(NodalGreens::kMost));
+  const auto rounds = [&](double all, double chunk) {  // of all workers
+    return options_.workers * std::ceil(std::ceil(all / chunk) / options_.workers);
+  };
+  out.series = probeSeries(case_.orders(), true) * rounds(M, kLanes) +
+               probeGreens() * rounds(G, static_cast<double>(NodalGreens::kMost));
   const EdgeCounts edges = case_.handheld() ? EdgeCounts{} : edgeCounts(setup_, basis_.order());
   if (edges.solved > 0)
-    out.edges = probeSeries({edges.degree, edges.degree}, false) * static_cast<double>(edges.solved) / kLanes;
+    out.edges =
+        probeSeries({edges.degree, edges.degree}, false) * rounds(static_cast<double>(edges.solved), kLanes);
+  out.memory = std::max(out.memory, peakBytes());
   const FitCounts counts{static_cast<double>(setup_.surface.nodes.size()),
                          M,
                          G,
@@ -216,7 +220,6 @@ Estimate DisplacementBuilder::estimate() const {
                        productRate(options_.workers));
   constexpr double kWritten = 1e8;  // bytes a second
   out.write = out.file / kWritten;
-  out.memory = std::max(out.memory, peakBytes());
   out.probe = watch.seconds();
   return out;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <span>
 #include <string>
 
 #include "tools/solver/build/build_model_parts.h"
@@ -40,8 +42,9 @@ constexpr double kMostNearBytes = 2147483648.0;
 void DisplacementBuilder::checkNear() const {
   const double bytes = nearBytes(near_, basis_.size()) + nearBytes(near_loaded_, 3);
   if (bytes > kMostNearBytes)
-    throw CaseError("model.near_radius = " + text(near_radius_) + " m makes a near field of " +
-                    text(1e-6 * bytes) + " MB; the limit is " + text(1e-6 * kMostNearBytes) + " MB");
+    throw CaseError(case_.mesh.string() + ": near fields of model.near_radius = " + text(near_radius_) +
+                    " m take " + text(1e-6 * bytes) + " MB; the limit is " + text(1e-6 * kMostNearBytes) +
+                    " MB");
 }
 
 std::vector<NearNodes> DisplacementBuilder::nearOf(std::span<const std::int32_t> nodes) const {

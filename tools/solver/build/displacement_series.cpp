@@ -140,8 +140,9 @@ modelfile::ModelData DisplacementBuilder::run() {
   report_.fit_seconds = fit_watch.seconds();
   if (case_.handheld()) return std::move(data_);  // edges are for fields that are more exact
   const Stopwatch edge_watch;
-  report_.edges = storeEdgeFields(setup_, factor_, patches_, basis_.order(),
-                                  {case_.travelOrDefault(), case_.fieldErrorOrDefault()}, options_, data_);
+  report_.edges = storeEdgeFields(
+      setup_, factor_, patches_, basis_.order(),
+      {case_.travelOrDefault(), case_.fieldErrorOrDefault(), case_.forceErrorOrDefault()}, options_, data_);
   report_.series_seconds += edge_watch.seconds();
   return std::move(data_);
 }

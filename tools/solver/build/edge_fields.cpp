@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/solver/build/edge_fields.h"
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,7 +34,7 @@ double secondOf(const EdgeFields& edges, const std::vector<Surplus>& surplus,
   return added[std::min<std::size_t>(1, added.size() - 1)];
 }
 
-/// Every so many of a list, and the others. @return first those
+/// `count` entries spread over a list, then the rest.
 std::pair<std::vector<std::size_t>, std::vector<std::size_t>> spread(const std::vector<std::size_t>& list,
                                                                      std::size_t count) {
   std::pair<std::vector<std::size_t>, std::vector<std::size_t>> parts;
@@ -44,6 +42,31 @@ std::pair<std::vector<std::size_t>, std::vector<std::size_t>> spread(const std::
     (i * count / list.size() != (i + 1) * count / list.size() ? parts.first : parts.second)
         .push_back(list[i]);
   return parts;
+}
+
+/// Mixing bounds how far the ends of edges are trusted.
+void limitDomains(const EdgeFields& edges, const std::vector<Surplus>& surplus,
+                  const std::vector<std::size_t>& chosen, double error, std::vector<double>& domains) {
+  for (const std::size_t edge : chosen)
+    for (const std::size_t end : edges.ends(edge)) {
+      const Surplus& own = surplus[edge];
+      domains[end] = std::min({domains[end], own.force_radius, edges.radius(own, domains[end], error)});
+    }
+}
+
+/// Beyond some radius what is left out of all edges is too much.
+void capDomains(const std::function<bool(double)>& is_small, std::vector<double>& domains) {
+  const double cap = largestTrusted(*std::max_element(domains.begin(), domains.end()), is_small);
+  for (double& domain : domains) domain = std::min(domain, cap);
+}
+
+void store(const std::vector<Surplus>& surplus, modelfile::ModelData& data) {
+  data.edge_offset.push_back(0);
+  for (const Surplus& own : surplus) {
+    data.edge_offset.push_back(data.edge_offset.back() + static_cast<std::int64_t>(own.nodes.size()));
+    data.edge_node.insert(data.edge_node.end(), own.nodes.begin(), own.nodes.end());
+    data.edge_field.insert(data.edge_field.end(), own.field.begin(), own.field.end());
+  }
 }
 
 }  // namespace
@@ -97,29 +120,26 @@ EdgeChoice storeEdgeFields(const SolverSetup& setup, const Cholesky& factor, con
       PatchNodes room = patches.room();
       for (const std::size_t edge : of.first(lanes)) loaded.push_back(edges.patch(edge, room));
       solver->solve(loaded);
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-        surplus[of[lane]] = edges.surplus(*solver, static_cast<int>(lane), of[lane]);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        Surplus& own = surplus[of[lane]] = edges.surplus(*solver, static_cast<int>(lane), of[lane]);
+        own.force_radius = edges.forceRadius(*solver, static_cast<int>(lane), of[lane], need.force_error);
+      }
       progress.advance(lanes);
     });
   };
   const auto [tried, others] = spread(chosen, kTried);
   solve(tried);
-  EdgeChoice choice{chosen.size(), 0, secondOf(edges, surplus, tried, need.travel)};
-  if (choice.added <= kSmall * need.error) return choice;
+  EdgeChoice choice{chosen.size(), 0, tried.size(), secondOf(edges, surplus, tried, need.travel)};
+  if (choice.added <= kSmall * need.error) {
+    capDomains([&](double d) { return secondOf(edges, surplus, tried, d) <= need.error; },
+               data.contact_domain_radius);
+    return choice;
+  }
   solve(others);
   choice.solved = chosen.size();
-  for (const std::size_t edge : chosen)
-    for (const std::size_t end : edges.ends(edge)) {
-      double& domain = data.contact_domain_radius[end];
-      domain = std::min(domain, edges.radius(surplus[edge], domain, need.error));
-    }
+  limitDomains(edges, surplus, chosen, need.error, data.contact_domain_radius);
   data.edge_order = degree;
-  data.edge_offset.push_back(0);
-  for (const Surplus& own : surplus) {
-    data.edge_offset.push_back(data.edge_offset.back() + static_cast<std::int64_t>(own.nodes.size()));
-    data.edge_node.insert(data.edge_node.end(), own.nodes.begin(), own.nodes.end());
-    data.edge_field.insert(data.edge_field.end(), own.field.begin(), own.field.end());
-  }
+  store(surplus, data);
   return choice;
 }
 

@@ -11,8 +11,9 @@ namespace palpate::solver {
 
 /// What the fields between positions are for.
 struct EdgeNeed {
-  double travel;  ///< m
-  double error;   ///< asked of the field, of abs(d)
+  double travel;       ///< m
+  double error;        ///< asked of the field, of abs(d)
+  double force_error;  ///< asked of the force, relative
 };
 
 /// How many edges there are, before any is solved.
@@ -27,8 +28,9 @@ struct EdgeCounts {
 /// /edges of a model: what the fields of a patch in the middle of an edge have beyond the model's own mixture there, degrees 2
 /// and more, near the edge. The hierarchical surplus of H.-J. Bungartz, M. Griebel, Sparse grids, Acta Numerica 13 (2004),
 /// 147-269. Edges that are short beside the patch add nothing.                                docs/design.md, Parts
-/// Nothing is stored where a tenth of 16 edges, spread over all long ones, add no more than a quarter of the asked error.
-/// @param order  p, of the model's fields  @param data  with surface, contact positions, modes and near field
+/// Nothing is stored where the second largest of what 16 edges, spread over all long ones, add at the travel is at most a quarter
+/// of the asked error. What mixing misses bounds d_max: of the ends of each edge, or of all positions where no edges are stored.
+/// @param order  p, of the model's fields  @param[in,out] data  with surface, contact positions, modes and near field
 /// @throw std::runtime_error when a series is not finite
 [[nodiscard]] EdgeChoice storeEdgeFields(const SolverSetup& setup, const Cholesky& factor,
                                          const ContactPatches& patches, int order, const EdgeNeed& need,

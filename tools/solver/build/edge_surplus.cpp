@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "tools/solver/series/domain.h"
 
 namespace palpate::solver {
 
 namespace {
+
+constexpr double kSlowest = 0.8;  // of the terms of one degree over those of the last
 
 ModelView surfaceOf(const modelfile::ModelData& data) {
   ModelView view;
@@ -19,9 +20,44 @@ ModelView surfaceOf(const modelfile::ModelData& data) {
   view.position_of_node = data.position_of_node;
   view.contact_node = data.contact_node;
   view.contact_accessible = data.contact_accessible;
-  view.contact_triangles = data.contact_triangles.empty() ? data.surface_triangles : data.contact_triangles;
+  view.contact_triangles = data.contact_triangles;
   return view;
 }
+
+/// Terms along one direction, by degree.
+class DegreeSums {
+ public:
+  DegreeSums(const MonomialBasis& basis, const std::vector<Vec3>& coefficients, const Vec3& direction)
+      : order_(static_cast<std::size_t>(basis.order())) {
+    std::array<double, MonomialBasis::kMaxCoefficients> monomial{};
+    basis.evaluate(direction, monomial);
+    for (std::size_t k = 0; k < coefficients.size(); ++k) {
+      const MultiIndex& alpha = basis[static_cast<int>(k)];
+      terms_[static_cast<std::size_t>(alpha[0] + alpha[1] + alpha[2])] += monomial[k] * coefficients[k];
+    }
+  }
+  [[nodiscard]] Vec3 at(double r) const {
+    Vec3 sum = Vec3::Zero();
+    double power = 1.0;
+    for (std::size_t degree = 1; degree <= order_; ++degree) sum += (power *= r) * terms_[degree];
+    return sum;
+  }
+  /// Size of what comes beyond the last degree, when it goes on as the last two do.
+  [[nodiscard]] double tail(double r) const {
+    const double last = terms_[order_].norm(), previous = terms_[order_ - 1].norm();
+    if (last == 0.0) return 0.0;
+    const double next = order_ > 2 && previous > 0.0 ? std::min(kSlowest, r * last / previous) : kSlowest;
+    return last * std::pow(r, static_cast<double>(order_)) * next / (1.0 - next);
+  }
+
+ private:
+  std::size_t order_;
+  std::array<Vec3, kMostOrder + 1> terms_ = [] {
+    std::array<Vec3, kMostOrder + 1> zero;
+    zero.fill(Vec3::Zero());
+    return zero;
+  }();
+};
 
 }  // namespace
 
@@ -145,26 +181,48 @@ double EdgeFields::size(const Surplus& own, double r, int degree) const {
   return most;
 }
 
-/// Where the degrees that an edge has not are estimated to miss the asked part of abs(d): they go on as the last two do.
+/// Where the degrees beyond an edge's own are estimated to miss the asked part of abs(d): they go on as the last two do.
 /// @param cap  m  @return m, at most cap
 double EdgeFields::radius(const Surplus& own, double cap, double error) const {
-  constexpr double kSlowest = 0.8;
   constexpr double kTooHigh = 2.0;  // the estimate over what touches miss: docs/decisions/domain.md
-  constexpr int kHalvings = 12;
   const int p = basis_.order();
   const double last = size(own, 1.0, p), unit = data_.attributes.reference_displacement;
-  const double ratio = p > 2 ? last / size(own, 1.0, p - 1) : 0.0;
-  const auto isTrusted = [&](double d) {
-    const double r = d / unit, next = std::min(kSlowest, ratio * r);
+  if (last == 0.0) return cap;
+  const double before = p > 2 ? size(own, 1.0, p - 1) : 0.0;
+  return largestTrusted(cap, [&](double d) {
+    const double r = d / unit, next = before > 0.0 ? std::min(kSlowest, r * last / before) : kSlowest;
     return last * std::pow(r, p) * next <= kTooHigh * error * d * (1.0 - next);
-  };
-  if (last == 0.0 || isTrusted(cap)) return cap;
-  double good = 0.0, bad = cap;
-  for (int halving = 0; halving < kHalvings; ++halving) {
-    const double middle = 0.5 * (good + bad);
-    (isTrusted(middle) ? good : bad) = middle;
+  });
+}
+
+/// Where the mixture of the positions' forces misses the asked part of the edge's own force, in any of 26 directions: its
+/// degrees two and three, and those beyond as these two go on. @return m, at most d_max of its ends
+double EdgeFields::forceRadius(const SeriesSolver& series, int lane, std::size_t edge, double error) const {
+  constexpr double kTooHigh = 1.5;  // of the worst direction over others: docs/decisions/domain.md
+  const auto [one, other] = ends(edge);
+  const double unit = data_.attributes.reference_displacement;
+  const auto count = static_cast<std::size_t>(basis_.size());
+  const std::size_t all = data_.contact_force.size() / (3 * view_.positions());  // coefficients of a position
+  const Stencil stencil = mixing_.at(surface_, middle(edge));
+  std::vector<Vec3> exact(count), missed(count, Vec3::Zero());
+  for (std::size_t k = 0; k < count; ++k) {
+    const MultiIndex& alpha = basis_[static_cast<int>(k)];
+    exact[k] = std::pow(unit, alpha[0] + alpha[1] + alpha[2]) * series.answer(lane, static_cast<int>(k));
+    if (k < kLinearCoefficients) continue;
+    missed[k] = exact[k];
+    for (std::size_t b = 0; b < stencil.count; ++b)
+      missed[k] -= stencil.weight[b] * Eigen::Map<const Vec3>(data_.contact_force.data() +
+                                                              3 * (index(stencil.position[b]) * all + k));
   }
-  return good;
+  double least = std::max(data_.contact_domain_radius[one], data_.contact_domain_radius[other]);
+  for (const Vec3& direction : sampledDirections()) {
+    const DegreeSums force(basis_, exact, direction), off(basis_, missed, direction);
+    least = largestTrusted(least, [&](double d) {
+      const double r = d / unit;
+      return off.at(r).norm() + off.tail(r) <= kTooHigh * error * force.at(r).norm();
+    });
+  }
+  return least;
 }
 
 }  // namespace palpate::solver

@@ -24,10 +24,25 @@ namespace palpate::solver {
 inline constexpr double kShortestEdge = 1.15;  ///< that adds something, in patch radii
 inline constexpr double kEdgeReach = 3.0;      ///< of what it adds, in patch radii
 
+/// The largest radius up to a cap at which something is trusted that is not trusted any more beyond some radius; at least a
+/// 4096th of the cap, m.
+template <typename Trusted>
+double largestTrusted(double cap, const Trusted& is_trusted) {
+  constexpr int kHalvings = 12;
+  if (is_trusted(cap)) return cap;
+  double good = cap / 4096.0, bad = cap;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    const double middle = 0.5 * (good + bad);
+    (is_trusted(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
 /// What one edge adds.
 struct Surplus {
   std::vector<std::int32_t> nodes;
   std::vector<float> field;  // [Ce][nodes][3]
+  double force_radius{0.0};  // EdgeFields::forceRadius()
 };
 
 /// The edges between contact positions, and what their middles have beyond the model's own mixture there. Borrows all.
@@ -44,7 +59,11 @@ class EdgeFields {
   [[nodiscard]] double added(const Surplus& own, double travel) const {
     return size(own, travel / data_.attributes.reference_displacement, 0) / travel;
   }
+  /// d up to which the field there misses the asked part of abs(d), m, at most a cap. @param error  of abs(d)
   [[nodiscard]] double radius(const Surplus& own, double cap, double error) const;
+  /// d up to which the mixed force misses the asked part of the edge's own, m. @param error  relative
+  [[nodiscard]] double forceRadius(const SeriesSolver& series, int lane, std::size_t edge,
+                                   double error) const;
   /// The contact positions at its ends.
   [[nodiscard]] std::array<std::size_t, 2> ends(std::size_t edge) const;
 

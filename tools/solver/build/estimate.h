@@ -10,14 +10,16 @@
 
 namespace palpate::solver {
 
-/// What a solve takes, from a measured probe: within 30 % where the machine does as much then as it does now.
+/// What a solve takes, from a measured probe: within 30 % where the machine does as much then as it does now, edges are needed, and
+/// near fields of 4.5 patch radii are enough.
 struct Estimate {
   double factor{0}, mesh_error{0}, orders{0}, series{0}, fit{0}, edges{0}, write{0};  ///< s, wall
-  double probe{0};    ///< s: what the probe itself took
-  double memory{0};   ///< bytes, largest resident
-  double scratch{0};  ///< bytes
-  double file{0};     ///< bytes
-  int modes{0};       ///< as given, or about as many as the field's error wants
+  double probe{0};     ///< s: what the probe itself took
+  double memory{0};    ///< bytes, largest resident
+  double resident{0};  ///< bytes, of these there already
+  double scratch{0};   ///< bytes
+  double file{0};      ///< bytes
+  int modes{0};        ///< as given, or about as many as the field's error wants
 
   [[nodiscard]] double seconds() const { return factor + mesh_error + orders + series + fit + edges + write; }
 };

@@ -3,6 +3,7 @@
 #include <string>
 #include <system_error>
 
+#include "core/base/multi_index.h"
 #include "core/data/available_memory.h"
 #include "tools/solver/build/case_error.h"
 #include "tools/solver/build/estimate.h"
@@ -44,14 +45,15 @@ void requireRoom(const Estimate& estimate, const Case& c, const BuildOptions& op
                     lowerOrder(c, estimate.scratch) + " need less");
   if (const double room = freeIn(output); !output.empty() && estimate.file > kTooHigh * room)
     throw CaseError(output.string() + ": the model file needs about " + gigabytes(estimate.file) + ", " +
-                    gigabytes(room) +
-                    " are free: --output takes a folder of another disk; --target handheld, " +
-                    lowerOrder(c, estimate.file) + " make it smaller");
+                    gigabytes(room) + " are free: --output takes a folder of another disk; " +
+                    (c.handheld() ? "--size-limit" : "--target handheld") + " or " +
+                    lowerOrder(c, estimate.file) + " makes it smaller");
   const AvailableMemory memory = availableMemory();
-  if (estimate.memory > kTooHigh * static_cast<double>(memory.bytes))
-    throw CaseError("needs about " + gigabytes(estimate.memory) + " of memory, " +
-                    gigabytes(static_cast<double>(memory.bytes)) + " are available (" + memory.limit +
-                    "): fewer --threads or --modes, " + lowerOrder(c, estimate.memory) + " need less");
+  const double room = estimate.resident + static_cast<double>(memory.bytes);
+  if (estimate.memory > kTooHigh * room)
+    throw CaseError(c.mesh.string() + ": needs about " + gigabytes(estimate.memory) + " of memory, " +
+                    gigabytes(room) + " are available (" + memory.limit + "): fewer --threads or --modes, " +
+                    lowerOrder(c, estimate.memory) + " need less");
 }
 
 }  // namespace palpate::solver

@@ -63,7 +63,7 @@ TravelOrders ordersFor(double travel, const DomainCriteria& criteria, const Solv
     }
     progress.advance();
     list.push_back({orders, now.within});
-    if (now.within > best.within + kWorth) best = now;
+    if (now.within >= kEnoughTouches || now.within > best.within + kWorth) best = now;
     if (best.within >= kEnoughTouches) break;
   }
   best.tried = std::move(list);

@@ -15,7 +15,7 @@ namespace palpate::solver {
 inline constexpr std::array<SeriesOrders, 5> kTravelOrders{{{3, 6}, {4, 6}, {5, 6}, {5, 8}, {6, 8}}};
 
 /// The least orders of fields and force with which kEnoughTouches of all touches are within d_max of the position itself, in the
-/// mean of 16 places; where none are enough, those with which most are.                 docs/decisions/travel.md
+/// mean of 16 places; where none are enough, those with which most are, if they add 1 % of all touches to cheaper ones.                 docs/decisions/travel.md
 /// @param factor  of K_T(0)  @param travel  m  @param tried  by cost. Seconds to a minute.
 [[nodiscard]] TravelOrders ordersFor(double travel, const DomainCriteria& criteria, const SolverSetup& setup,
                                      const Cholesky& factor, const BuildOptions& options,

@@ -63,7 +63,7 @@ export class App implements LineListener {
   readonly panel: Panel;
   private readonly flags = new RecentFlags();
   private readonly vibration = new Vibration();
-  private readonly modelFiles = new ModelFiles((file) => this.line.open({ model: file }), (text) => this.notice(text));
+  private readonly modelFiles = new ModelFiles((file) => this.open(file), (text) => this.notice(text));
   private readonly keeping = new Keeping(() => this.hand.pressing, (why) => (this.panel.kept = why));
 
   constructor() {
@@ -115,6 +115,11 @@ export class App implements LineListener {
     }
   }
 
+  private open(file: File): void {
+    this.keeping.forget();
+    this.line.open({ model: file });
+  }
+
   link(open: boolean, text: string): void {
     this.lineOpen = open;
     if (open) return this.askRate();
@@ -163,7 +168,9 @@ export class App implements LineListener {
   private announced(message: Said): void {
     this.setTip(numberIn(message, 'tip_radius'));
     this.regionList.announce(message);
-    setText(element('certificate', HTMLParagraphElement), String(message['certificate'] ?? ''));
+    const certificate = element('certificate', HTMLParagraphElement);
+    setText(certificate, String(message['certificate'] ?? ''));
+    certificate.hidden = certificate.textContent === '';
   }
 
   private setTip(radius: number): void {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 const LEAST_SAMPLES = 59; // docs/design.md, Certificate
+const MOST_BYTES = 65536; // of a certificate in a model file
+const UNKNOWN = 'not certified: the certificate in the file has a form that this page does not know';
 
 const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {});
 
@@ -9,28 +11,41 @@ function within(value: unknown, least: number, most: number): number {
   return value;
 }
 
-const bound = (error: unknown): number => within(asRecord(error)['bound_95_95'], 0, Number.MAX_VALUE);
+/** Nothing where the certificate claims none. @throws Error */
+function boundOf(error: unknown): number | undefined {
+  const bound = error === null ? null : asRecord(error)['bound_95_95'];
+  return bound === null ? undefined : within(bound, 0, Number.MAX_VALUE);
+}
+
 const percent = (share: number, digits: number): string => (100 * share).toFixed(digits);
 
 /** @throws Error  where it has no such form */
 function lineOf(c: Record<string, unknown>): string {
-  const reach = `${Number((1000 * within(c['travel'], Number.MIN_VALUE, 1)).toPrecision(4))} mm`;
   const samples = within(c['samples'], 0, 2e6);
-  if (samples < LEAST_SAMPLES) return `not certified for touches to ${reach}: ${samples} samples, a bound takes ${LEAST_SAMPLES}`;
-  const [force, field] = [bound(c['force_error']), bound(c['field_error'])].map((share) => percent(share, 2));
-  const domain = percent(within(c['certified_area_fraction'], 0, 1), 0);
-  return `certified to ${reach}: force within ${force} %, field within ${field} % (95 % of touches in the domain, 95 % confidence), ${domain} % of touches are in it`;
+  const reach = Number((1000 * within(c['travel'], Number.MIN_VALUE, 1)).toPrecision(4));
+  const share = within(c['certified_area_fraction'], 0, 1);
+  const [force, field] = [boundOf(c['force_error']), boundOf(c['field_error'])];
+  const bounds = samples >= LEAST_SAMPLES;
+  if (!Number.isInteger(samples) || (force !== undefined) !== bounds || (field !== undefined) !== bounds)
+    throw new Error('bounds that do not go with its samples');
+  if (force === undefined || field === undefined)
+    return `not certified for touches to ${reach} mm: ${samples} samples in the domain, a bound takes ${LEAST_SAMPLES}`;
+  return (
+    `certified for touches to ${reach} mm: of touches in the domain, 95 % are within ${percent(force, 2)} % in force and 95 % ` +
+    `within ${percent(field, 2)} % in field, each with 95 % confidence; ${percent(share, 1)} % of touches are in the domain`
+  );
 }
 
 /**
- * What a model's certificate says, in one line for people; palpate-inspect says it at length (tools/program/certificate_line.h).
+ * What a model's certificate says, in one line for people: the words of tools/program/certificate_line.cpp.
  * @param certificate  attribute of the model file, any text; empty: it has none
  */
 export function certificateLine(certificate: string): string {
-  if (!certificate) return 'not certified';
+  if (!certificate) return 'not certified: the model file does not state how far its answers are off';
+  if (new TextEncoder().encode(certificate).length > MOST_BYTES) return UNKNOWN;
   try {
     return lineOf(asRecord(JSON.parse(certificate)));
   } catch {
-    return 'not certified: the certificate in the file has a form that this page does not know';
+    return UNKNOWN;
   }
 }

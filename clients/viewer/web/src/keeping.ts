@@ -24,6 +24,11 @@ export class Keeping {
     this.wanted = model;
   }
 
+  /** Another file is opened: the named one is not kept. */
+  forget(): void {
+    this.wanted = undefined;
+  }
+
   organCame(): void {
     const { wanted } = this;
     this.wanted = undefined;

@@ -189,7 +189,7 @@ export class OrganHost {
   }
 
   private frame(nowMs: number): void {
-    this.nextFrameMs = Math.max(this.nextFrameMs + this.frameMs, nowMs - this.frameMs); // one that was late is made up for
+    this.nextFrameMs = Math.max(this.nextFrameMs + this.frameMs, nowMs - this.frameMs); // after a late frame the next comes sooner
     this.unshown = false;
     const u = this.organ.surface();
     if (u) ++this.fields.count;

@@ -77,14 +77,20 @@ test('the flags are those of the IDL', () => {
   assert.deepEqual(flagWords(1 | 32).map(({ words }) => words), ['force held at its limit']);
 });
 
-test('a certificate is one line, and what is none is said', () => {
+test('a certificate is one line, and a bad one is named', () => {
   const good = { samples: 60, travel: 0.007, certified_area_fraction: 0.787, force_error: { bound_95_95: 0.00223 }, field_error: { bound_95_95: 0.00778 } };
   const line = (changed: object): string => certificateLine(JSON.stringify({ ...good, ...changed }));
-  assert.equal(line({}), 'certified to 7 mm: force within 0.22 %, field within 0.78 % (95 % of touches in the domain, 95 % confidence), 79 % of touches are in it');
-  assert.equal(line({ samples: 6, force_error: null }), 'not certified for touches to 7 mm: 6 samples, a bound takes 59');
-  assert.equal(certificateLine(''), 'not certified');
-  for (const wrong of ['{', '[]', JSON.stringify({ ...good, travel: 2 }), JSON.stringify({ ...good, field_error: { bound_95_95: null } })])
-    assert.match(certificateLine(wrong), /^not certified: the certificate in the file has a form/);
+  assert.equal(
+    line({}),
+    'certified for touches to 7 mm: of touches in the domain, 95 % are within 0.22 % in force and 95 % within 0.78 % in field, ' +
+      'each with 95 % confidence; 78.7 % of touches are in the domain',
+  );
+  const few = { samples: 6, force_error: null, field_error: { bound_95_95: null } };
+  assert.equal(line(few), 'not certified for touches to 7 mm: 6 samples in the domain, a bound takes 59');
+  assert.equal(certificateLine(''), 'not certified: the model file does not state how far its answers are off');
+  const wrong = [{ travel: 2 }, { samples: 60.5 }, { samples: 6 }, { field_error: null }, { certified_area_fraction: undefined }];
+  for (const text of ['{', '[]', 'null', ' '.repeat(65536) + line({}), ...wrong.map((changed) => JSON.stringify({ ...good, ...changed }))])
+    assert.match(certificateLine(text), /^not certified: the certificate in the file has a form/);
 });
 
 test('a tool that nobody holds is no news', () => {

@@ -4,12 +4,14 @@
 page, pictures be whole SVGs with a text beside them, no text be missing, and nothing be loaded from elsewhere."""
 import base64
 import html.parser
+import re
 import sys
 import xml.etree.ElementTree
 
 TEXTS = {"title", "h1", "h2", "h3", "p", "li", "th", "td", "caption", "figcaption", "pre", "code"}
 VOID = {"meta", "link", "img", "br", "hr", "input"}
 PICTURE = "data:image/svg+xml;base64,"
+NO_NUMBER = re.compile(r"(?<![a-z])(?:nan|inf|NaN|Infinity)(?![a-z])")  # in a path too: "M1.0 nanH3"
 
 
 class Page(html.parser.HTMLParser):
@@ -59,8 +61,12 @@ class Page(html.parser.HTMLParser):
             self.fault(f"a picture is elsewhere: {source[:60]}")
             return
         root = xml.etree.ElementTree.fromstring(base64.b64decode(source[len(PICTURE):], validate=True))
-        if not root.tag.endswith("svg") or "nan" in source:
+        if not root.tag.endswith("svg"):
             self.fault(f"a picture is <{root.tag}>")
+        for element in root.iter():
+            for text in (element.text, element.tail, *element.attrib.values()):
+                for word in NO_NUMBER.findall(text or ""):
+                    self.fault(f"a picture's <{element.tag.rpartition('}')[2]}> has {word}")
 
 
 def main(path):

@@ -136,6 +136,14 @@ TEST(CertifyProgram, RefusesWrongArguments) {
   EXPECT_TRUE(contentOf(box.path) == before);
   const auto none = box.folder / "none.h5";
   expectOneLineError(certify(none, {}), none.string());
+  const auto link = box.folder / "link.h5";
+  std::filesystem::create_symlink(box.path, link);
+  for (const auto& model : {box.path, box.path.parent_path() / "." / box.path.filename(), link}) {
+    const ProgramResult run = certify(box.path, {"--samples", "2", "--plot", model.string()});
+    expectOneLineError(run, "--plot is the model itself, " + model.string() + ": expected another file");
+    EXPECT_THAT(run.err, Not(HasSubstr("full solutions")));
+  }
+  EXPECT_TRUE(contentOf(box.path) == before);
   const auto plot = box.folder / "missing" / "errors.svg";
   const ProgramResult run = certify(box.path, {"--samples", "2", "--plot", plot.string()});
   expectOneLineError(run, "cannot write " + plot.string() + ": No such file or directory");

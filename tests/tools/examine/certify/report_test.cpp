@@ -85,6 +85,13 @@ TEST_F(CertifyReport, TheCheckOfThePageFindsFaults) {
            {"<img src=\"data:", "<img src=\"https:", "a picture is elsewhere"},
            {"alt=\"", "title=\"", "a picture has no text beside it"},
            {"href=\"#mesh\"", "href=\"#mash\"", "link to #mash leads nowhere"},
+           // <svg xmlns="http://www.w3.org/2000/svg"><path d="M1.0 nanH-inf"/></svg>
+           {"src=\"data:image/svg+xml;base64,",
+            "src=\"data:image/"
+            "svg+xml;base64,"
+            "PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciPjxwYXRoIGQ9Ik0xLjAgbmFuSC1pbmYiLz48L3N2Zz4="
+            "\" title=\"",
+            "a picture's <path> has nan"},
            {"<main>", "<main onclick=\"x\">", "runs or loads something"}}) {
     std::string text = page();
     text.replace(text.find(part), std::string(part).size(), other);
@@ -218,7 +225,12 @@ TEST_F(CertifyReport, IsRefusedBeforeAnythingIsSolved) {
     EXPECT_THAT(run.err, Not(HasSubstr("full solutions")));
   };
   const auto taken = model_->folder.write("taken", "");
-  refused({"--report", taken.string()}, "cannot write " + taken.string() + ": it is no folder");
+  refused({"--report", taken.string()}, "cannot write " + taken.string() + ": it is not a folder");
+  const auto dangling = model_->folder.path() / "dangling";
+  std::filesystem::create_symlink(model_->folder.path() / "nowhere", dangling);
+  for (const auto& folder : {dangling, dangling / ""})
+    refused({"--report", folder.string()},
+            "cannot write " + folder.string() + ": it is a link to a folder that is missing");
   const auto deep = model_->folder.path() / "missing" / "report";
   refused({"--report", deep.string()}, "cannot write " + deep.string() + ": No such file or directory");
   refused({"--report", model_->folder.path().string()},

@@ -62,7 +62,7 @@ Coverage coverageOf(const PressedOrgan& organ, const Kind& kind, double confiden
 
 class FitCoverage : public ::testing::TestWithParam<Noise> {};
 
-// Whoever counts 100 curves shall see the modulus inside in 95 or more: the default of 99 % is for that.
+// Of 100 curves, 95 or more hold the modulus: the default of 99 % is for that.
 TEST_P(FitCoverage, TheIntervalHoldsTheModulusAsOftenAsItSays) {
   constexpr int kCurves = 500;
   const PressedOrgan organ;

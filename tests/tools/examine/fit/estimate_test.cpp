@@ -31,6 +31,22 @@ TEST(Estimate, AnExactCurveGivesItsModulusAndWhereContactBegins) {
     }
 }
 
+TEST(Estimate, AbsurdForcesGiveAnAbsurdModulusOrAreRefused) {
+  const double deep = organ().deepest;
+  for (const bool find_offset : {false, true}) {
+    const double offset = find_offset ? 0.1 * deep : 0.0;
+    for (const double scale : {1e-40, 1e20, 1e40}) {
+      const MeasuredCurve curve = organ().curve(9, 0.0, 1.05 * deep, scale, offset);
+      const Estimate found = estimate(curve, organ().press, {.find_offset = find_offset});
+      EXPECT_NEAR(found.scale.value, scale, 1e-7 * scale);
+      EXPECT_NEAR(found.offset.value, offset, 1e-7 * deep);
+    }
+    const MeasuredCurve curve = organ().curve(9, 0.0, 1.05 * deep, 1e200, offset);
+    EXPECT_THAT(errorOf([&] { (void)estimate(curve, organ().press, {.find_offset = find_offset}); }),
+                HasSubstr(", expected at most 1e+100"));
+  }
+}
+
 TEST(Estimate, WithoutAnOffsetContactBeginsAtZero) {
   const MeasuredCurve curve = organ().curve(5, 0.0, organ().deepest, 0.35);
   const Estimate found = estimate(curve, organ().press, {.find_offset = false});

@@ -34,6 +34,17 @@ TEST(MeasuredCurve, OtherColumnsCommentsAndEmptyLinesAreLeftOut) {
       {{0.001, 2.0, 1.0}, {0.003, 4.0, 1.0}});
 }
 
+TEST(MeasuredCurve, NamesOfMoreWordsAreOfOtherColumns) {
+  expectPoints("depth_mm,force_N,depth_rate_mm_s\n1,2,3\n", {{0.001, 2.0, 1.0}});
+  expectPoints("force_filtered_N,depth_mm,force_N\n9,1,2\n", {{0.001, 2.0, 1.0}});
+  expectPoints("depth [mm/s],force_filtered,force [N],depth [mm]\n9,9,2,1\n", {{0.001, 2.0, 1.0}});
+}
+
+TEST(MeasuredCurve, NamesHaveNoCase) {
+  expectPoints("Depth (mm);Force (N)\n1;2\n", {{0.001, 2.0, 1.0}});
+  expectPoints("DEPTH_mm,Force_Error_mN,FORCE_N\n1,5,2\n", {{0.001, 2.0, 0.005}});
+}
+
 TEST(MeasuredCurve, RefusesBySayingWhatStandsWhere) {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"", "curve.csv has no line that names its columns, such as depth_mm,force_N"},
@@ -45,6 +56,10 @@ TEST(MeasuredCurve, RefusesBySayingWhatStandsWhere) {
       {"# a\ndepth_inch,force_N\n",
        "line 2: column 'depth_inch' has the unit 'inch', expected one of m, mm, um"},
       {"depth_mm,force_lbf\n", "column 'force_lbf' has the unit 'lbf', expected one of N, mN, kN"},
+      {"depth_rate_mm,force_N\n", "line 1: no column is named depth with its unit"},
+      {"depth_MM,force_N\n", "column 'depth_MM' has the unit 'MM', expected one of m, mm, um"},
+      {"depth_mm,force_N,force_error_lbf\n", "column 'force_error_lbf' has the unit 'lbf'"},
+      {"Depth (mm),depth_mm,force_N\n", "line 1: two columns are depth: 'Depth (mm)' and 'depth_mm'"},
       {"depth_mm,force_N,depth_m\n", "line 1: two columns are depth: 'depth_mm' and 'depth_m'"},
       {"depth_mm,force_N\n1\n", "line 2: has 1 columns, expected 'force_N' in column 2"},
       {"depth_mm,force_N\n1,nan\n", "line 2: column 'force_N' is 'nan', expected a finite number"},

@@ -162,9 +162,42 @@ TEST(FitProgram, RefusesWrongArguments) {
   expectOneLineError(bench.fit(curve, {"--deepest", "nan"}), "--deepest is nan, expected a finite depth");
   expectOneLineError(bench.fit(curve, {"--deepest", "0.0001"}),
                      "curve.csv has 1 different depths, expected 3");
-  expectOneLineError(bench.fit(curve, {"--write", bench.path.string()}), "--write is the model itself");
-  const auto plot = bench.folder / "missing" / "fit.svg";
-  expectOneLineError(bench.fit(curve, {"--plot", plot.string()}), "cannot write " + plot.string());
+  const auto missing = bench.folder / "missing" / "fit";
+  for (const char* option : {"--plot", "--write"})
+    expectOneLineError(bench.fit(curve, {option, missing.string()}),
+                       "cannot write " + missing.string() + ": No such file or directory");
+}
+
+TEST(FitProgram, ReplacesNothingThatItReads) {
+  const Bench bench;
+  const std::string curve = bench.curve(0.0), model = contentOf(bench.path), readings = contentOf(curve);
+  const auto link = bench.folder / "link";
+  std::filesystem::create_symlink(bench.path, link);
+  for (const std::string option : {"--plot", "--write"}) {
+    for (const auto& file : {bench.path, bench.path.parent_path() / "." / bench.path.filename(), link})
+      expectOneLineError(bench.fit(curve, {option, file.string()}),
+                         option + " is the file of --model, " + file.string() + ": expected another file");
+    expectOneLineError(bench.fit(curve, {option, curve}),
+                       option + " is the file of --measured, " + curve + ": expected another file");
+  }
+  const auto fresh = bench.folder / "fresh";
+  const auto same = bench.path.parent_path() / "." / "fresh";
+  expectOneLineError(bench.fit(curve, {"--plot", fresh.string(), "--write", same.string()}),
+                     "--write is the file of --plot, " + same.string() + ": expected another file");
+  EXPECT_FALSE(std::filesystem::exists(fresh));
+  EXPECT_TRUE(contentOf(bench.path) == model);
+  EXPECT_EQ(contentOf(curve), readings);
+}
+
+TEST(FitProgram, ForcesThatAreAlikeHaveNoRSquared) {
+  const Bench bench;
+  const auto curve =
+      bench.folder.write("flat.csv", "depth_mm,force_N\n1,0.1\n2,0.1\n3,0.1\n4,0.1\n").string();
+  const ProgramResult run = bench.fit(curve, {"--no-offset", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(nlohmann::json::parse(run.out)["r_squared"].is_null());
+  EXPECT_THAT(bench.fit(curve, {"--no-offset"}).out, Not(HasSubstr("R2")));
+  EXPECT_THAT(bench.fit(bench.curve(0.0)).out, HasSubstr("; R2 1.0"));
 }
 
 TEST(FitProgram, RefusesModelsThatAreDrivenByALoad) {

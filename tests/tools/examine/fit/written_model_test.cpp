@@ -92,7 +92,7 @@ TEST(WrittenModel, RefusesAModulusThatLeavesTheNumbers) {
     modelfile::writeScaled(folder / "scaled.h5", box, 1e-60, "{}");
     FAIL() << "no error";
   } catch (const modelfile::ModelFileError& error) {
-    EXPECT_EQ(std::string(error.what()), "/green/near_scale has numbers that are none at this E");
+    EXPECT_EQ(std::string(error.what()), "/green/near_scale has numbers that overflow at this E");
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "scaled.h5"));
 }

@@ -3,70 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "palpate/testing/files.h"
-#include "palpate/testing/run_program.h"
-#include "tools/mesh/box_mesh.h"
+#include "solved_block.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/mesh/read_mesh.h"
-#include "tools/mesh/topology.h"
-#include "tools/mesh/write_msh.h"
 
 namespace palpate {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::ProgramResult;
-using testing::runProgram;
-
-/// A folder with a small block and a case, gone afterwards.
-class SolveProgram : public ::testing::Test {
- protected:
-  SolveProgram() {
-    mesh::TetMesh block = mesh::makeBox({0.06, 0.05, 0.04}, {5, 4, 4});
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(block.nodes.size()); ++node) {
-      const bool held = block.nodes[static_cast<std::size_t>(node)].x() < 1e-9;
-      block.groups[held ? "fixed" : "accessible"].push_back(node);
-    }
-    writeBlock("block.msh", block);
-  }
-
-  void writeBlock(const std::string& name, mesh::TetMesh block) const {
-    const mesh::BoundarySurface boundary = mesh::boundaryOf(block);
-    for (auto& [group, nodes] : block.groups) {
-      std::vector<std::int32_t> kept;
-      std::set_intersection(nodes.begin(), nodes.end(), boundary.nodes.begin(), boundary.nodes.end(),
-                            std::back_inserter(kept));
-      nodes = kept;
-    }
-    mesh::writeMsh(folder_ / name, block, boundary);
-  }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string writeCase(const std::string& rest) const {
-    std::ofstream(folder_ / "case.toml") << "mesh = \"block.msh\"\n" << rest;
-    return path("case.toml");
-  }
-  [[nodiscard]] ProgramResult solve(std::vector<std::string> arguments) const {
-    return runProgram("palpate-solve", std::move(arguments));
-  }
-
-  void expectRefusal(const ProgramResult& result, const std::string& part) const {
-    EXPECT_GT(result.exit_code, 0);
-    EXPECT_TRUE(result.out.empty()) << result.out;
-    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
-    EXPECT_EQ(result.err.rfind("palpate-solve: ", 0), 0U) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
-    EXPECT_FALSE(fs::exists(folder_ / "out.h5"));
-    for (const auto& entry : fs::directory_iterator(folder_.path()))
-      EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry.path();
-  }
-
-  const testing::TemporaryFolder folder_;
-};
 
 TEST_F(SolveProgram, MakesAModelThatInspectReads) {
   const ProgramResult result =
@@ -137,118 +82,6 @@ TEST_F(SolveProgram, SaysHowStiffTheMeshIs) {
   fs::remove(folder_ / "out.h5");
   expectRefusal(solve({path("block.msh"), "--mesh-error", "--method", "series-force", "-o", path("out.h5")}),
                 "mesh.error has no effect");
-}
-
-TEST_F(SolveProgram, SaysHowMuchOfTheSurfaceReachesATravel) {
-  const auto solved = [&](const std::string& travel, bool warned) {
-    const ProgramResult result = solve({path("block.msh"), "--travel", travel, "--modes", "20",
-                                        "--element-order", "1", "-o", path("out.h5"), "-q", "--json"});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_NE(result.err.find("are within d_max at 16 places, by degrees of field and force (3, 6)"),
-              std::string::npos)
-        << result.err;
-    EXPECT_EQ(result.err.find("warning: of touches of up to") != std::string::npos, warned) << result.err;
-    return nlohmann::json::parse(result.out);
-  };
-  const auto summary = solved("0.03", true), near = solved("0.0005", false);
-  EXPECT_EQ(summary.at("travel").at("travel"), 0.03);
-  EXPECT_EQ(summary.at("travel").at("places"), 16);
-  EXPECT_LT(summary.at("travel").at("touches"), 0.5);
-  EXPECT_EQ(near.at("travel").at("touches"), 1.0);
-  double area = 0.0, touches = 0.0;
-  for (const auto& side : summary.at("sides")) {
-    area += side.at("area_share").get<double>();
-    touches += side.at("area_share").get<double>() * side.at("touches").get<double>();
-  }
-  EXPECT_NEAR(area, 1.0, 1e-12);
-  EXPECT_NEAR(touches, summary.at("travel").at("touches").get<double>(), 1e-12);
-  EXPECT_LT(near.at("order"), summary.at("order"));
-  EXPECT_GT(summary.at("seconds").at("orders"), 0.0);
-  const auto file = nlohmann::json::parse(runProgram("palpate-inspect", {path("out.h5"), "--json"}).out);
-  for (const char* key : {"reach", "domain_radius", "series_radius", "order", "force_order"})
-    EXPECT_EQ(file.at(key), near.at(key)) << key;
-  EXPECT_EQ(file.at("provenance").at("travel"), 0.0005);
-}
-
-TEST_F(SolveProgram, RefusesATravelBeyondEveryDomainRadius) {
-  expectRefusal(solve({path("block.msh"), "--travel", "0.06", "-o", path("out.h5")}), "0.05");
-  expectRefusal(solve({path("block.msh"), "--travel", "0.01", "--order", "3", "-o", path("out.h5")}),
-                "--travel does not go with --order");
-}
-
-TEST_F(SolveProgram, ATravelOrAnOrderReplacesWhatTheCaseSaysOfBoth) {
-  const auto summary = [&](const std::string& keys, const std::string& option, const std::string& value) {
-    const ProgramResult result = solve({writeCase("[model]\nmodes = 20\n" + keys), "--element-order", "1",
-                                        option, value, "-o", path("out.h5"), "-q", "--json"});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return nlohmann::json::parse(result.out);
-  };
-  const auto travelled = summary("order = 4\nforce_order = 8\n", "--travel", "0.0005");
-  EXPECT_EQ(travelled.at("order"), 3);
-  EXPECT_EQ(travelled.at("force_order"), 6);
-  EXPECT_TRUE(travelled.contains("travel"));
-  EXPECT_EQ(summary("order = 4\nforce_order = 8\n", "--order", "2").at("force_order"), 4);
-  const auto ordered = summary("[target]\ntravel = 0.0005\n", "--order", "2");
-  EXPECT_EQ(ordered.at("order"), 2);
-  EXPECT_FALSE(ordered.contains("travel"));
-}
-
-TEST_F(SolveProgram, SaysWhatItChoseAndWhy) {
-  const auto summary = [&](const std::string& keys, std::vector<std::string> options) {
-    options.insert(options.begin(), {writeCase(keys), "--element-order", "1"});
-    options.insert(options.end(), {"-o", path("out.h5"), "-q", "--json"});
-    const ProgramResult result = solve(options);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return nlohmann::json::parse(result.out);
-  };
-  const auto chosen = summary("", {"--travel", "0.001", "--field-error", "0.03"});
-  const auto given = summary("[model]\nnear_radius = 0.02\n", {"--order", "2", "--modes", "20"});
-  const auto why = [](const nlohmann::json& s, const char* key) {
-    return s.at("chosen").at(key).at("why").get<std::string>();
-  };
-  for (const char* key : {"order", "force_order", "modes", "near_radius"}) {
-    EXPECT_NE(why(chosen, key), "given") << key;
-    EXPECT_EQ(why(given, key), "given") << key;
-  }
-  EXPECT_FALSE(why(chosen, "mid_edges").empty());
-  EXPECT_EQ(chosen.at("chosen").at("order").at("value"), chosen.at("order"));
-  EXPECT_EQ(chosen.at("chosen").at("modes").at("value"), chosen.at("modes"));
-  EXPECT_EQ(chosen.at("positions").at("corners"), chosen.at("contact_positions"));
-  EXPECT_EQ(chosen.at("positions").at("mid_edges"), chosen.at("chosen").at("mid_edges").at("value"));
-  EXPECT_LE(chosen.at("fit_p95"), 0.03);
-  EXPECT_EQ(given.at("near_radius"), 0.02);
-  EXPECT_FALSE(given.contains("travel"));
-  fs::remove(folder_ / "out.h5");
-  expectRefusal(solve({path("block.msh"), "--field-error", "0.02", "--modes", "9", "-o", path("out.h5")}),
-                "--field-error does not go with --modes");
-}
-
-TEST_F(SolveProgram, ADryRunCountsWhatTheSolveTakes) {
-  const std::vector<std::string> about{path("block.msh"),
-                                       "--element-order",
-                                       "1",
-                                       "--travel",
-                                       "0.001",
-                                       "--modes",
-                                       "20",
-                                       "-o",
-                                       path("dry.h5"),
-                                       "-q",
-                                       "--json"};
-  std::vector<std::string> dry = about;
-  dry.push_back("--dry-run");
-  const ProgramResult found = solve(dry);
-  ASSERT_EQ(found.exit_code, 0) << found.err;
-  EXPECT_FALSE(std::filesystem::exists(path("dry.h5")));
-  const auto estimate = nlohmann::json::parse(found.out);
-  const auto summary = nlohmann::json::parse(solve(about).out);
-  EXPECT_EQ(estimate.at("order"), summary.at("order"));
-  EXPECT_EQ(estimate.at("modes"), 20);
-  EXPECT_NEAR(estimate.at("file_bytes").get<double>() / summary.at("file_bytes").get<double>(), 1.0, 0.3);
-  EXPECT_GT(estimate.at("seconds").at("total"), 0.0);
-  EXPECT_GT(estimate.at("memory_bytes"), 1e6);
-  expectRefusal(solve({path("block.msh"), "--dry-run", "--method", "series-force", "-o", path("dry.h5")}),
-                "--dry-run is for method series-displacement");
 }
 
 TEST_F(SolveProgram, WarnsOfPatchesThatAreNarrowForTheMesh) {
@@ -348,15 +181,6 @@ TEST_F(SolveProgram, RefusesAPatchThatReachesNoNeighbour) {
 TEST_F(SolveProgram, RefusesAPatchAsWideAsTheOrgan) {
   expectRefusal(solve({writeCase("[model]\npatch_radius = 0.5\n"), "-o", path("out.h5")}),
                 "model.patch_radius = 0.5 m");
-}
-TEST_F(SolveProgram, RefusesATargetOrASizeThatThereIsNot) {
-  const auto refuses = [this](std::vector<std::string> options, const std::string& part) {
-    options.insert(options.begin(), {path("block.msh"), "-o", path("out.h5")});
-    expectRefusal(solve(options), part);
-  };
-  refuses({"--target", "phone"}, "--target phone is not known (known: server, handheld)");
-  refuses({"--target", "handheld", "--size-limit", "1000"}, "--size-limit: Value 1000 not in range");
-  refuses({"--size-limit", "8e6"}, "model.size_limit does not go with model.target = \"server\"");
 }
 TEST_F(SolveProgram, RefusesAnUnknownOption) {
   expectRefusal(solve({path("block.msh"), "--bogus"}), "--bogus");

@@ -30,7 +30,7 @@ struct ForceCurve {
 };
 
 /// At the node of median stiffness straight in, and at the touch whose force is off most, in its direction. Quarters of the
-/// travel are solved in full, and the length of that touch. A place that there is not is left out. Takes a second or so for
+/// travel are solved in full, and the length of that touch. A missing place is left out. Takes a second or so for
 /// each of nine solutions.
 /// @param travel  m  @throw query::QueryError, std::runtime_error
 [[nodiscard]] std::vector<ForceCurve> forceCurves(const MetaModel& model, const query::Organ& organ,

@@ -22,6 +22,6 @@ inline constexpr std::array<HeldByTests, 4> kHeldByTests{
       "1.0 and 1.5 % too stiff at nu = 0.3 and 0.48", "docs/measured.md",
       "build/release/tests/solver_half_space_test"},
      {"1000 closed paths of a held tool: work over the largest stored energy", "-2.9e-7 to 8.9e-7",
-      "docs/measured.md", "palpate-feel loops MODEL"}}};
+      "docs/measured.md", "build/release/bin/palpate-feel loops MODEL"}}};
 
 }  // namespace palpate::certify

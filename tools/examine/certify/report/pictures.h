@@ -11,7 +11,7 @@ namespace palpate::certify {
 /// A picture of the report.
 struct Figure {
   std::string svg;
-  std::string alternative;  ///< for who does not see it
+  std::string alternative;  ///< for readers who cannot see it
   std::string caption;
 };
 

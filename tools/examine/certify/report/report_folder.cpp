@@ -27,10 +27,12 @@ ReportFolder::ReportFolder(std::filesystem::path folder) : folder_(std::move(fol
   if (!std::filesystem::exists(status)) {
     // "folder/" is the folder too.
     const auto absolute = std::filesystem::absolute(folder_ / "").parent_path();
+    if (std::filesystem::is_symlink(std::filesystem::symlink_status(absolute, error)))
+      throw program::WriteError(folder_, "it is a link to a folder that is missing");
     requireAccess(absolute.parent_path(), folder_);
     return;
   }
-  if (!std::filesystem::is_directory(status)) throw program::WriteError(folder_, "it is no folder");
+  if (!std::filesystem::is_directory(status)) throw program::WriteError(folder_, "it is not a folder");
   requireAccess(folder_, folder_);
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();

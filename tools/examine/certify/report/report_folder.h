@@ -10,7 +10,7 @@ namespace palpate::certify {
 class ReportFolder {
  public:
   /// Checks it before the hours that an examination may take; makes nothing yet.
-  /// @throw program::WriteError  it is a file, cannot be written or made, or holds other files
+  /// @throw program::WriteError  it is a file or a dangling link, cannot be written or made, or holds other files
   explicit ReportFolder(std::filesystem::path folder);
   /// Makes the folder where it is missing. @throw program::WriteError
   void write(const std::string& page, const std::string& content) const;
