@@ -10,6 +10,8 @@ namespace palpate::solver {
 
 namespace {
 
+constexpr double kTooHigh =
+    2.0;  // what an edge misses in its worst direction over what touches do: docs/decisions/domain.md
 constexpr double kSlowest = 0.8;  // of the terms of one degree over those of the last
 
 ModelView surfaceOf(const modelfile::ModelData& data) {
@@ -184,7 +186,6 @@ double EdgeFields::size(const Surplus& own, double r, int degree) const {
 /// Where the degrees beyond an edge's own are estimated to miss the asked part of abs(d): they go on as the last two do.
 /// @param cap  m  @return m, at most cap
 double EdgeFields::radius(const Surplus& own, double cap, double error) const {
-  constexpr double kTooHigh = 2.0;  // the estimate over what touches miss: docs/decisions/domain.md
   const int p = basis_.order();
   const double last = size(own, 1.0, p), unit = data_.attributes.reference_displacement;
   if (last == 0.0) return cap;
@@ -198,7 +199,6 @@ double EdgeFields::radius(const Surplus& own, double cap, double error) const {
 /// Where the mixture of the positions' forces misses the asked part of the edge's own force, in any of 26 directions: its
 /// degrees two and three, and those beyond as these two go on. @return m, at most d_max of its ends
 double EdgeFields::forceRadius(const SeriesSolver& series, int lane, std::size_t edge, double error) const {
-  constexpr double kTooHigh = 1.5;  // of the worst direction over others: docs/decisions/domain.md
   const auto [one, other] = ends(edge);
   const double unit = data_.attributes.reference_displacement;
   const auto count = static_cast<std::size_t>(basis_.size());
