@@ -3,9 +3,9 @@
 
 #include "palpate/client/time_summary.h"
 #include "palpate/report/program.h"
-#include "tools/program/svg_plot.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
+#include "tools/program/svg_plot.h"
 
 namespace palpate::latency {
 namespace {

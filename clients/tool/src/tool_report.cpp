@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "palpate/report/program.h"
-#include "tools/program/svg_plot.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
+#include "tools/program/svg_plot.h"
 
 namespace palpate::tool {
 namespace {
