@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/displacement_builder.h"
@@ -85,12 +86,21 @@ bool DisplacementBuilder::widenNear() {
   if (report_.fit_p95 <= report_.fit_asked || report_.fit_asked == 0.0 || case_.near_radius ||
       wider > kWidestNearField * setup_.patch_radius)
     return false;
-  const double growth = std::pow(kWider, 2);  // of their nodes, about
-  if (growth * (nearBytes(near_, basis_.size()) + nearBytes(near_loaded_, 3)) > kMostNearBytes) return false;
-  near_radius_ = wider;
+  const double usual = std::exchange(near_radius_, wider);
   near_ = nearOf(setup_.positions.nodes);
   near_loaded_ = nearOf(loaded_);
-  return true;
+  try {
+    checkNear();
+    Estimate more = sizes();
+    more.scratch = 0.0;  // it is there already
+    requireRoom(more, case_, options_, options_.output);
+    return true;
+  } catch (const CaseError&) {  // what is there is kept, and its error told
+    near_radius_ = usual;
+    near_ = nearOf(setup_.positions.nodes);
+    near_loaded_ = nearOf(loaded_);
+    return false;
+  }
 }
 
 /// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.

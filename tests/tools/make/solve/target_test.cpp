@@ -93,6 +93,21 @@ TEST_F(SolveTarget, SaysWhatItChoseAndWhy) {
                 "--field-error does not go with --modes");
 }
 
+TEST_F(SolveTarget, AModelWithoutEdgesDoesNotTrustItselfFurtherThanOneWithThem) {
+  const auto summary = [&](const std::string& option, const std::string& value) {
+    const ProgramResult result =
+        solve({writeCase("[model]\nmodes = 20\npatch_radius = 0.008\n"), "--element-order", "1", option,
+               value, "-o", path("out.h5"), "-q", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const auto with = summary("--order", "3"), without = summary("--travel", "0.00001");
+  EXPECT_GT(with.at("positions").at("mid_edges"), 0);
+  EXPECT_EQ(without.at("positions").at("mid_edges"), 0);
+  EXPECT_EQ(with.at("order"), without.at("order"));
+  EXPECT_LE(without.at("domain_radius").at("median"), with.at("domain_radius").at("median"));
+}
+
 TEST_F(SolveTarget, ADryRunCountsWhatTheSolveTakes) {
   const std::vector<std::string> about{path("block.msh"),
                                        "--element-order",

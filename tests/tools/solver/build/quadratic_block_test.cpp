@@ -198,6 +198,22 @@ TEST_F(QuadraticBlock, TheDimpleIsTheFieldThere) {
   }
 }
 
+/// Mixing is worst in the middle of an edge, and d_max knows of it.
+TEST_F(QuadraticBlock, AtTheEndOfTheDomainTheMiddlesOfEdgesAreRight) {
+  const MetaModel model = MetaModel::load(world_->file.path());
+  double force = 0.0, field = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    ContactPoint s = anywhere();
+    s.barycentric = {0.0, 0.5, 0.5};
+    const double d_max = model.response().domainRadius(model.surface().mix(s));
+    const BlockModel::Errors errors = world_->compare(model, s, travel(0.999 * d_max));
+    force = std::max(force, errors.force);
+    field = std::max(field, errors.field);
+  }
+  EXPECT_LT(force, 0.015);
+  EXPECT_LT(field, 0.01);
+}
+
 TEST_F(QuadraticBlock, FilesWithOtherFacesAreRefused) {
   const auto refused = [&](const auto& spoil, const std::string& expected) {
     modelfile::ModelData data = world_->data;
