@@ -3,6 +3,7 @@
 # them that link GPL libraries (solver), the library for drivers (library) and what building a driver takes (haptic).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+set(PALPATE_PACKAGED_PREFIX /usr)  # of Debian packages
 set(PALPATE_PACKAGE_programs palpate)
 set(PALPATE_PACKAGE_solver palpate-solver)
 set(PALPATE_PACKAGE_library libpalpate-haptic${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
@@ -61,7 +62,7 @@ function(palpate_install_programs COMPONENT)
   install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${COMPONENT} OPTIONAL)
 endfunction()
 palpate_install_programs(programs palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
-  palpate-viewer palpate-inspect palpate-fit palpate-feel palpate-replay)
+  palpate-list palpate-viewer palpate-inspect palpate-fit palpate-feel palpate-replay)
 # What links Gmsh or CHOLMOD: README.md, Licence.
 palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpate-certify palpate-reproduce)
 
@@ -69,8 +70,24 @@ palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpat
 install(DIRECTORY clients/viewer/web/dist/ DESTINATION ${PALPATE_DATA_DIR}/viewer COMPONENT programs OPTIONAL)
 
 # --- The server as a service
+# The unit names what is installed by its absolute path. `cmake --install --prefix DIR` chooses the prefix, so the unit is made
+# then. cpack installs below a folder of its own: its packages have the prefix that they unpack to.
 configure_file(server/palpate-server.service.in ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/palpate-server.service DESTINATION lib/systemd/system COMPONENT programs)
+install(CODE "
+  set(prefix \${CMAKE_INSTALL_PREFIX})
+  if(prefix MATCHES /_CPack_Packages/)
+    set(prefix ${PALPATE_PACKAGED_PREFIX})
+  endif()
+  get_filename_component(prefix \${prefix} ABSOLUTE)
+  foreach(dir IN ITEMS BINDIR SYSCONFDIR)
+    set(dir_BINDIR ${CMAKE_INSTALL_BINDIR})
+    set(dir_SYSCONFDIR ${CMAKE_INSTALL_SYSCONFDIR})
+    get_filename_component(CMAKE_INSTALL_FULL_\${dir} \${dir_\${dir}} ABSOLUTE BASE_DIR \${prefix})
+  endforeach()
+  configure_file(${CMAKE_CURRENT_SOURCE_DIR}/server/palpate-server.service.in
+    ${CMAKE_CURRENT_BINARY_DIR}/installed/palpate-server.service @ONLY)
+  file(INSTALL ${CMAKE_CURRENT_BINARY_DIR}/installed/palpate-server.service DESTINATION \${CMAKE_INSTALL_PREFIX}/lib/systemd/system)
+" COMPONENT programs)
 install(FILES server/palpate-cpu-latency.rules DESTINATION lib/udev/rules.d
   RENAME 60-palpate-cpu-latency.rules COMPONENT programs)
 install(FILES server/server.toml DESTINATION ${CMAKE_INSTALL_SYSCONFDIR}/palpate COMPONENT programs)

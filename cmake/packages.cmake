@@ -5,7 +5,7 @@ set(CPACK_PACKAGE_VENDOR palpate)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(PALPATE_MAINTAINER "palpate maintainers <maintainers@palpate.invalid>" CACHE STRING "Name and address in Debian packages")
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${PALPATE_MAINTAINER})
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGING_INSTALL_PREFIX ${PALPATE_PACKAGED_PREFIX})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL programs solver library haptic)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
@@ -45,7 +45,7 @@ nonlinear solution, palpate-certify states a model's errors in its file, and
 palpate-reproduce repeats the benchmarks of the paper that the method comes
 from.
 
-These programs link Gmsh and SuiteSparse, so they are distributed under the
+These programs link Gmsh, CGAL and SuiteSparse, so they are distributed under the
 GPL.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${PALPATE_PACKAGE_library})

@@ -25,6 +25,7 @@ set(PALPATE_CORE_SOURCES
   surface/triangle_hit.cpp
   model/clamp_to_length.cpp
   model/contact_dimple.cpp
+  model/contact_radius.cpp
   model/contact_response.cpp
   model/field_evaluation.cpp
   model/fields.cpp

@@ -136,6 +136,9 @@ int run(const Arguments& arguments) {
   if (tool.leftOut() > 0)
     std::printf("%llu forces of another server were left out\n",
                 static_cast<unsigned long long>(tool.leftOut()));
+  if (answered > 0 && tool.nearest() > 0.0)
+    std::printf("the tool never touched the organ: it stayed at least %.3g m from it; poses are in metres\n",
+                tool.nearest());
   std::printf("largest force %.4f N; %ld periods with a force\n", largest, answered);
   return answered > 0 ? 0 : 1;
 }

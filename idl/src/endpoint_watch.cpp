@@ -8,6 +8,7 @@
 #include "palpate/idl/endpoint_fit.h"
 #include "palpate/idl/error.h"
 #include "palpate/idl/printable.h"
+#include "palpate/idl/process_of.h"
 #include "palpate/idl/qos.h"
 #include "palpate/idl/raw.h"
 
@@ -117,24 +118,10 @@ bool EndpointWatch::fitsOneOfOurs(dds_instance_handle_t endpoint, bool writes) c
   });
 }
 
-// Cyclone says it of its participants; of others there is no more than the endpoint's GUID.
+// Of participants that are not Cyclone's there is no more than the endpoint's GUID.
 std::string EndpointWatch::owner(dds_instance_handle_t participant) const {
-  void* sample = nullptr;
-  dds_sample_info_t info;
-  if (dds_read_instance(participants_.handle(), &sample, &info, 1, 1, participant) != 1) return {};
-  const dds_qos_t* qos = static_cast<const dds_builtintopic_participant_t*>(sample)->qos;
-  const auto property = [qos](const char* name) {
-    char* value = nullptr;
-    if (qos == nullptr || !dds_qget_prop(qos, name, &value)) return std::string();
-    const std::string text = printable(value);
-    dds_free(value);
-    return text;
-  };
-  const std::string process = property("__ProcessName"), pid = property("__Pid"),
-                    host = property("__Hostname");
-  dds_return_loan(participants_.handle(), &sample, 1);
-  if (process.empty() && host.empty()) return {};
-  return ", process " + process + " (" + pid + ") on " + host;
+  const std::string process = processOf(participants_.handle(), participant).text();
+  return process.empty() ? "" : ", process " + process;
 }
 
 }  // namespace palpate::dds

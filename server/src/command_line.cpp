@@ -13,6 +13,8 @@
 #include "palpate/server/config_file.h"
 #include "palpate/server/live_limits.h"
 #include "tools/program/command_line.h"
+#include "tools/program/installed.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::server {
 namespace {
@@ -88,7 +90,10 @@ void declareContact(program::Options line, Given& given) {
 
 void declare(program::Options line, Given& given) {
   line.add("--model", &given.model, "Model file made by palpate-solve").valueName("FILE");
-  line.add("--config", &given.config, "Options as TOML, see server/server.toml").valueName("FILE");
+  line.add("--config", &given.config,
+           "Options as TOML; all of them with their defaults: " +
+               program::installedText(PALPATE_CONFIG_FROM_BIN))
+      .valueName("FILE");
   line.add("--record", &given.record, "Record every tick's input and answer in this file, for palpate-replay")
       .valueName("FILE");
   line.add("--domain", &given.domain, "DDS domain, 0 to 230, default 0");
@@ -233,6 +238,7 @@ ServerConfig combine(const Given& given) {
   if (given.record) config.record = *given.record;
   if (given.record && given.record->empty())
     throw ConfigError("--record is empty, expected the path of a file");
+  if (given.record) program::checkOutput("--record", *given.record);
   overwrite(given.domain, config.domain);
   overwrite(given.rate, config.rate);
   overwrite(given.server_id, config.server_id);

@@ -199,7 +199,7 @@ void Events::noteTick(const TickRecord& record, std::int64_t now_ns) {
   for (std::size_t tool = 0; tool < record.flags.size(); ++tool) {
     if (record.seen[tool] == 0) continue;
     if (health_.last.seen[tool] == 0) info("tool " + std::to_string(tool) + ": first pose");
-    noteFlags(tool, record.flags[tool] & ~last_flags_[tool], now_ns);
+    noteFlags(tool, record.flags[tool], now_ns);
     last_flags_[tool] = record.flags[tool];
     health_.recent_flags |= record.flags[tool];
   }
@@ -227,11 +227,18 @@ void Events::notePhase(std::uint32_t phase, std::int64_t now_ns) {
     info("phase lock: poses come unevenly or not at the ticks' rate, ticks keep their phase for a while");
 }
 
-void Events::noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns) {
+// A tool whose poses end while it touches nothing was let go: no force is taken from a hand, so nothing warns of it.
+void Events::noteFlags(std::size_t tool, std::uint32_t flags, std::int64_t now_ns) {
+  const std::uint32_t rising = flags & ~last_flags_[tool];
+  const bool let_go = ((flags | last_flags_[tool]) & (kInContact | kRamping)) == 0;
   for (const StatusFlag& flag : kStatusFlags) {
     if (flag.log == nullptr || (rising & flag.bit) == 0) continue;
-    warn((static_cast<std::uint64_t>(tool) << 32) | flag.bit,
-         "tool " + std::to_string(tool) + ": " + flag.log, now_ns);
+    const std::uint64_t kind = (static_cast<std::uint64_t>(tool) << 32) | flag.bit;
+    const std::string whose = "tool " + std::to_string(tool) + ": ";
+    if (flag.bit != kStalePose || !let_go)
+      warn(kind, whose + flag.log, now_ns);
+    else if (isDue(kind, now_ns))
+      info(whose + "its poses ended while it touched nothing");
   }
 }
 

@@ -11,6 +11,7 @@
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
 #include "tools/program/certificate_line.h"
+#include "tools/program/exit_code.h"
 #include "tools/program/run.h"
 
 namespace palpate::server {
@@ -56,8 +57,9 @@ void logContact(const Facts& facts) {
 
 int serve(int argc, char** argv) {
   // 1. Options.
-  const std::optional<ServerConfig> config = parseCommandLine(argc, argv);
-  if (!config) return 0;
+  std::optional<ServerConfig> config;
+  program::orUsageError([&] { config = parseCommandLine(argc, argv); });
+  if (!config) return program::kDone;
   // 2. Signals wait for us, before any thread exists.
   prepareProcess();
   // before any thread exists too: what is made from here on stays off the tick's CPU.
@@ -74,7 +76,7 @@ int serve(int argc, char** argv) {
   // 6. zero force first, then everything else, the log too.
   server.stop();
   spdlog::info("signal {}: stopped", signal);
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

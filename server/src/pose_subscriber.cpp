@@ -79,16 +79,36 @@ void PoseIntake::acceptStranger(const dds::ToolPose& pose,
   channels_.strangers.write(strangers_);
 }
 
+bool PoseIntake::keepsOut(std::size_t tool, dds::WriterId writer,
+                          std::int64_t arrival_ns) const noexcept PALPATE_NONBLOCKING {
+  const PoseSample& newest = newest_[tool];
+  return newest.received > 0 && owner_[tool] != writer && arrival_ns - newest.arrival_ns <= silence_ns_ &&
+         left_[tool].load(std::memory_order_relaxed) != owner_[tool];
+}
+
+void PoseIntake::left(dds::WriterId writer) noexcept {
+  for (std::size_t tool = 0; tool < left_.size(); ++tool)
+    if (channels_.owners[tool].load(std::memory_order_relaxed) == writer)
+      left_[tool].store(writer, std::memory_order_relaxed);
+}
+
 void PoseIntake::acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
                               std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING {
   PoseSample& newest = newest_[pose.tool_id];
   const bool same_sender = newest.received > 0 && owner_[pose.tool_id] == writer;
-  if (newest.received > 0 && !same_sender && arrival_ns - newest.arrival_ns <= silence_ns_) {
-    ++newest.foreign;
-    newest.foreign_ns = arrival_ns;
-    channels_.poses[pose.tool_id].write(newest);
+  Foreign& foreign = foreign_[pose.tool_id];
+  if (keepsOut(pose.tool_id, writer, arrival_ns)) {
+    ++foreign.count;
+    foreign.last_ns = arrival_ns;
     return;
   }
+  if (same_sender && foreign.count > 0) {
+    newest.foreign += foreign.count;
+    newest.foreign_ns = foreign.last_ns;
+  }
+  foreign = {};
+  const bool at_once = newest.received > 0 && !same_sender && arrival_ns - newest.arrival_ns <= silence_ns_;
+  newest.handed_over += at_once ? 1 : 0;
   owner_[pose.tool_id] = writer;
   channels_.owners[pose.tool_id].store(writer, std::memory_order_relaxed);
   newest.unordered += same_sender && isOutOfOrder(pose, newest) ? 1 : 0;
@@ -110,6 +130,10 @@ void PoseSubscriber::onPoses(dds::ReaderView<dds::ToolPose> reader, void* contex
   const std::size_t count = reader.take(poses, writers);
   const std::int64_t now_ns = rt::monotonicNow();
   for (std::size_t i = 0; i < count; ++i) intake.accept(poses[i], writers[i], now_ns);
+}
+
+void PoseSubscriber::onGone(dds::WriterId writer, void* context) noexcept {
+  static_cast<PoseIntake*>(context)->left(writer);
 }
 
 bool PoseSubscriber::admits(const dds::ToolPose& pose, void* context) noexcept {

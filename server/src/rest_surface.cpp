@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 
+#include "core/model/contact_radius.h"
 #include "palpate/idl/error.h"
 #include "palpate/rt/clock.h"
+#include "tools/program/certificate_line.h"
 
 namespace palpate::server {
 namespace {
@@ -42,6 +44,8 @@ std::vector<dds::Region> regionsOf(const ModelView& view, const std::vector<Regi
 RestSurface::RestSurface(const dds::Participant& participant, const Facts& facts, const MetaModel& model)
     : facts_(facts),
       view_(model.view()),
+      contact_radius_(contactRadius(model)),
+      certificate_(program::certificateLine(model.attributes().certificate)),
       triangles_(view_.surface_triangles.begin(), view_.surface_triangles.end()),
       accessible_(model.accessibleNodes()),
       clamped_(model.clampedNodes()),
@@ -84,6 +88,8 @@ bool RestSurface::write() noexcept {
   dds::lend(mesh.mesh_tags, view_.surface_mesh_tag.data(), view_.surface_mesh_tag.size());
   dds::lend(mesh.clamped, clamped_.data(), clamped_.size());
   dds::lend(mesh.regions, regions_.data(), regions_.size());
+  mesh.contact_radius = contact_radius_;
+  dds::assignText(mesh.certificate, certificate_);
   return writer_.write(mesh);
 }
 

@@ -12,6 +12,9 @@ constexpr int kZeroTicks = 10;
 // How long after its last pose a second publisher is flagged and a stranger answered.
 constexpr std::int64_t kRecent = 50'000'000;  // ns
 
+// Age of the poses of a tool that changes hands, for one tick: the force is zero, and begins from nothing.
+constexpr std::int64_t kLongAgo = 3'600'000'000'000;  // ns, beyond any zero_after
+
 bool isZero(const std::array<double, 3>& force) noexcept PALPATE_NONBLOCKING {
   return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
@@ -57,6 +60,7 @@ void Tick::readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONB
   Ledger& ledger = ledgers_[tool];
   const std::uint64_t known = ledger.pose.received;
   const std::uint64_t unordered = ledger.pose.unordered;
+  const std::uint64_t handed_over = ledger.pose.handed_over;
   (void)channels_.poses[tool].read(ledger.pose);
   ledger.came = ledger.pose.received - known;  // 0 if only a second publisher sent
   if (ledger.came > 0) ledger.superseded += ledger.came - 1;
@@ -64,8 +68,9 @@ void Tick::readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONB
   input.present = seen(tool) ? 1 : 0;
   input.position = ledger.pose.position;
   input.orientation = ledger.pose.orientation;
+  ledger.changed_hands = ledger.pose.handed_over != handed_over;
   // A pose may arrive between the wake-up and here: it is new, not from the future.
-  input.age_ns = std::max<std::int64_t>(0, now_ns - ledger.pose.arrival_ns);
+  input.age_ns = ledger.changed_hands ? kLongAgo : std::max<std::int64_t>(0, now_ns - ledger.pose.arrival_ns);
   input.flags = seen(tool) ? noticed(ledger.pose, unordered, now_ns) : 0;
 }
 
@@ -199,6 +204,7 @@ void Tick::reportTick(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     const bool recent = stranger.flags != 0 && cycle.woke_ns - stranger.arrival_ns <= kRecent;
     record.seen[tool] = seen(tool) || stranger.flags != 0 ? 1 : 0;
     record.flags[tool] = result_.tools[tool].flags | (recent ? stranger.flags : 0);
+    if (ledgers_[tool].changed_hands) record.flags[tool] &= ~kStalePose;  // nobody's poses stopped
   }
   if (!channels_.ticks.push(record)) ++dropped_;
 }

@@ -43,6 +43,31 @@ class Pressed : public ::testing::Test {
   std::int64_t now{1000 * kMs};
 };
 
+TEST(ForceRendererNearest, IsOfAFreeToolTheDistanceToItsAnchor) {
+  ForceRenderer renderer{0.002};
+  EXPECT_EQ(renderer.nearest(), std::numeric_limits<double>::infinity());
+  Answer answer;
+  const auto answered = [&](std::uint64_t seq, const Point& position, const Vec3& anchor) {
+    renderer.sent(seq, position);
+    answer.pose_seq = seq;
+    answer.anchor = anchor;
+    ASSERT_TRUE(renderer.answered(answer));
+  };
+  answered(1, {0.0, 0.0, 60.0}, {0.0, 0.0, 0.05});
+  EXPECT_DOUBLE_EQ(renderer.nearest(), 59.95);
+  answered(2, {0.0, 0.03, 0.09}, {0.0, 0.0, 0.05});
+  EXPECT_DOUBLE_EQ(renderer.nearest(), 0.05);
+  answered(3, {0.0, 0.0, 60.0}, {0.0, 0.0, 0.05});
+  EXPECT_DOUBLE_EQ(renderer.nearest(), 0.05) << "the nearest so far";
+  answer.pose_seq = 1 + 1024 + 3;  // a pose that was not sent
+  answer.anchor = {0.0, 0.0, 60.0};
+  ASSERT_TRUE(renderer.answered(answer));
+  EXPECT_DOUBLE_EQ(renderer.nearest(), 0.05);
+  answer.state = 1;
+  answered(1100, {0.0, 0.0, 0.07}, {0.0, 0.0, 0.05});
+  EXPECT_EQ(renderer.nearest(), 0.0) << "a contact";
+}
+
 TEST_F(Pressed, ComesBackByARampAfterADriverThatDidNotRead) {
   EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).gain, 1.0);
   now += 1000 * kMs;

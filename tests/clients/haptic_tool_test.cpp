@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -30,6 +31,15 @@ TEST(HapticTool, SendsPosesAndReadsTheirForces) {
   EXPECT_EQ(pose.tool_id, 1U);
   EXPECT_EQ(pose.position[2], -0.001);
   EXPECT_EQ(pose.orientation[3], 1.0);
+}
+
+TEST(HapticTool, SaysHowNearItCame) {
+  Server server;
+  HapticTool tool(onTool1());
+  EXPECT_EQ(tool.nearest(), std::numeric_limits<double>::infinity());
+  ASSERT_TRUE(tool.waitForServer(5s));
+  ASSERT_EQ(pressed(server, tool, {0, 0, -0.001}, 0.5).gain, 1.0);
+  EXPECT_EQ(tool.nearest(), 0.0);
 }
 
 TEST(HapticTool, CarriesTheForceOn) {

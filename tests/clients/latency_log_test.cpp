@@ -40,6 +40,56 @@ TEST(LatencyLog, OnlyTheFirstAnswerToAPoseIsARoundTrip) {
   EXPECT_EQ(log.wakeup().max(), 40'000);
 }
 
+TEST(LatencyLog, AStallOfTheServerShowsAsOftenAsPosesWaitedForIt) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  const auto before = answer(1, 1);
+  log.add(before, received(before, 100'000));
+  const auto after = answer(2, 6);  // 2 to 5 were superseded: the server stood still for five periods
+  log.add(after, received(after, 100'000));
+  EXPECT_EQ(log.answeredPoseToForce().count(), 2U);
+  EXPECT_EQ(log.answeredPoseToForce().max(), 100'000) << "the stall does not show here";
+  EXPECT_EQ(log.poseToForce().count(), 6U);
+  EXPECT_EQ(log.poseToForce().max(), 100'000 + 4 * kPeriod);
+}
+
+TEST(LatencyLog, APoseALittleLateIsNotTwo) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  const auto first = answer(1, 1);
+  log.add(first, received(first, 100'000));
+  auto late = answer(2, 2);
+  late.pose_stamp_ns += 7 * kPeriod / 10;
+  log.add(late, received(late, 100'000));
+  EXPECT_EQ(log.poseToForce().count(), 2U);
+  EXPECT_EQ(log.poseToForce().max(), 100'000);
+}
+
+TEST(LatencyLog, PosesWithoutAnAnswerAtTheEndCount) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  const auto only = answer(1, 1);
+  log.add(only, received(only, 100'000));
+  log.record(false);
+  log.finish(only.pose_stamp_ns + 10 * kPeriod);  // nine poses later; the last two may still be on their way
+  EXPECT_EQ(log.poseToForce().count(), 1U + 7U);
+  EXPECT_EQ(log.poseToForce().max(), 9 * kPeriod);
+  LatencyLog silent(kPeriod);
+  silent.finish(kPoseTime);
+  EXPECT_EQ(silent.poseToForce().count(), 0U);
+}
+
+// The stamps come from outside: no answer may keep the receive thread busy for long.
+TEST(LatencyLog, AStampThatCannotBeTrueAddsABoundedNumberOfValues) {
+  LatencyLog log(kPeriod);
+  log.record(true);
+  log.add(answer(1, 1), kPoseTime);
+  auto absurd = answer(2, 2);
+  absurd.pose_stamp_ns = std::numeric_limits<std::int64_t>::max() / 2;
+  log.add(absurd, kPoseTime);
+  EXPECT_LE(log.poseToForce().count(), 100'001U);
+}
+
 TEST(LatencyLog, TheWaitForTheTickIsTakenOutPoseByPose) {
   LatencyLog log(kPeriod);
   log.record(true);

@@ -49,28 +49,63 @@ TEST(Programs, SayWhatTheyWaitForWhenThereIsNoServer) {
   }
 }
 
+TEST(Programs, ParametersWaitsAsTheOthersDo) {
+  const auto result = runProgram("palpate-parameters", onDomain({"--wait", "0.3"}));
+  const std::string domain = "DDS domain " + std::to_string(exclusiveDomain());
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err,
+            "waiting for server 0 on " + domain + "\npalpate-parameters: no server 0 answered on " + domain +
+                " within 0.30 s; is palpate-server running there, and does CYCLONEDDS_URI name the same "
+                "network?\n");
+}
+
 TEST(Programs, RefuseBadOptionsByName) {
   const auto script = runProgram("palpate-tool", {"--script", "dance"});
-  EXPECT_NE(script.exit_code, 0);
+  EXPECT_EQ(script.exit_code, 2);
   EXPECT_NE(script.err.find("--script"), std::string::npos);
   const auto depth = runProgram("palpate-tool", {"--depth", "5"});
-  EXPECT_EQ(depth.exit_code, 1);
-  EXPECT_EQ(depth.err, "palpate-tool: depth (m) is 5, expected above 0 and at most 0.05\n");
+  EXPECT_EQ(depth.exit_code, 2);
+  EXPECT_EQ(depth.err,
+            "palpate-tool: --depth: 5 is out of range, expected 1e-06 to 0.05 m (--help tells more)\n");
+  const auto dept = runProgram("palpate-tool", {"--dept", "0.003"});
+  EXPECT_EQ(dept.exit_code, 2);
+  EXPECT_EQ(dept.err, "palpate-tool: unknown option --dept: did you mean --depth?\n");
   const auto at = runProgram("palpate-latency", {"--at", "1,2"});
-  EXPECT_EQ(at.exit_code, 1);
+  EXPECT_EQ(at.exit_code, 2);
   EXPECT_EQ(at.err, "palpate-latency: --at is '1,2', expected three finite numbers x,y,z\n");
   const auto hand = runProgram("palpate-device", {"--hand", "0.1,2,0"});
-  EXPECT_EQ(hand.exit_code, 1);
-  EXPECT_EQ(hand.err, "palpate-device: hand stiffness (N/m) is 0, expected 1 to 100000\n");
+  EXPECT_EQ(hand.exit_code, 2);
+  EXPECT_EQ(hand.err, "palpate-device: --hand: hand stiffness (N/m) is 0, expected 1 to 100000\n");
   const auto seconds = runProgram("palpate-device", {"--motion", "drag", "--seconds", "2"});
-  EXPECT_EQ(seconds.exit_code, 1);
-  EXPECT_EQ(seconds.err, "palpate-device: seconds is 2, expected 3.2 to 3600\n");
+  EXPECT_EQ(seconds.exit_code, 2);
+  EXPECT_EQ(seconds.err, "palpate-device: --seconds is 2, expected 3.2 to 3600\n");
   const auto preset = runProgram("palpate-device", {"--preset", "falcon"});
-  EXPECT_NE(preset.exit_code, 0);
+  EXPECT_EQ(preset.exit_code, 2);
   EXPECT_NE(preset.err.find("--preset"), std::string::npos);
   const auto vtk = runProgram("palpate-watch", {"--vtk", "field.stl"});
-  EXPECT_EQ(vtk.exit_code, 1);
+  EXPECT_EQ(vtk.exit_code, 2);
   EXPECT_EQ(vtk.err, "palpate-watch: cannot write field.stl: expected a name that ends in .vtu or .vtk\n");
+}
+
+// --wait is long: a program that looked for a server first would not end in time.
+TEST(Programs, RefuseAPlaceThatCannotBeWrittenBeforeTheyLookForAServer) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const char* program, const std::string& option,
+                           const std::filesystem::path& place) {
+    const auto result = runProgram(program, onDomain({option, place.string(), "--wait", "3600"}));
+    EXPECT_EQ(result.exit_code, 2) << program;
+    return result.err;
+  };
+  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-device"}) {
+    EXPECT_EQ(
+        refused(program, "--plot", "/nonexistent/x.svg"),
+        std::string(program) + ": --plot: cannot write /nonexistent/x.svg: No such file or directory\n");
+    EXPECT_EQ(refused(program, "--plot", folder.path()), std::string(program) + ": --plot: cannot write " +
+                                                             folder.path().string() + ": Is a directory\n");
+  }
+  EXPECT_EQ(refused("palpate-watch", "--vtk", "/nonexistent/x.vtu"),
+            "palpate-watch: --vtk: cannot write /nonexistent/x.vtu: No such file or directory\n");
 }
 
 TEST(Tool, PressFeelsTheSpring) {
@@ -122,6 +157,41 @@ TEST(Tool, PressesBesideAndComparesBoth) {
   const auto wrong = runProgram("palpate-tool", {"--beside", "1,2"});
   EXPECT_NE(wrong.exit_code, 0);
   EXPECT_NE(wrong.err.find("--beside"), std::string::npos) << wrong.err;
+}
+
+TEST(Programs, RefuseAPlaceOffTheOrganAndSuspectTheUnit) {
+  const FakeServer server(exclusiveDomain(), {});
+  for (const char* program : {"palpate-tool", "palpate-latency", "palpate-device"}) {
+    const auto far = runProgram(program, onDomain({"--at", "9,9,9"}));
+    EXPECT_EQ(far.exit_code, 2) << program;
+    EXPECT_EQ(far.out, "") << program;
+    EXPECT_NE(far.err.find(": --at 9,9,9 m lies 15.47 m from the organ's surface, expected at most 6 mm"),
+              std::string::npos)
+        << far.err;
+    const auto slip = runProgram(program, onDomain({"--at", "50,50,52"}));
+    EXPECT_EQ(slip.exit_code, 2) << program;
+    EXPECT_NE(slip.err.find("in millimetres it would lie 2 mm from the organ's surface: give metres"),
+              std::string::npos)
+        << slip.err;
+  }
+}
+
+TEST(Tool, SaysHowFarThePlaceIsFromTheOrgan) {
+  const FakeServer server(exclusiveDomain(), {});
+  const auto result = runProgram("palpate-tool", onDomain({"--at", "0.05,0.05,0.052", "--seconds", "0.5"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("--at lies 2 mm from the organ's surface\n"), std::string::npos) << result.err;
+}
+
+TEST(Tool, FailsWhenItNeverTouchesTheOrgan) {
+  const FakeServer server(exclusiveDomain(), {.tip_radius = 0.0});
+  const auto result =
+      runProgram("palpate-tool", onDomain({"--tip-radius", "0.02", "--depth", "0.003", "--seconds", "0.5"}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("palpate-tool: the tool never touched the organ: its centre stayed at least 17"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find(" mm from the surface; poses are in metres\n"), std::string::npos) << result.err;
 }
 
 TEST(Tool, ForcesOfAnotherServerAreLeftOutAndToldByName) {
@@ -183,12 +253,40 @@ TEST(Device, AWallThatIsTooStiffForItsHandIsCalledUnstable) {
   const auto result =
       runProgram("palpate-device", onDomain({"--preset", "custom", "--mass", "0.05", "--hand", "0.02,0.5,50",
                                              "--motion", "press", "--seconds", "2.5", "--json"}));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_EQ(result.exit_code, 3) << result.err;
   const json report = json::parse(result.out);
   EXPECT_FALSE(report["stable"]);
   EXPECT_GT(report["oscillation_pp_m"].get<double>(),
             2.0 * report["oscillation_without_organ_pp_m"].get<double>());
   EXPECT_LT(report["energy_net_J"].get<double>(), 0.0) << "and gives energy that nobody put in";
+}
+
+// A spring k that answers a period later gives k 1.5 ms v^2, as a damping of -0.45 N s/m; hand and device have 2.
+TEST(Device, ATapIsJudgedByTheEnergyThatItsLagGives) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 300.0});
+  const auto result = runProgram(
+      "palpate-device",
+      onDomain({"--preset", "custom", "--mass", "0.05", "--motion", "tap", "--seconds", "2.5", "--json"}));
+  const json report = json::parse(result.out);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(report["stable"]);
+  EXPECT_TRUE(report["energy"]["holds"]);
+  EXPECT_GE(report["energy"]["contacts"].size(), 4U) << "three taps and the hold";
+  EXPECT_GT(report["energy"]["given_J"].get<double>(), 0.0);
+  EXPECT_LT(report["energy"]["given_J"].get<double>(), 0.5 * report["energy"]["damped_J"].get<double>());
+  EXPECT_NE(result.err.find("as a damping of -0."), std::string::npos) << result.err;
+}
+
+TEST(Device, ATapOnAWallThatGivesMoreThanIsDampedIsUnstable) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 2000.0});
+  const auto result =
+      runProgram("palpate-device", onDomain({"--preset", "custom", "--mass", "0.05", "--hand", "0.02,0.5,50",
+                                             "--motion", "tap", "--seconds", "2.5", "--json"}));
+  ASSERT_EQ(result.exit_code, 3) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_FALSE(report["energy"]["holds"]);
+  EXPECT_FALSE(report["stable"]);
+  EXPECT_NE(result.err.find("more than was damped"), std::string::npos) << result.err;
 }
 
 // Stiff enough that 40 ms without an answer, felt, would throw the tip off; soft enough to stand answers that are always
@@ -209,10 +307,40 @@ TEST(Device, AStallOfTheServerIsWaitedForAndNotFelt) {
 TEST(Device, StopsWhenTheServerLeaves) {
   const FakeServer server(exclusiveDomain(), {.leave_after = 200});
   const auto result = runProgram("palpate-device", onDomain({"--seconds", "60", "--json"}));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_EQ(result.exit_code, 1) << result.err;
   const json report = json::parse(result.out);
   EXPECT_TRUE(report["server_left"]);
   EXPECT_FALSE(report["stable"]) << "what was not seen to the end is not called stable";
+}
+
+TEST(Latency, AnAssertionThatAStallBreaksFailsWithOneLineAndCode3) {
+  const FakeServer server(exclusiveDomain(), {.stall_every = 400});  // 40 ms each
+  const TemporaryFile junit("latency.xml");
+  const auto result =
+      runProgram("palpate-latency", onDomain({"--seconds", "1.5", "--assert", "pose_to_force_us.max<30000",
+                                              "--assert", "received > 100", "--junit", junit.path()}));
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_NE(result.err.find("palpate-latency: assertion failed: pose_to_force_us.max<30000: it is "),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.err.find("received"), std::string::npos) << "what holds is not told: " << result.err;
+  EXPECT_EQ(xmlFault(contentOf(junit.path())), "");
+  EXPECT_NE(contentOf(junit.path()).find("failures=\"1\""), std::string::npos);
+}
+
+TEST(Latency, AssertionsThatHoldEndWithCode0) {
+  const FakeServer server(exclusiveDomain(), {});
+  const auto result =
+      runProgram("palpate-latency", onDomain({"--seconds", "1", "--assert", "received>100", "--assert",
+                                              "answered_pose_to_force_us.count>100"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST(Latency, AnAssertionThatDoesNotReadIsRefusedBeforeAServerIsLookedFor) {
+  const auto result =
+      runProgram("palpate-latency", onDomain({"--wait", "0", "--assert", "pose_to_force.p99<500"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("no figure 'pose_to_force.p99'"), std::string::npos) << result.err;
 }
 
 TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
@@ -225,7 +353,7 @@ TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
   for (const char* key : {"pose_to_force_us", "wakeup_us", "tick_us"})
     for (const char* value : {"p50", "p99", "p999", "max", "count"})
       EXPECT_TRUE(report[key][value].is_number()) << key;
-  EXPECT_TRUE(report["pose_to_field_us"].is_null()) << "no fields were read";
+  EXPECT_EQ(report["pose_to_field_us"]["count"], 0) << "no fields were read";
   EXPECT_NEAR(report["wakeup_us"]["p50"].get<double>(), 50.0, 1.0);
   EXPECT_NEAR(report["tick_us"]["max"].get<double>(), 70.0, 1e-9);
   EXPECT_GT(report["pose_to_force_us"]["p50"].get<double>(), 0.0);

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "palpate/idl/types.h"
+#include "palpate/testing/child_process.h"
 #include "palpate/testing/run_program.h"
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
@@ -53,6 +55,55 @@ TEST(RealServer, PressIsPushedBackAlongTheNormal) {
   EXPECT_FALSE(report["summary"]["server_left"].get<bool>());
 }
 
+// Who drives which tool, and for which device each is set.
+TEST(RealServer, IsListedWithItsOrganItsToolsAndWhoDrivesThem) {
+  const Running server({"--device", "touch", "--tool", "1:device=omni", "--server-id", "3"});
+  const CaughtOutput said;
+  ChildProcess driver(
+      "palpate-tool",
+      {"--tool", "1", "--script", "press", "--seconds", "30", "--wait", "30", "--domain", server.domain},
+      {said.descriptor(), said.descriptor()});
+  json found;
+  for (int i = 0; i < 20 && (found.is_null() || found["publishers"].empty()); ++i) {
+    const auto result = runProgram("palpate-list", {"--json", "--timeout", "1", "--domain", server.domain});
+    ASSERT_TRUE(result.exit_code == 0 || i < 19) << result.err;
+    if (result.exit_code == 0) found = json::parse(result.out);
+  }
+  ASSERT_EQ(found["servers"].size(), 1U) << found;
+  const json& listed = found["servers"][0];
+  EXPECT_EQ(listed["server_id"], 3);
+  ASSERT_EQ(listed["organs"].size(), 1U);
+  EXPECT_GT(listed["organs"][0]["surface_nodes"], 100);
+  EXPECT_EQ(listed["organs"][0]["model_id"], listed["model_id"]);
+  EXPECT_GT(listed["organs"][0]["size_m"][2], 0.01);
+  EXPECT_EQ(listed["tools"][0]["device"], "touch");
+  EXPECT_EQ(listed["tools"][1]["device"], "omni");
+  ASSERT_EQ(found["publishers"].size(), 1U) << found;
+  EXPECT_EQ(found["publishers"][0]["tool_id"], 1);
+  EXPECT_EQ(found["publishers"][0]["process"], "palpate-tool");
+  EXPECT_GT(found["publishers"][0]["rate_hz"], 100.0);
+  driver.signal(SIGINT);
+  EXPECT_EQ(driver.waitForExit(), 0);
+  const auto text = runProgram("palpate-list", {"--timeout", "1", "--domain", server.domain});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_NE(text.out.find("tool 1    omni"), std::string::npos) << text.out;
+}
+
+TEST(RealServer, ADeviceIsToldThatItsToolIsSetForAnother) {
+  const Running server({"--device", "touch", "--tool", "1:device=omni"});
+  const auto notes = [&](const char* preset, const char* tool) {
+    return runProgram("palpate-device", {"--preset", preset, "--tool", tool, "--motion", "press", "--seconds",
+                                         "2", "--wait", "30", "--domain", server.domain})
+        .err;
+  };
+  EXPECT_EQ(notes("omni", "1").find("note: the server is set"), std::string::npos);
+  EXPECT_NE(
+      notes("touch", "1").find("note: the server is set for device 'omni' at tool 1, this is 'touch'\n"),
+      std::string::npos);
+  EXPECT_NE(notes("omni", "0").find("note: the server is set for device 'touch' at tool 0, this is 'omni'\n"),
+            std::string::npos);
+}
+
 TEST(RealServer, ASimulatedDeviceComesToRestOnTheOrgan) {
   const Running server({"--device", "touch"});
   const json report = server.run("palpate-device", {"--preset", "touch", "--hand", "0.1,2,200", "--motion",
@@ -78,6 +129,16 @@ TEST(RealServer, ADriverFromTheTemplateFeelsTheOrgan) {
   ASSERT_EQ(std::sscanf(result.out.c_str(), "largest force %lf N", &largest), 1) << result.out;
   EXPECT_GT(largest, 0.3) << "its fake device goes 5 mm below the top of the organ";
   EXPECT_LE(largest, 3.3 + 1e-4);
+}
+
+TEST(RealServer, ADriverWhosePosesAreInMillimetresIsToldThatItNeverTouched) {
+  const Running server;
+  const auto result = runProgram("palpate-driver-template",
+                                 {"--domain", server.domain, "--origin", "0", "0", "58", "--seconds", "1"});
+  EXPECT_NE(result.out.find(
+                "the tool never touched the organ: it stayed at least 57.9 m from it; poses are in metres\n"),
+            std::string::npos)
+      << result.out << result.err;
 }
 
 TEST(RealServer, AProgramFromTheIdlAloneWithDefaultQosFeelsTheOrgan) {

@@ -18,6 +18,8 @@ struct SmallSurface {
   std::vector<std::uint8_t> clamped{1, 0, 0, 0, 0};
   std::vector<dds::Region> regions;
   std::string model_id{"0123456789abcdef"};
+  double contact_radius{0.006};
+  std::string certificate{"not certified: it is a pyramid"};
 
   [[nodiscard]] dds::SurfaceMesh message() {
     dds::SurfaceMesh mesh{};
@@ -29,6 +31,8 @@ struct SmallSurface {
     mesh.mesh_tags = {size(mesh_tags), size(mesh_tags), mesh_tags.data(), false};
     mesh.clamped = {size(clamped), size(clamped), clamped.data(), false};
     mesh.regions = {size(regions), size(regions), regions.data(), false};
+    mesh.contact_radius = contact_radius;
+    dds::assignText(mesh.certificate, certificate);
     return mesh;
   }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "palpate/client/error.h"
+#include "palpate/client/place.h"
 #include "small_surface.h"
 
 namespace palpate::client {
@@ -95,6 +96,42 @@ TEST(Surface, RejectsRegionsThatAServerMustNotSend) {
   soft.regions[0].youngs_modulus = 0.0;
   EXPECT_EQ(refusal(soft),
             "surface from the server: region 0: youngs_modulus is 0.000000 Pa, expected more than 0");
+}
+
+TEST(Surface, KeepsWhatTheServerSaysOfTheModel) {
+  SmallSurface source;
+  EXPECT_EQ(checkedSurface(source.message()).contact_radius, 0.006);
+  EXPECT_EQ(checkedSurface(source.message()).certificate, "not certified: it is a pyramid");
+  source.certificate = std::string(600, 'x');
+  EXPECT_EQ(checkedSurface(source.message()).certificate.size(), 511U) << "bounded on the wire";
+  source.certificate = "\x1b[31m";
+  EXPECT_EQ(refusal(source), "surface from the server: certificate holds an unprintable character");
+  SmallSurface negative;
+  negative.contact_radius = -1.0;
+  EXPECT_EQ(refusal(negative), "surface from the server: contact_radius is -1.000000 m, expected 0 or more");
+  negative.contact_radius = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(refusal(negative), "surface from the server: contact_radius is inf m, expected 0 or more");
+}
+
+TEST(Place, DistanceIsToTheNearestTriangle) {
+  SmallSurface source;
+  const Surface surface = checkedSurface(source.message());
+  EXPECT_NEAR(distanceTo(surface, {0.05, 0.05, -0.01}), 0.01, 1e-15);  // below the square's middle
+  EXPECT_NEAR(distanceTo(surface, {0.05, 0.05, 0.08}), 0.03, 1e-15);   // above the apex
+  EXPECT_NEAR(distanceTo(surface, {-0.02, 0.05, 0.0}), 0.02, 1e-15);   // beside an edge
+  EXPECT_NEAR(distanceTo(surface, {0.05, 0.02, 0.04}), 0.01 * std::sqrt(2.0),
+              1e-15);  // off a side, which rises by 45 degrees
+  EXPECT_NEAR(distanceTo(surface, {9.0, 9.0, 9.0}), length(device::Point{8.9, 8.9, 9.0}), 1e-12);
+  EXPECT_EQ(distanceTo(surface, surface.positions[2]), 0.0);
+}
+
+TEST(Place, RadiusOfAnOlderServerThatDoesNotSayItIsTheMeanEdge) {
+  SmallSurface source;
+  EXPECT_EQ(contactRadius(checkedSurface(source.message())), 0.006);
+  source.contact_radius = 0.0;
+  const double base = 0.1, diagonal = 0.1 * std::sqrt(2.0), side = std::sqrt(3.0) * 0.05;
+  EXPECT_NEAR(contactRadius(checkedSurface(source.message())), (8 * base + 2 * diagonal + 8 * side) / 18,
+              1e-15);
 }
 
 TEST(Spot, DefaultIsTheHighestNodeWithItsOutwardNormal) {

@@ -19,6 +19,11 @@ BUILD = pathlib.Path(os.environ["PALPATE_BUILD"])
 PACKAGES = {"programs": "palpate", "solver": "palpate-solver", "library": "libpalpate-haptic0.1", "haptic": "libpalpate-haptic-dev"}
 
 
+# Makers of organs, models and answers, whose help other tests hold.
+WITHOUT_EXAMPLE = {"palpate-organ", "palpate-solve", "palpate-query"}
+UNIT = r"\b(m|mm|s|N|Hz|kg|Pa|N/m|N s/m|N/s|m/s|relative|coefficient|share|interval|per second)\b"
+
+
 def run(*command):
     return subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout
 
@@ -97,6 +102,17 @@ class Components(unittest.TestCase):
         for settings in (ROOT / "tools/packaging/palpate/conffiles").read_text().split():
             self.file("palpate", settings)
 
+    def test_unit_has_the_prefix_that_is_chosen_at_the_installation(self):
+        with tempfile.TemporaryDirectory() as stage:
+            run("env", f"DESTDIR={stage}", "cmake", "--install", BUILD, "--component", "programs", "--prefix", "/opt/organ")
+            unit = pathlib.Path(stage + "/opt/organ/lib/systemd/system/palpate-server.service").read_text()
+            command = re.search(r"^ExecStart=(\S+) --config (\S+)", unit, re.M)
+            self.assertEqual(command.group(1), "/opt/organ/bin/palpate-server")
+            for path in command.groups():
+                self.assertTrue(pathlib.Path(stage + path).is_file(), path)
+            # --help names the file beside the program that runs
+            self.assertIn(command.group(2), "".join(run(stage + "/opt/organ/bin/palpate-server", "--help").split()))
+
     @unittest.skipUnless(shutil.which("help2man"), "no man pages without help2man")
     def test_man_pages_hold_every_option(self):
         for program, words, text in self.commands():
@@ -105,6 +121,25 @@ class Components(unittest.TestCase):
                 page = gzip.decompress(page.read_bytes()).decode().replace("\\-", "-")
                 self.assertRegex(page, r"(?m)^\.SH NAME\n" + "-".join([program.name] + words) + " - .{20}")
                 self.assertLessEqual(options_of(text), set(re.findall(r"--[a-z0-9-]+", page)))
+
+    def test_help_ends_with_an_example_and_the_exit_codes(self):
+        for program, words, text in self.commands():
+            with self.subTest(program=program.name, words=words):
+                self.assertRegex(text, r"\nExit codes: 0 done, 1 failed, 2 [^\n]*, 3 [^\n]*\n*\Z")
+                if program.name not in WITHOUT_EXAMPLE:
+                    self.assertRegex(text, r"\nExample: " + " ".join([program.name, *words]) + r"[^\n]*\n")
+
+    def test_help_of_a_number_has_its_unit_and_its_default(self):
+        for program, words, text in self.commands():
+            if program.name in WITHOUT_EXAMPLE:
+                continue
+            for option in re.split(r"\n(?=  -)", text)[1:]:
+                option = " ".join(option.split("\n\n")[0].split())
+                if " FLOAT" not in option:
+                    continue
+                with self.subTest(program=program.name, words=words, option=option):
+                    self.assertRegex(option, UNIT)
+                    self.assertRegex(option, r"=\S|default|leave out|what a client|writes no certificate|new value")
 
     def test_completion_lists_every_option(self):
         for program, words, text in self.commands():

@@ -20,8 +20,24 @@ run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 run(${SCRATCH}/build/consumer_c)
 run(${SCRATCH}/build/consumer_cpp)
 
-# The driver template is a project of its own, and builds by pkg-config too.
+# The template's README as printed: its CMakeLists.txt, and its line without CMake, beside a copy of driver.cpp.
 set(template ${prefix}/share/palpate/driver_template)
+set(printed ${SCRATCH}/printed)
+file(READ ${template}/README.md text)
+foreach(part IN ITEMS cmake sh)
+  if(NOT text MATCHES "```${part}\n([^`]*)\n```")
+    message(FATAL_ERROR "${template}/README.md has no block of ${part}")
+  endif()
+  set(${part} "${CMAKE_MATCH_1}\n")
+endforeach()
+file(COPY ${template}/driver.cpp DESTINATION ${printed})
+file(WRITE ${printed}/CMakeLists.txt "${cmake}")
+file(WRITE ${printed}/build.sh "cd ${printed}\n${sh}")
+run(${CMAKE_COMMAND} -S ${printed} -B ${printed}/build -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_PREFIX_PATH=${prefix})
+run(${CMAKE_COMMAND} --build ${printed}/build)
+run(${printed}/build/my-driver --help)
+
+# The driver template is a project of its own, and builds by pkg-config too.
 run(${CMAKE_COMMAND} -S ${template} -B ${SCRATCH}/template -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/template)
 run(${SCRATCH}/template/palpate-driver-template --help)
@@ -31,6 +47,13 @@ execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc} pkg-config
 separate_arguments(flags)
 run(${CXX_COMPILER} -std=c++17 ${template}/driver.cpp ${flags} -Wl,-rpath,${pc}/.. -o ${SCRATCH}/by_pkg_config)
 run(${SCRATCH}/by_pkg_config --help)
+run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc} sh -e ${printed}/build.sh)
+run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${pc}/.. ${printed}/my-driver --help)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc} pkg-config --modversion palpate-haptic
+  OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+if(NOT version MATCHES "^0[.]1[.]")
+  message(FATAL_ERROR "pkg-config says that palpate-haptic is ${version}")
+endif()
 
 # A newer palpate than there is must not be found.
 file(WRITE ${SCRATCH}/newer/CMakeLists.txt

@@ -42,6 +42,34 @@ struct Senders {
   std::array<WriterId, 3> writer{};
 };
 
+struct Leaving {
+  std::atomic<WriterId> sender{0}, gone{0};
+};
+
+TEST(Callback, TellsWhichWriterIsGone) {
+  const Participant participant(palpate::testing::exclusiveDomain());
+  Leaving leaving;
+  const auto note = [](ReaderView<ToolPose> reader, void* context) noexcept {
+    std::array<ToolPose, 1> pose;
+    std::array<WriterId, kMaxTake> writers;
+    while (reader.take(pose, writers) == 1) static_cast<Leaving*>(context)->sender = writers[0];
+  };
+  const auto gone = [](WriterId writer, void* context) noexcept {
+    static_cast<Leaving*>(context)->gone = writer;
+  };
+  const Reader<ToolPose> reader(participant, note, &leaving, nullptr, gone);
+  {
+    const Participant other(palpate::testing::exclusiveDomain());
+    Writer<ToolPose> writer(other);
+    ASSERT_TRUE(writer.waitForReaders(1, 5s) && reader.waitForWriters(1, 5s));
+    ASSERT_TRUE(writer.write(firstPoseOf(0)));
+    ASSERT_TRUE(eventually([&] { return leaving.sender != 0; }));
+    EXPECT_EQ(leaving.gone, 0U);
+  }
+  EXPECT_TRUE(eventually([&] { return leaving.gone != 0; }));
+  EXPECT_EQ(leaving.gone, leaving.sender);
+}
+
 TEST(Callback, TellsWhichWriterSentASample) {
   const Participant participant(palpate::testing::exclusiveDomain());
   Senders senders;

@@ -98,6 +98,27 @@ TEST_F(EventsTest, AFlagIsLoggedWhenItBeginsAndAtMostOnceASecond) {
   EXPECT_EQ(events_.health().recent_flags, kBeyondDomain | kInContact);
 }
 
+TEST_F(EventsTest, AReleaseIsNoFaultAndAHandThatLosesItsForceIs) {
+  TickRecord record;
+  record.seen[3] = 1;
+  const auto tick = [&](std::uint32_t flags, std::int64_t now_ns) {
+    record.flags[3] = flags;
+    ASSERT_TRUE(channels_->ticks.push(record));
+    events_.drain(now_ns);
+  };
+  tick(kInContact, kSecond);
+  tick(0, kSecond);
+  (void)takeLog();
+  tick(kStalePose, kSecond);  // lifted off, then no more poses
+  EXPECT_EQ(takeLog(), "tool 3: its poses ended while it touched nothing\n");
+  tick(kStalePose, 2 * kSecond);
+  tick(0, 3 * kSecond);
+  EXPECT_EQ(takeLog(), "") << "for as long as nobody holds it";
+  tick(kInContact, 4 * kSecond);
+  tick(kInContact | kStalePose | kRamping, 5 * kSecond);  // a driver that ended while it pressed
+  EXPECT_EQ(takeLog(), "tool 3: no good pose for the stale timeout: force ramps to zero\n");
+}
+
 TEST_F(EventsTest, MissedTicksLostRecordsAndUnknownToolsAreLogged) {
   TickRecord record;
   record.overruns = 3;

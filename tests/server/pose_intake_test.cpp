@@ -93,8 +93,8 @@ TEST_F(PoseIntakeTest, TheFirstPublisherKeepsItsToolWhileItsPosesCome) {
   EXPECT_EQ(sample.seq, 210U);
   EXPECT_EQ(sample.arrival_ns, 200 * kMs) << "a stranger's pose keeps nothing fresh";
   EXPECT_EQ(sample.received, 21U);
-  EXPECT_EQ(sample.foreign, 21U);
-  EXPECT_EQ(sample.foreign_ns, 200 * kMs + 1);
+  EXPECT_EQ(sample.foreign, 20U) << "the last of them may be its next publisher's";
+  EXPECT_EQ(sample.foreign_ns, 190 * kMs + 1);
   EXPECT_EQ(sample.unordered, 0U) << "a stranger's numbers are nobody's order";
 }
 
@@ -107,7 +107,29 @@ TEST_F(PoseIntakeTest, AToolWhosePublisherFellSilentGoesToTheNext) {
   EXPECT_EQ(newest(1).unordered, 0U) << "another sender's numbers start anywhere";
   intake_.accept(pose(1, 11, 0), kSender, 51 * kMs);  // it comes back, and finds the tool taken
   EXPECT_EQ(newest(1).seq, 4U);
-  EXPECT_EQ(newest(1).foreign, 2U);
+  EXPECT_EQ(newest(1).foreign, 0U) << "neither sent between poses of the other";
+  intake_.accept(pose(1, 5, 0), kOther, 52 * kMs);
+  EXPECT_EQ(newest(1).foreign, 1U);
+  EXPECT_EQ(newest(1).handed_over, 0U) << "the force was zero by then";
+}
+
+TEST_F(PoseIntakeTest, AToolWhosePublisherIsGoneGoesToTheNextAtOnce) {
+  intake_.accept(pose(1, 10, 0), kSender, 0);
+  intake_.accept(pose(2, 10, 0), kSender, 0);
+  intake_.accept(pose(1, 3, 0), kOther, 1 * kMs);
+  EXPECT_EQ(newest(1).seq, 10U) << "it is still there";
+  intake_.left(kOther);
+  intake_.accept(pose(1, 4, 0), kOther, 2 * kMs);
+  EXPECT_EQ(newest(1).seq, 10U) << "somebody else left";
+  intake_.left(kSender);
+  intake_.accept(pose(1, 5, 0), kOther, 3 * kMs);
+  EXPECT_EQ(newest(1).seq, 5U);
+  EXPECT_EQ(newest(1).handed_over, 1U);
+  EXPECT_EQ(newest(1).foreign, 0U) << "who takes over is no second publisher";
+  intake_.accept(pose(1, 11, 0), kSender, 4 * kMs);
+  EXPECT_EQ(newest(1).seq, 5U) << "a pose that was on its way";
+  intake_.accept(pose(2, 5, 0), kOther, 5 * kMs);
+  EXPECT_EQ(newest(2).handed_over, 1U) << "all its tools are free";
 }
 
 TEST_F(PoseIntakeTest, HandsOverWhichToolsGetNoForce) {

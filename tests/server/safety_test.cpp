@@ -154,6 +154,24 @@ TEST_F(Safety, ASecondPublisherOfAToolIsFlaggedAndNotUsed) {
   expectAlive();
 }
 
+// The next program sends within the 50 ms in which the server would keep the tool for a publisher that is only late.
+TEST_F(Safety, WhoTakesOverAToolOfAProgramThatEndedIsNoSecondPublisher) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ASSERT_NO_FATAL_FAILURE(press(0.001));
+  TestClient next(domain_, 0);
+  ASSERT_TRUE(next.connect());
+  client_.reset();
+  next.startSending(atDepth(0.001));
+  EXPECT_TRUE(next.waitFor([](const auto& f) {
+                    return (f.flags & dds::flag::kInContact) != 0 && sizeOf(f.force) > 0.1;
+                  })
+                  .has_value());
+  pause(100);
+  for (const dds::ToolForce& force : next.forces()) EXPECT_EQ(force.flags & dds::flag::kTwoPublishers, 0U);
+  EXPECT_EQ(server_->log().find("second publisher"), std::string::npos) << server_->log();
+  next.stopSending();
+}
+
 TEST_F(Safety, AnUnknownToolIsAnsweredWithZeroForce) {
   ASSERT_NO_FATAL_FAILURE(start());
   TestClient stranger(domain_, 4);

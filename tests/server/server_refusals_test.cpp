@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What palpate-server does with what it cannot use: one line on standard error, exit code 1.
+// What palpate-server does with what it cannot use: one line on standard error, exit code 2 for settings, 1 for files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ class ServerRefuses : public ::testing::Test {
   ServerRefuses() { palpate::testing::useLoopback(); }
 
   // The line, without the program's name.
-  std::string refusal(const std::vector<std::string>& arguments) {
+  std::string refusal(const std::vector<std::string>& arguments, int exit_code = 2) {
     ServerProcess server(arguments);
-    EXPECT_EQ(server.waitForExit(), 1);
+    EXPECT_EQ(server.waitForExit(), exit_code);
     const std::string log = server.log();
     const std::string name = "palpate-server: ";
     EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1) << log;
@@ -38,24 +38,24 @@ class ServerRefuses : public ::testing::Test {
 TEST_F(ServerRefuses, ATruncatedModel) {
   palpate::testing::writeSyntheticModel(file_);
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
-  EXPECT_NE(refusal({"--model", file_.string()}).find(file_.string()), std::string::npos);
+  EXPECT_NE(refusal({"--model", file_.string()}, 1).find(file_.string()), std::string::npos);
 }
 
 TEST_F(ServerRefuses, ACertificateThatIsTooLong) {
   modelfile::ModelData data = palpate::testing::syntheticModel({.subdivisions = 1, .modes = 2});
   data.attributes.certificate = std::string(65537, 'x');
   modelfile::writeModel(file_, data);
-  EXPECT_EQ(refusal({"--model", file_.string()}),
+  EXPECT_EQ(refusal({"--model", file_.string()}, 1),
             file_.string() + ": attribute certificate is 65537 bytes, expected at most 65536");
 }
 
 TEST_F(ServerRefuses, AFileThatIsNoModel) {
   std::ofstream(file_) << "not a model";
-  EXPECT_NE(refusal({"--model", file_.string()}).find(file_.string()), std::string::npos);
+  EXPECT_NE(refusal({"--model", file_.string()}, 1).find(file_.string()), std::string::npos);
 }
 
 TEST_F(ServerRefuses, AMissingModel) {
-  EXPECT_NE(refusal({"--model", "/nonexistent.h5"}).find("/nonexistent.h5"), std::string::npos);
+  EXPECT_NE(refusal({"--model", "/nonexistent.h5"}, 1).find("/nonexistent.h5"), std::string::npos);
   EXPECT_EQ(refusal({}), "--model is missing: name a model file here or in --config");
 }
 
@@ -118,7 +118,7 @@ TEST_F(ServerRefuses, LimitsThatCannotBeByName) {
 }
 
 TEST_F(ServerRefuses, WhatItDoesNotKnow) {
-  EXPECT_NE(refusal({"--modle", "m.h5"}).find("--modle"), std::string::npos);
+  EXPECT_EQ(refusal({"--modle", "m.h5"}), "unknown option --modle: did you mean --model?");
   EXPECT_NE(refusal({"--rate", "fast"}).find("rate"), std::string::npos);
 }
 

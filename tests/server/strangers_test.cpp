@@ -87,6 +87,9 @@ TEST_F(Strangers, TheSurfaceSaysWhatIsHeldAndWhatIsInside) {
     // A cone with its tip in the centre: a triangle for each edge of its rim, where all but one of its nodes are.
     EXPECT_GT(nodule.triangles._length / 3, 20U);
     EXPECT_EQ(nodule.positions._length, nodule.triangles._length + 3);
+    EXPECT_EQ(mesh.contact_radius, data.attributes.patch_radius);
+    EXPECT_STREQ(mesh.certificate,
+                 "not certified: the model file does not state how far its answers are off");
   }
   EXPECT_TRUE(came);
 }

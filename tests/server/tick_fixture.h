@@ -18,10 +18,14 @@ inline constexpr std::int64_t kPeriod = 1'000'000;
 inline constexpr dds::WriterId kSender = 1;
 inline constexpr dds::WriterId kOther = 2;
 
-inline MetaModel loadSynthetic() {
-  const palpate::testing::TemporaryFile file("tick.h5");
-  palpate::testing::writeSyntheticModel(file.path());
-  return MetaModel::load(file.path());
+/// One model for all tests of a process: under a sanitizer, making it takes longer than what a test does with it.
+inline const MetaModel& syntheticModel() {
+  static const MetaModel model = [] {
+    const palpate::testing::TemporaryFile file("tick.h5");
+    palpate::testing::writeSyntheticModel(file.path());
+    return MetaModel::load(file.path());
+  }();
+  return model;
 }
 
 /// A tick on the synthetic model, and the time that the test keeps.
@@ -84,7 +88,7 @@ class TickTest : public ::testing::Test {
     return record;
   }
 
-  MetaModel model_ = loadSynthetic();
+  const MetaModel& model_ = syntheticModel();
   Workspace work_{model_, StepConfig{}};
   std::unique_ptr<Channels> channels_ = std::make_unique<Channels>();
   PoseIntake intake_{*channels_, StepConfig{}};

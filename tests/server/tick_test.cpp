@@ -114,6 +114,7 @@ TEST_F(TickTest, FlagsASecondPublisherForAsLongAsItSends) {
     return takeForces();
   };
   EXPECT_EQ(run(20, false).back().result.flags & kTwoPublishers, 0U);
+  EXPECT_EQ(run(1, true).back().result.flags & kTwoPublishers, 0U) << "the first one may have ended";
   const auto both = run(20, true);
   ASSERT_EQ(both.size(), 20U);
   for (const ForceRecord& record : both) {
@@ -122,6 +123,29 @@ TEST_F(TickTest, FlagsASecondPublisherForAsLongAsItSends) {
     EXPECT_EQ(record.superseded, 0U);
   }
   EXPECT_EQ(run(60, false).back().result.flags & kTwoPublishers, 0U);
+}
+
+TEST_F(TickTest, AToolWhosePublisherIsGoneBeginsFromNothingWithTheNext) {
+  for (int i = 0; i < 200; ++i) {
+    send(poseAtDepth(0, 0.002));
+    runOneTick();
+  }
+  const double pressed = Vec3(takeForces().back().result.force.data()).norm();
+  ASSERT_GT(pressed, 0.1);
+  (void)takeLastRecord();
+  intake_.left(kSender);
+  std::vector<double> forces;
+  for (int i = 0; i < 100; ++i) {
+    intake_.accept(poseAtDepth(0, 0.002), kOther, now_ns_);
+    runOneTick();
+    EXPECT_EQ(takeLastRecord().flags[0] & (kStalePose | kTwoPublishers), 0U) << "nothing to log";
+    const auto records = takeForces();
+    EXPECT_EQ(records.back().result.flags & kTwoPublishers, 0U);
+    forces.push_back(Vec3(records.back().result.force.data()).norm());
+  }
+  EXPECT_EQ(forces[0], 0.0);
+  EXPECT_LT(forces[1], 0.2 * pressed) << "it ramps";
+  EXPECT_NEAR(forces.back(), pressed, 0.01 * pressed);
 }
 
 TEST_F(TickTest, FlagsTheFirstTickAfterMissedOnes) {

@@ -189,7 +189,7 @@ test('finger, pen and keyboard, colours and the inside are as with a server', as
   await seen.until('a force by key', (f) => f.pressing && f.force > 0.2);
   await seen.page.keyboard.up('Enter');
   await rest();
-  assert.match((await seen.page.locator('#parts p').allTextContents()).join(), /clamped,elsewhere .* kPa,nodule .* kPa/);
+  assert.match((await seen.page.locator('#parts p').allTextContents()).join(), /clamped,cannot be touched,elsewhere .* kPa,nodule .* kPa/);
   const look = async () => meanOf(await seen.around(middle, 12));
   await seen.settled();
   const outside = await look();

@@ -19,6 +19,11 @@ const [stiff, soft] = [normalAt(74.5), normalAt(83.7)]; // 8 mm apart
 const pointOf = (normal) => normal.map((c) => RADIUS * c);
 const felt = (normal) => seen.page.evaluate((point) => window.palpate.felt(point), pointOf(normal));
 
+test('the page says what the certificate of the served model states', async () => {
+  const line = seen.page.locator('#certificate');
+  assert.equal(await line.textContent(), 'not certified: the model file does not state how far its answers are off');
+});
+
 test('after a press by palpate-tool and one beside it, the map is stiffer where the organ is', async () => {
   assert.ok(Number.isNaN(await felt(stiff)));
   const args = ['--script', 'press', '--depth', '0.002', '--tool', '0', `--at=${pointOf(stiff)}`, `--beside=${pointOf(soft)}`];

@@ -109,7 +109,7 @@ async function savedDrag() {
   const { toolId } = await seen.figures();
   await mouse().up();
   const [head, ...all] = readFileSync(await file.path(), 'utf8').trim().split('\n');
-  assert.equal(head, 't_s,tool_id,force_N,penetration_m,flags');
+  assert.match(head, /^t_s,tool_id,force_N,penetration_m,flags,force_x_N,/);
   const lines = all.filter((line) => line.split(',')[1] === String(toolId)); // another's may still be in the air
   const columns = (k) => lines.map((line) => Number(line.split(',')[k]));
   return { times: columns(0), forces: columns(2), flags: columns(4) };

@@ -4,9 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace palpate::mesh {
@@ -20,15 +17,11 @@ struct TriangleSurface {
   std::vector<std::int64_t> triangle_tags;             ///< facet or face number in the file, from 1
 };
 
-/// Refuses a surface that does not bound one solid: non-finite vertices, degenerate triangles, open or
-/// non-manifold edges, several parts, triangles that cut each other. Reverses all triangles when all of them
-/// face inward.
-/// @throw MeshError naming the triangle
-/// Cost O(T log T) plus the pairs of triangles whose boxes overlap along x. Real-time: no.
-void checkSurface(TriangleSurface& surface);
+/// The volume that outward triangles enclose, m^3; of inward ones it is negative. A hole counts as closed by a cone to
+/// the middle of the bounding box.
+[[nodiscard]] double enclosedVolume(const TriangleSurface& surface);
 
-/// First two triangles (0-based) that cut or overlap outside their shared corners and edges.
-[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> firstSelfIntersection(
-    const TriangleSurface& surface);
+/// m^2
+[[nodiscard]] double areaOf(const TriangleSurface& surface);
 
 }  // namespace palpate::mesh

@@ -103,7 +103,9 @@ class Bill:
 
     def ours(self, folder, version):
         """One package of ours with its programs."""
-        licence = "Apache-2.0 AND GPL-2.0-or-later" if folder.name == "palpate-solver" else "Apache-2.0"
+        licence = "Apache-2.0"
+        if folder.name == "palpate-solver":
+            licence += " AND GPL-2.0-or-later AND GPL-3.0-or-later"
         identity = spdx_id(folder.name)
         self.packages[identity] = package(identity, folder.name, version, licence)
         self.relate("SPDXRef-DOCUMENT", "DESCRIBES", identity)

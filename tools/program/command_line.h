@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "tools/program/exit_code.h"
 
 namespace CLI {
 class App;
@@ -17,17 +18,6 @@ class Option;
 }  // namespace CLI
 
 namespace palpate::program {
-
-/// A command line that cannot be used. what() is one line that names the option.
-class UsageError : public std::runtime_error {
- public:
-  UsageError(const std::string& complaint, int exit_code)
-      : std::runtime_error(complaint), exit_code_(exit_code) {}
-  [[nodiscard]] int exitCode() const noexcept { return exit_code_; }
-
- private:
-  int exit_code_;
-};
 
 /// The variable that an option fills. Its type is the option's; what it holds is the default, which --help shows unless
 /// it is empty.
@@ -42,9 +32,11 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option& required();
-  /// Numbers in [low, high].
-  Option& range(int low, int high);
-  Option& range(double low, double high);
+  /// Numbers in [low, high]. @param[in] unit  for --help and for who is refused, e.g. "m"
+  Option& range(int low, int high, const std::string& unit = {});
+  Option& range(double low, double high, const std::string& unit = {});
+  /// Numbers of any size. @param[in] unit  as above
+  Option& unit(const std::string& unit);
   /// Numbers in [low, high], or one of the words.
   Option& rangeOr(double low, double high, const std::vector<std::string>& words);
   Option& oneOf(const std::vector<std::string>& words);
@@ -71,8 +63,12 @@ class Options {
   void flag(const std::string& names, std::optional<bool>* target, const std::string& help);
   /// A group of options, of which exactly one must be there.
   [[nodiscard]] Options exactlyOneOf(const std::string& name);
+  /// A group of options, of which one may be there.
+  [[nodiscard]] Options atMostOneOf(const std::string& name);
   /// Exactly one subcommand must be there.
   [[nodiscard]] Options subcommand(const std::string& name, const std::string& help);
+  /// A command line that does something useful, for --help. Once for the program and once for each subcommand.
+  void example(const std::string& command);
   /// Whether the subcommand was read.
   [[nodiscard]] bool chosen() const;
 
@@ -91,10 +87,11 @@ class CommandLine {
   CommandLine& operator=(const CommandLine&) = delete;
 
   [[nodiscard]] Options options();
-  /// Text below the options.
+  /// Text below the options, above the line about exit codes.
   void footer(const std::string& text);
 
-  /// Fills the targets. The value behind an option may be a negative number, also as the first of several: -1,0,0.
+  /// Fills the targets. An option that does not exist is refused before anything else, with the name that is nearest to it.
+  /// The value behind an option may be a negative number, also as the first of several: -1,0,0. So may a side: -x.
   /// @return false after --help or --version, answered on standard output
   /// @throw UsageError
   [[nodiscard]] bool read(int argc, const char* const* argv);

@@ -3,17 +3,18 @@
 
 #include <array>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tools/program/exit_code.h"
+
 namespace palpate::program {
 
 /// The value of an option that does not read as what it stands for. what() is one line with option and value.
-class ValueError : public std::runtime_error {
+class ValueError : public UsageError {
  public:
-  using std::runtime_error::runtime_error;
+  using UsageError::UsageError;
 };
 
 /// "x,y,z" as three finite numbers; nothing when the text is anything else.

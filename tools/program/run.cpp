@@ -4,24 +4,24 @@
 #include <iostream>
 #include <new>
 
-#include "tools/program/command_line.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::program {
 
 int runProgram(const char* name, int (*body)(int argc, char** argv), int argc, char** argv) {
   try {
     const int code = body(argc, argv);
-    if (code != 0 || std::cout.flush()) return code;
+    if (code != kDone || std::cout.flush()) return code;
     std::cerr << name << ": standard output cannot be written\n";
   } catch (const UsageError& error) {
-    std::cerr << name << ": " << error.what() << " (--help tells more)\n";
-    return error.exitCode();
+    std::cerr << name << ": " << error.what() << '\n';
+    return kUsage;
   } catch (const std::bad_alloc&) {
     std::cerr << name << ": out of memory\n";
   } catch (const std::exception& error) {
     std::cerr << name << ": " << error.what() << '\n';
   }
-  return 1;
+  return kFailed;
 }
 
 }  // namespace palpate::program

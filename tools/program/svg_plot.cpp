@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "tools/program/numbers.h"
 #include "tools/program/printed.h"
+#include "tools/program/spread.h"
 #include "tools/program/xml.h"
 
 namespace palpate::program {
@@ -18,6 +20,7 @@ constexpr double kHeight = 420;
 constexpr double kLeft = 70, kRight = 20, kBottom = 52;
 constexpr double kRow = 18;     // of the legend
 constexpr double kGlyph = 7.5;  // px, a wide guess of a letter's width
+constexpr double kLeader = 22;  // px, from the frame to a curve's name
 
 std::string number(double value) {
   return printed("%.6g", value);
@@ -80,22 +83,54 @@ struct Range {
   }
 };
 
-/// Where the numbers are drawn, px, and above it the legend.
+bool isMarks(const Series& series) {
+  return series.look != Look::kLine && series.look != Look::kDashed;
+}
+
+// What has an end to put its name at.
+bool isCurve(const Series& series) {
+  return !series.x.empty() && series.x_end.empty() && series.y_end.empty() && !isMarks(series);
+}
+
+double widthOf(const std::string& name) {
+  return kGlyph * static_cast<double>(name.size());
+}
+
+// Of the names beside the curves; 0 where one curve is alone, or the names leave the plot too little or find no room.
+double columnOf(const SvgPlot& plot) {
+  double widest = 0.0;
+  std::size_t curves = 0;
+  for (const Series& series : plot.series) {
+    if (!isCurve(series)) continue;
+    widest = std::max(widest, kLeader + widthOf(series.name));
+    ++curves;
+  }
+  const bool fits = widest <= 0.35 * plot.width && kRow * static_cast<double>(curves) <= 0.6 * kHeight;
+  return plot.series.size() > 1 && fits ? widest : 0.0;
+}
+
+/// Where the numbers are drawn, px; above it the legend, and right of it the names of curves.
 struct Room {
   double right, top, bottom{kHeight - kBottom};
-  std::vector<std::array<double, 2>> legend{};  ///< left end and base line of each entry
+  bool names_beside{false};
+  std::vector<std::optional<std::array<double, 2>>>
+      legend{};  ///< left end and base line of each entry that is there
 };
 
 Room roomOf(const SvgPlot& plot) {
-  Room room{plot.width - kRight, plot.title.empty() ? 16.0 : 40.0};
-  double left = kLeft;
-  for (std::size_t i = 0; i < plot.series.size() && plot.series.size() > 1; ++i) {
-    const double width = 44.0 + kGlyph * static_cast<double>(plot.series[i].name.size());
-    if (i == 0 || left + width > room.right) {
+  const double column = columnOf(plot);
+  Room room{plot.width - kRight - column, plot.title.empty() ? 16.0 : 40.0};
+  room.names_beside = column > 0.0;
+  double left = plot.width;  // the first entry begins a row
+  for (const Series& series : plot.series) {
+    room.legend.emplace_back();
+    if (plot.series.size() < 2 || (room.names_beside && isCurve(series))) continue;
+    const double width = 44.0 + widthOf(series.name);
+    if (left + width > plot.width - kRight) {
       left = kLeft;
       room.top += kRow;
     }
-    room.legend.push_back({left, room.top - 6.0});
+    room.legend.back() = {left, room.top - 6.0};
     left += width;
   }
   room.top += 8.0;
@@ -134,6 +169,11 @@ std::string textAt(double x, double y, const char* anchor, const std::string& te
 std::string lineAt(double x1, double y1, double x2, double y2, const std::string& style) {
   return joined("<line class=\"", style, "\" x1=\"", number(x1), "\" y1=\"", number(y1), "\" x2=\"",
                 number(x2), "\" y2=\"", number(y2), "\"/>\n");
+}
+
+std::string colourOf(const SvgPlot& plot, const Series& series) {
+  const auto place = static_cast<std::size_t>(&series - plot.series.data());
+  return joined("c", std::to_string(series.colour.value_or(place) % 4));
 }
 
 std::string frame(const SvgPlot& plot, const Room& room, const Axis& x, const Axis& y) {
@@ -206,10 +246,6 @@ std::string bars(const Series& series, const Axis& x, const Axis& y, const std::
   return svg;
 }
 
-bool isMarks(const Series& series) {
-  return series.look != Look::kLine && series.look != Look::kDashed;
-}
-
 std::string drawn(const Series& series, const Axis& x, const Axis& y, const std::string& colour) {
   if (!series.x_end.empty()) return bars(series, x, y, colour);
   if (!series.y_end.empty()) return band(series, x, y, colour);
@@ -227,6 +263,26 @@ std::string legendEntry(const Series& series, double left, double base, const st
   return lineAt(left, base - 4, left + 24, base - 4, joined("curve ", colour, dashed)) + text;
 }
 
+// The curves' names right of the frame, as high as the curves end but none over another, each with a line to its curve.
+std::string namesBeside(const SvgPlot& plot, const Room& room, const Axis& x, const Axis& y) {
+  std::vector<const Series*> curves;
+  std::vector<double> ends;
+  for (const Series& series : plot.series) {
+    if (!isCurve(series)) continue;
+    curves.push_back(&series);
+    ends.push_back(y.px(std::max(series.y.back(), y.low)));
+  }
+  const std::vector<double> places = spread(ends, room.top, room.bottom, kRow);
+  std::string svg;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::string colour = colourOf(plot, *curves[i]);
+    svg += lineAt(x.px(curves[i]->x.back()), ends[i], room.right + kLeader - 4, places[i],
+                  joined("leader ", colour)) +
+           textAt(room.right + kLeader, places[i] + 4, "start", curves[i]->name);
+  }
+  return svg;
+}
+
 // Colours that keep their contrast on white and on near-black; blue, orange, green and purple also differ in
 // brightness for readers who do not tell hues apart.
 constexpr const char* kStyle = R"(<style>
@@ -235,6 +291,7 @@ text { font: 12px sans-serif; fill: currentColor; }
 .title { font-size: 15px; font-weight: bold; }
 .axis { stroke: currentColor; } .grid { stroke: currentColor; stroke-opacity: 0.15; }
 .curve { fill: none; stroke: currentColor; stroke-width: 1.6; } .dashed { stroke-dasharray: 5 4; }
+.leader { stroke: currentColor; stroke-opacity: 0.6; }
 .bar { fill: currentColor; stroke: currentColor; fill-opacity: 0.55; } .band { fill: currentColor; fill-opacity: 0.2; }
 .mark { fill: currentColor; stroke: currentColor; } .hollow { fill: none; stroke-width: 1.4; }
 .c0 { color: #0969da; } .c1 { color: #d4761c; } .c2 { color: #1a7f37; } .c3 { color: #8250df; }
@@ -265,10 +322,11 @@ std::string SvgPlot::render() const {
              number(kHeight), "\" viewBox=\"0 0 ", number(width), " ", number(kHeight), "\">\n", kStyle);
   svg += frame(*this, room, x, y);
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const std::string colour = joined("c", std::to_string(series[i].colour.value_or(i) % 4));
+    const std::string colour = colourOf(*this, series[i]);
     svg += drawn(series[i], x, y, colour);
-    if (!room.legend.empty()) svg += legendEntry(series[i], room.legend[i][0], room.legend[i][1], colour);
+    if (const auto& at = room.legend[i]) svg += legendEntry(series[i], (*at)[0], (*at)[1], colour);
   }
+  if (room.names_beside) svg += namesBeside(*this, room, x, y);
   return svg + "</svg>\n";
 }
 

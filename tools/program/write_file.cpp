@@ -8,6 +8,8 @@
 #include <fstream>
 #include <utility>
 
+#include "tools/program/exit_code.h"
+
 namespace palpate::program {
 
 FileBeside::FileBeside(std::filesystem::path target)
@@ -44,6 +46,26 @@ void checkWritable(const std::filesystem::path& file) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(file, std::strerror(errno));
   std::error_code ignored;  // a file that is not there is not a folder
   if (std::filesystem::is_directory(file, ignored)) throw WriteError(file, std::strerror(EISDIR));
+}
+
+void checkOutput(const std::string& option, const std::filesystem::path& file) {
+  if (file.empty()) return;
+  try {
+    checkWritable(file);
+  } catch (const WriteError& error) {
+    throw UsageError(option + ": " + error.what());
+  }
+}
+
+void checkOutputFolder(const std::string& option, const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  std::filesystem::path there = std::filesystem::absolute(folder);
+  std::error_code ignored;  // of what is not there
+  while (!std::filesystem::exists(there, ignored)) there = there.parent_path();
+  const int reason = !std::filesystem::is_directory(there, ignored) ? ENOTDIR
+                     : access(there.c_str(), W_OK | X_OK) != 0      ? errno
+                                                                    : 0;
+  if (reason != 0) throw UsageError(option + ": " + WriteError(folder, std::strerror(reason)).what());
 }
 
 bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {

@@ -48,6 +48,14 @@ void writeFile(const std::filesystem::path& path, const std::string& content);
 /// @throw WriteError
 void checkWritable(const std::filesystem::path& file);
 
+/// The same of an option's value, which may be empty: then nothing is written.
+/// @param[in] option  "--plot"  @throw UsageError "--plot: cannot write PATH: REASON"
+void checkOutput(const std::string& option, const std::filesystem::path& file);
+
+/// The same of a folder, which is made when it is not there, with its parents: the innermost of them that is there is a folder
+/// and can be written. @throw UsageError
+void checkOutputFolder(const std::string& option, const std::filesystem::path& folder);
+
 /// Whether two paths lead to one file, which need not be there: through links, or by "..".
 [[nodiscard]] bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other);
 

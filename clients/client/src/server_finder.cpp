@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "palpate/client/error.h"
+#include "palpate/client/no_server.h"
 #include "palpate/client/stop_signal.h"
 
 namespace palpate::client {
@@ -77,16 +78,13 @@ std::vector<std::string> ServerFinder::others(const ServerInfo& found) const {
 }
 
 std::string ServerFinder::missing(std::chrono::milliseconds waited) const {
-  const std::string where = " on DDS domain " + std::to_string(domain_) + " within " +
-                            std::to_string(static_cast<double>(waited.count()) * 1e-3).substr(0, 4) + " s";
+  const std::string where = client::where(domain_, waited);
   for (const std::string& mismatch : {statuses_.mismatch(), surfaces_.mismatch()})
     if (!mismatch.empty()) return "no server fits" + where + ": " + mismatch;
-  const std::string hint =
-      "; is palpate-server running there, and does CYCLONEDDS_URI name the same network?";
   if (!refusal_.empty()) return refusal_;
   if (!has_status_ && server_id_ != dds::kServerAny)
-    return "no server " + std::to_string(server_id_) + where + hint;
-  if (!has_status_ && kept_.empty()) return "no server" + where + hint;
+    return "no server " + std::to_string(server_id_) + where + kNoServerHint;
+  if (!has_status_ && kept_.empty()) return "no server" + where + kNoServerHint;
   if (!has_status_)
     return "no running server's status (" + std::string(dds::TopicTraits<dds::ServerStatus>::kName) + ")" +
            where;

@@ -96,10 +96,9 @@ std::vector<std::uint32_t> candidates(const Surface& surface) {
   return nodes.empty() ? collect(surface.accessible) : nodes;
 }
 
-void checkModelId(const std::string& model_id) {
-  for (const char c : model_id)
-    if (c < ' ' || c > '~')
-      throw ClientError("surface from the server: model_id holds an unprintable character");
+void checkPrintable(const char* field, const std::string& text) {
+  for (const char c : text)
+    if (c < ' ' || c > '~') Refusal{}(std::string(field) + " holds an unprintable character");
 }
 
 }  // namespace
@@ -109,7 +108,7 @@ Surface checkedSurface(const dds::SurfaceMesh& message) {
   surface.organ_id = message.organ_id;
   surface.session = message.session;
   surface.model_id = message.model_id;
-  checkModelId(surface.model_id);
+  checkPrintable("model_id", surface.model_id);
   surface.topology_revision = message.topology_revision;
   copyPositions(message, surface, {});
   copyTriangles(message, surface, {});
@@ -124,6 +123,11 @@ Surface checkedSurface(const dds::SurfaceMesh& message) {
   surface.clamped.assign(message.clamped._buffer, message.clamped._buffer + message.clamped._length);
   surface.clamped.resize(surface.positions.size());
   copyRegions(message, surface);
+  surface.contact_radius = message.contact_radius;
+  if (!(surface.contact_radius >= 0.0 && std::isfinite(surface.contact_radius)))
+    Refusal{}("contact_radius is " + std::to_string(surface.contact_radius) + " m, expected 0 or more");
+  surface.certificate = message.certificate;
+  checkPrintable("certificate", surface.certificate);
   return surface;
 }
 

@@ -34,6 +34,44 @@ std::string settled(const Verdict& verdict) {
                           : "does not settle";
 }
 
+// "gave 1.301 mJ", "took 0.420 mJ"
+std::string workText(double work) {
+  return printed("%s %.3f mJ", work > 0.0 ? "gave" : "took", 1e3 * std::abs(work));
+}
+
+std::string energyText(const EnergyVerdict& energy) {
+  std::string text = printed("%zu contacts", energy.contacts.size() - energy.stalls);
+  const AlongForce& sum = energy.judged;
+  if (sum.speed_squared > 0.0)
+    text += printed(
+        ": the organ %s, as a damping of %.3f N s/m along the force does; device and hand damped %.3f mJ",
+        workText(sum.work).c_str(), -sum.work / sum.speed_squared, 1e3 * sum.damped);
+  if (const ContactEnergy* worst = energy.worst(); worst != nullptr && !worst->holds())
+    text += printed("\nUNSTABLE: in the contact at %.3f s it gave %.3f mJ, %.3f mJ more than was damped",
+                    1e-3 * static_cast<double>(worst->first), 1e3 * worst->along.work, 1e3 * worst->excess());
+  if (energy.stalls > 0)
+    text += printed("\n%zu contacts more had a stall and are not judged: the organ %s", energy.stalls,
+                    workText(energy.stalled.work).c_str());
+  return text + '\n';
+}
+
+Json energyJson(const EnergyVerdict& energy) {
+  Json contacts = Json::array();
+  for (const ContactEnergy& contact : energy.contacts)
+    contacts.push_back({{"first", contact.first},
+                        {"last", contact.last},
+                        {"given_J", contact.along.work},
+                        {"damped_J", contact.along.damped},
+                        {"largest_force_N", contact.largest_force},
+                        {"stalled", contact.stalled},
+                        {"holds", contact.stalled ? Json(nullptr) : Json(contact.holds())}});
+  return {{"holds", energy.holds()},
+          {"given_J", energy.judged.work},
+          {"damped_J", energy.judged.damped},
+          {"given_with_stalls_J", energy.stalled.work},
+          {"contacts", contacts}};
+}
+
 }  // namespace
 
 std::string textOf(const Session& s) {
@@ -48,14 +86,15 @@ std::string textOf(const Session& s) {
     depth.push_back(std::max(0.0, 1e3 * depthOf(s.motion, recording.trace.position[i])));
   }
   text += report::textChart(t, depth, "s", "tip below the rest surface / mm") + '\n';
-  text += printed("%s; oscillation %.4f mm (without organ %.4f mm); %s\n",
-                  s.verdict.stable ? "stable" : "UNSTABLE", 1e3 * s.verdict.oscillation_pp,
-                  1e3 * s.verdict.oscillation_without_organ_pp, settled(s.verdict).c_str());
+  text += printed("%s; oscillation %.4f mm (without organ %.4f mm); %s\n", s.stable() ? "stable" : "UNSTABLE",
+                  1e3 * s.verdict.oscillation_pp, 1e3 * s.verdict.oscillation_without_organ_pp,
+                  settled(s.verdict).c_str());
   text += printed(
       "largest force %.4f N, penetration %.3f mm; work on the organ %.6f J in all; waited %llu ms; flags: ",
       s.verdict.max_force, 1e3 * largest(recording.penetration), recording.work.back(),
       static_cast<unsigned long long>(recording.waited));
   text += report::flagNames(recording.flags) + '\n';
+  text += energyText(s.energy);
   if (recording.server_left) text += "the server shut down before the motion's end\n";
   if (recording.interrupted) text += "interrupted before the motion's end\n";
   return text;
@@ -77,7 +116,7 @@ Json jsonOf(const Session& s) {
       {"position", s.spot.position},
       {"normal", s.spot.normal},
       {"model_id", s.server.surface.model_id},
-      {"stable", s.verdict.stable},
+      {"stable", s.stable()},
       {"settle_s", settle},
       {"oscillation_pp_m", s.verdict.oscillation_pp},
       {"oscillation_without_organ_pp_m", s.verdict.oscillation_without_organ_pp},
@@ -85,6 +124,7 @@ Json jsonOf(const Session& s) {
       {"penetration_m", largest(recording.penetration)},
       {"depth_m", s.verdict.depth},
       {"energy_net_J", recording.work.back()},
+      {"energy", energyJson(s.energy)},
       {"coupling_N_per_m", couplingOf(s.server.status)},
       {"server_device", std::string(s.server.status.device)},
       {"flags", recording.flags},

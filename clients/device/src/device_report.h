@@ -23,6 +23,12 @@ struct Session {
   Recording recording;
   Trace without_organ;
   Verdict verdict;
+  EnergyVerdict energy;
+
+  /// Whether the run was seen to its end.
+  [[nodiscard]] bool complete() const { return !recording.server_left && !recording.interrupted; }
+  /// By its motion in the hold, and by the energy of each contact.
+  [[nodiscard]] bool stable() const { return verdict.stable && energy.holds(); }
 };
 
 /// For people: the run, a chart of the depth, and the verdict.

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-device: a simulated haptic device in a hand touches the organ, driven by the server's forces.
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 #include "core/devices/path/path.h"
 #include "core/devices/sim/closed_loop.h"
 #include "device_report.h"
 #include "palpate/client/error.h"
+#include "palpate/client/parameter_exchange.h"
+#include "palpate/client/place.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/idl/printable.h"
+#include "palpate/report/asked_place.h"
 #include "tools/program/command_line.h"
 #include "tools/program/json.h"
 #include "tools/program/numbers.h"
@@ -36,9 +43,12 @@ struct Arguments {
 void addDevice(program::Options line, Arguments& arguments) {
   line.add("--preset", &arguments.preset, "the device: touch, omni, desktop, premium15, premium30 or custom")
       .oneOf({"touch", "omni", "desktop", "premium15", "premium30", "custom"});
-  line.add("--mass", &arguments.mass, "moving mass of the device, kg; default: the preset's, custom 0.1");
-  line.add("--damping", &arguments.damping, "its damping, N s/m; default: the preset's, custom 0");
-  line.add("--friction", &arguments.friction, "its Coulomb friction, N; default: the preset's, custom 0");
+  line.add("--mass", &arguments.mass, "moving mass of the device; default: the preset's, custom 0.1")
+      .range(0.001, 10.0, "kg");
+  line.add("--damping", &arguments.damping, "its viscous damping; default: the preset's, custom 0")
+      .range(0.0, 100.0, "N s/m");
+  line.add("--friction", &arguments.friction, "its Coulomb friction; default: the preset's, custom 0")
+      .range(0.0, 10.0, "N");
   line.add("--hand", &arguments.hand, "mass (kg), damping (N s/m), stiffness (N/m) of the hand: M,B,K");
 }
 
@@ -46,15 +56,19 @@ void addOptions(program::Options line, Arguments& arguments) {
   addDevice(line, arguments);
   line.add("--motion", &arguments.motion, "what the hand does: press, drag or tap")
       .oneOf({"press", "drag", "tap"});
-  line.add("--seconds", &arguments.path.seconds, "duration of the whole, s");
-  line.add("--depth", &arguments.path.depth, "wanted depth of the tip below the rest surface, m");
-  line.add("--at", &arguments.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
+  line.add("--seconds", &arguments.path.seconds, "duration of the whole; the least depends on the motion")
+      .range(0.0, 3600.0, "s");
+  line.add("--depth", &arguments.path.depth, "wanted depth of the tip below the rest surface")
+      .range(1e-6, 0.05, "m");
+  line.add("--at", &arguments.at,
+           "touch the accessible node nearest to x,y,z, m; refused off the organ; default: the highest one");
   line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
   line.add("--server-id", &arguments.server_id, "which server of the domain; default: the first found");
-  line.add("--wait", &arguments.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
+  line.add("--wait", &arguments.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &arguments.json, "print one JSON object on standard output");
   line.add("--plot", &arguments.plot, "write the depth over time to this SVG file");
+  line.example("palpate-device --preset touch --hand 0.1,2,200 --motion tap --plot tap.svg");
 }
 
 Mechanics mechanicsOf(const Arguments& arguments) {
@@ -63,33 +77,69 @@ Mechanics mechanicsOf(const Arguments& arguments) {
   mechanics.mass = arguments.mass.value_or(mechanics.mass);
   mechanics.damping = arguments.damping.value_or(mechanics.damping);
   mechanics.friction = arguments.friction.value_or(mechanics.friction);
-  check(mechanics);
+  program::orUsageError([&] { check(mechanics); });
   return mechanics;
 }
 
 Hand handOf(const Arguments& arguments) {
   const std::array<double, 3> values = program::parseVector("--hand", arguments.hand);
   const Hand hand{values[0], values[1], values[2]};
-  check(hand);
+  program::orUsageError([&] { check(hand); }, "--hand: ");
   return hand;
 }
 
 client::Spot spotOf(const Arguments& arguments, const client::Surface& surface) {
-  std::optional<Point> at;
-  if (!arguments.at.empty()) at = Point{program::parseVector("--at", arguments.at)};
-  return client::chooseSpot(surface, at);
+  return client::chooseSpot(surface, report::askedPlace(surface, "--at", arguments.at));
+}
+
+/// How near the tip's centre came to the organ at rest, m.
+double nearestOf(const Trace& trace, const client::Surface& surface) {
+  constexpr std::size_t kLookedAt = 10;  // every so manieth step, 10 ms apart
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < trace.position.size(); i += kLookedAt)
+    nearest = std::min(nearest, client::distanceTo(surface, trace.position[i]));
+  return nearest;
+}
+
+// A status names tool 0's device only. Nothing when the server does not say it.
+std::string deviceOf(const dds::Participant& participant, std::uint32_t tool_id,
+                     const client::ServerInfo& server) {
+  if (tool_id == 0) return dds::printable(server.status.device);
+  dds::ParameterRequest question{};
+  question.server_id = server.status.server_id;
+  question.session = server.status.session;
+  question.tool_id = dds::kAllTools;
+  try {
+    const auto answer = client::exchangeParameters(participant, question, std::chrono::seconds(2));
+    return dds::printable(answer.tools[tool_id].device);
+  } catch (const client::ClientError&) {
+    return {};
+  }
+}
+
+void noteOtherDevice(const dds::Participant& participant, const Arguments& arguments,
+                     const client::ServerInfo& server) {
+  const std::string device = deviceOf(participant, arguments.tool_id, server);
+  if (device == arguments.preset) return;
+  std::cerr << "note: the server ";
+  if (device.empty())
+    std::cerr << "does not say for which device tool " << arguments.tool_id << " is set";
+  else
+    std::cerr << "is set for device '" << device << "' at tool " << arguments.tool_id;
+  std::cerr << ", this is '" << arguments.preset << "'\n";
 }
 
 Session play(const dds::Participant& participant, const Arguments& arguments, const Mechanics& mechanics,
              const Hand& hand, const client::ServerInfo& server) {
-  if (arguments.preset != server.status.device)
-    std::cerr << "note: the server is set for device '" << server.status.device << "', this is '"
-              << arguments.preset << "'\n";
+  noteOtherDevice(participant, arguments, server);
   const client::Spot spot = spotOf(arguments, server.surface);
   const Motion motion = makeMotion(arguments.motion, spot.position, spot.normal, arguments.path);
   HeldDevice device(mechanics, hand, motion.path);
   const Trace without = withoutOrgan(device, motion);
   const Recording recording = run(participant, arguments.tool_id, device, runOf(server));
+  if ((recording.flags & dds::flag::kInContact) == 0 && !recording.interrupted && !recording.server_left)
+    std::cerr << "palpate-device: " << report::neverTouchedText(nearestOf(recording.trace, server.surface))
+              << '\n';
   return {arguments.preset,
           mechanics,
           hand,
@@ -99,7 +149,13 @@ Session play(const dds::Participant& participant, const Arguments& arguments, co
           server,
           recording,
           without,
-          judge(recording.trace, without, motion)};
+          judge(recording.trace, without, motion),
+          judgeEnergy(recording.trace)};
+}
+
+// Refuses bad values before anything waits.
+void checkMotion(const Arguments& arguments) {
+  program::orUsageError([&] { (void)makeMotion(arguments.motion, {}, {0, 0, 1}, arguments.path); }, "--");
 }
 
 void tell(const Session& session, const Arguments& arguments) {
@@ -115,12 +171,13 @@ int body(int argc, char** argv) {
       "Moves a simulated haptic device, held by a hand, against a palpate-server and judges its stability.");
   Arguments arguments;
   addOptions(line.options(), arguments);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
+  program::checkOutput("--plot", arguments.plot);
   const Mechanics mechanics = mechanicsOf(arguments);
   const Hand hand = handOf(arguments);
   if (!arguments.at.empty()) (void)program::parseVector("--at", arguments.at);
   arguments.path.lead = leadOf(mechanics, hand);
-  (void)makeMotion(arguments.motion, {}, {0, 0, 1}, arguments.path);
+  checkMotion(arguments);
   client::catchStopSignals();
 
   // 2. Find the server and its organ.
@@ -133,7 +190,8 @@ int body(int argc, char** argv) {
 
   // 4. Tell.
   tell(session, arguments);
-  return 0;
+  if (!session.complete()) return program::kFailed;
+  return session.stable() ? program::kDone : program::kNotHeld;
 }
 
 }  // namespace

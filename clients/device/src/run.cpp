@@ -31,6 +31,7 @@ class Exchange {
   /// Waits for the next period, and longer until the server has answered the pose before the newest one.
   /// @return false when the run must end
   bool await(Recording& recording) {
+    stalled_ = false;
     for (std::uint64_t periods = 0;; ++periods) {
       pacer_.wait();
       take(recording);
@@ -38,9 +39,12 @@ class Exchange {
       if (answer_.pose_seq >= before_ && answer_.pose_seq != 0 && !letting_go_) return true;
       if (periods == kPatience) throw client::ClientError("the server has not answered for a second");
       ++recording.waited;
+      stalled_ = stalled_ || letting_go_ || periods + 1 >= kStall;
       publish();
     }
   }
+  /// Whether the last await() was a stall.
+  [[nodiscard]] bool stalled() const { return stalled_; }
   [[nodiscard]] const dds::ToolForce& answer() const { return answer_; }
 
  private:
@@ -67,14 +71,17 @@ class Exchange {
   Point sent_{};
   std::uint64_t last_sent_{0};
   std::uint64_t before_{0};  // the last seq of the previous pose
-  bool letting_go_{false};   // a stale pose, and the ramp after it; not the ramp of a new contact
+  bool stalled_{false};
+  bool letting_go_{false};  // a stale pose, and the ramp after it; not the ramp of a new contact
 };
 
-void note(const HeldDevice& device, const dds::ToolForce& answer, Recording& recording) {
+void note(const HeldDevice& device, const dds::ToolForce& answer, bool stalled, Recording& recording) {
   recording.trace.position.push_back(device.position());
   recording.trace.force.push_back({answer.force[0], answer.force[1], answer.force[2]});
   recording.penetration.push_back(answer.penetration);
-  recording.work.push_back(-device.workOfForce());
+  recording.trace.energy.push_back(device.alongForce());
+  recording.trace.stalled.push_back(stalled);
+  recording.work.push_back(-device.alongForce().work);
 }
 
 }  // namespace
@@ -88,13 +95,13 @@ Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDe
   recording.trace.dt = kPeriod;
   Exchange exchange(tool);
   const auto count = static_cast<std::size_t>(std::lround(device.path().seconds() / kPeriod));
-  note(device, {}, recording);
+  note(device, {}, false, recording);
   bool goes_on = true;
   for (std::size_t i = 0; i < count && goes_on; ++i) {
     const dds::ToolForce answer = exchange.answer();  // the newest when the period begins
     exchange.send(device.position());
     device.step({answer.force[0], answer.force[1], answer.force[2]}, kPeriod);
-    note(device, answer, recording);
+    note(device, answer, exchange.stalled(), recording);
     goes_on = exchange.await(recording);
   }
   recording.left_out = tool.hold().leftOut();

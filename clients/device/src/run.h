@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/devices/sim/contact_energy.h"
 #include "core/devices/sim/held_device.h"
-#include "core/devices/sim/verdict.h"
 #include "palpate/client/tool_client.h"
 
 namespace palpate::device {
@@ -22,10 +22,14 @@ struct Recording {
   bool interrupted{false};
 };
 
+/// Periods without an answer that are a stall: the server's default stale timeout.
+inline constexpr std::uint64_t kStall = 20;
+
 /// Runs a device along its path, in periods of 1 ms. Each period begins with sending the pose; then the device advances by
 /// 1 ms under the newest force, usually the answer to the previous pose (closedLoop() with a delay of 1). The device's time
 /// is its steps. While that answer is missing, or the server fades the force because poses came late, the device
-/// stands still and keeps sending. So a stall of a process is neither felt nor taken for an instability.
+/// stands still and keeps sending. So a stall of a process is neither felt nor taken for an instability. A wait of kStall
+/// periods, or for a force that the server faded, is noted in Trace::stalled: the server's contact may be another one after it.
 /// @throw client::ClientError  no server takes poses, or none answers for a second
 [[nodiscard]] Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device,
                             const client::ServerRun& server);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "palpate_haptic_flags.h"
+
 namespace palpate::haptic {
 namespace {
 
@@ -48,7 +50,19 @@ bool ForceRenderer::answered(const Answer& answer) noexcept PALPATE_NONBLOCKING 
   if (answer.session != answer_.session) gain_ = 0.0;
   answer_ = answer;
   has_answer_ = true;
+  comeNear();
   return true;
+}
+
+// Of a free tool the anchor is the nearest point of the surface at rest.
+void ForceRenderer::comeNear() noexcept PALPATE_NONBLOCKING {
+  if ((answer_.flags & PALPATE_HAPTIC_FLAG_TOOL_NOT_CONFIGURED) != 0) return;
+  constexpr std::uint32_t kFree = 0;  // Force::state
+  if (answer_.state != kFree) nearest_ = 0.0;
+  const SentPose& pose = poses_[answer_.pose_seq % kPoses];
+  if (pose.seq != answer_.pose_seq) return;
+  const double distance = length(pose.position - pointOf(answer_.anchor));
+  if (distance < nearest_) nearest_ = distance;
 }
 
 void ForceRenderer::watch(std::int64_t now_ns) noexcept PALPATE_NONBLOCKING {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/devices/path/path.h"
 #include "palpate/haptic/force.h"
@@ -51,6 +52,9 @@ class ForceRenderer {
   [[nodiscard]] Force at(const Point* position, std::int64_t now_ns,
                          double limit) noexcept PALPATE_NONBLOCKING;
 
+  /// How near the organ answered poses came, m: 0 after a contact, infinity before an answer to a remembered pose.
+  [[nodiscard]] double nearest() const noexcept PALPATE_NONBLOCKING { return nearest_; }
+
  private:
   struct SentPose {
     std::uint64_t seq{0};
@@ -58,6 +62,7 @@ class ForceRenderer {
   };
 
   [[nodiscard]] Point extrapolated(const Point& position) const noexcept PALPATE_NONBLOCKING;
+  void comeNear() noexcept PALPATE_NONBLOCKING;
   void watch(std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
 
   double max_extrapolation_;
@@ -66,7 +71,8 @@ class ForceRenderer {
   bool has_answer_{false};
   double age_{0.0};  // s
   double gain_{0.0};
-  std::int64_t read_ns_{0};  // when at() was called last; 0: never
+  double nearest_{std::numeric_limits<double>::infinity()};  // m
+  std::int64_t read_ns_{0};                                  // when at() was called last; 0: never
 };
 
 }  // namespace palpate::haptic

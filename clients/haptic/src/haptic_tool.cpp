@@ -76,6 +76,7 @@ class HapticTool::Impl {
   }
 
   [[nodiscard]] std::uint64_t leftOut() const noexcept { return tool_.hold().leftOut().count; }
+  [[nodiscard]] double nearest() const noexcept { return renderer_.nearest(); }
   [[nodiscard]] double tipRadius() const noexcept { return tip_radius_.load(std::memory_order_relaxed); }
   [[nodiscard]] double serverLimit() const noexcept { return server_limit_.load(std::memory_order_relaxed); }
 
@@ -173,6 +174,10 @@ Force HapticTool::forceAt(const Vec3& position) noexcept {
 
 std::uint64_t HapticTool::leftOut() const noexcept {
   return impl_->leftOut();
+}
+
+double HapticTool::nearest() const noexcept {
+  return impl_->nearest();
 }
 
 double HapticTool::tipRadius() const noexcept {

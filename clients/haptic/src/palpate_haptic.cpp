@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string_view>
 
 #include "palpate/haptic/haptic_tool.h"
@@ -116,6 +117,10 @@ int palpate_haptic_read_at(palpate_haptic* tool, const double position[3], palpa
 
 uint64_t palpate_haptic_left_out(const palpate_haptic* tool) {
   return tool == nullptr ? 0 : tool->tool.leftOut();
+}
+
+double palpate_haptic_nearest(const palpate_haptic* tool) {
+  return tool == nullptr ? std::numeric_limits<double>::infinity() : tool->tool.nearest();
 }
 
 double palpate_haptic_tip_radius(const palpate_haptic* tool) {

@@ -15,6 +15,18 @@ std::int64_t waitOf(const dds::ToolForce& force) noexcept {
 
 }  // namespace
 
+/// least_ns and what poses one, two, ... periods older make of it.
+void LatencyLog::addOnGrid(std::int64_t least_ns, std::int64_t poses) noexcept {
+  constexpr std::int64_t kMost = 100'000;  // bounds the receive thread's work; 25 s at 4 kHz
+  for (std::int64_t j = 0; j < std::min(poses, kMost); ++j) pose_to_force_.add(least_ns + j * period_ns_);
+}
+
+void LatencyLog::finish(std::int64_t end_ns) noexcept {
+  const std::int64_t since_ns = end_ns - answered_stamp_ns_;
+  const std::int64_t poses = (since_ns - 2 * period_ns_ - 1) / period_ns_;
+  if (answered_stamp_ns_ != 0) addOnGrid(since_ns - poses * period_ns_, poses);
+}
+
 void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noexcept {
   const bool known = force.pose_seq <= newest_pose_;
   if (!known) newest_pose_ = force.pose_seq;
@@ -30,7 +42,11 @@ void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noex
   if (age_ns > 2 * period_ns_) ++late_;
   if (known) return;  // only the first answer to a pose gives a round trip
   const std::int64_t wait_ns = waitOf(force);
-  pose_to_force_.add(age_ns);
+  // A pose a little late is not two.
+  const std::int64_t span_ns = answered_stamp_ns_ == 0 ? 0 : force.pose_stamp_ns - answered_stamp_ns_;
+  answered_stamp_ns_ = force.pose_stamp_ns;
+  addOnGrid(age_ns, std::max<std::int64_t>(1, (span_ns + period_ns_ / 4) / period_ns_));
+  answered_.add(age_ns);
   wait_.add(wait_ns);
   less_wait_.add(age_ns - wait_ns);
 }

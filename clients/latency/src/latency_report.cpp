@@ -47,6 +47,7 @@ program::Series barsOf(const char* name, const rt::CycleStats& histogram) {
 std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
   std::string text = "time / us                          p50       p99     p99.9       max     count\n";
   text += rowOf("pose to force, round trip", summaryOf(log.poseToForce()));
+  text += rowOf("  of answered poses", summaryOf(log.answeredPoseToForce()));
   text += rowOf("  of it the wait for a tick", summaryOf(log.wait()));
   text += rowOf("  less that wait", summaryOf(log.poseToForceLessWait()));
   if (log.poseToField().count() > 0) text += rowOf("pose to field", summaryOf(log.poseToField()));
@@ -69,10 +70,10 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
 
 program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds::ServerStatus& server) {
   return {{"pose_to_force_us", report::toJson(summaryOf(log.poseToForce()))},
+          {"answered_pose_to_force_us", report::toJson(summaryOf(log.answeredPoseToForce()))},
           {"pose_wait_us", report::toJson(summaryOf(log.wait()))},
           {"pose_to_force_less_wait_us", report::toJson(summaryOf(log.poseToForceLessWait()))},
-          {"pose_to_field_us",
-           log.poseToField().count() > 0 ? report::toJson(summaryOf(log.poseToField())) : program::Json()},
+          {"pose_to_field_us", report::toJson(summaryOf(log.poseToField()))},
           {"wakeup_us", report::toJson(summaryOf(log.wakeup()))},
           {"tick_us", report::toJson(summaryOf(log.tick()))},
           {"phase_lock", phaseName(server)},
@@ -91,6 +92,14 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"server_memory_locked", server.memory_locked},
           {"server_rate_hz", server.rate_hz},
           {"model_id", server.model_id}};
+}
+
+std::vector<TaggedTimes> taggedTimesOf(const LatencyLog& log) {
+  return {{"pose_to_force", &log.poseToForce()},
+          {"answered_pose_to_force", &log.answeredPoseToForce()},
+          {"pose_to_field", &log.poseToField()},
+          {"wakeup", &log.wakeup()},
+          {"tick", &log.tick()}};
 }
 
 std::string plotOf(const LatencyLog& log) {

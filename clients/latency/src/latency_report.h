@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "hdr_log.h"
 #include "latency_log.h"
 #include "measure.h"
 #include "palpate/idl/types.h"
@@ -14,10 +16,12 @@ namespace palpate::latency {
 [[nodiscard]] std::string textOf(const LatencyLog& log, const SenderStats& sender,
                                  const dds::ServerStatus& server);
 
-/// The same for programs: `pose_to_force_us`, `pose_wait_us`, `pose_to_force_less_wait_us`, `pose_to_field_us` (null: no fields were read), `wakeup_us`, `tick_us`, `client_wakeup_us`, each {p50, p99,
-/// p999, max, count}; `overruns`, `lost`, `late`, `superseded`, `seconds` and more.
+/// The same for programs: docs/json.md, palpate-latency.
 [[nodiscard]] program::Json jsonOf(const LatencyLog& log, const SenderStats& sender,
                                    const dds::ServerStatus& server);
+
+/// What --hdr writes. The log must outlive the result.
+[[nodiscard]] std::vector<TaggedTimes> taggedTimesOf(const LatencyLog& log);
 
 /// The three histograms on logarithmic axes, as SVG.
 [[nodiscard]] std::string plotOf(const LatencyLog& log);

@@ -76,19 +76,23 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   const client::StatusBoard statuses(participant);
   std::optional<FieldReader> fields;
   if (options.fields) fields.emplace(participant, options, log);
-  client::ToolClient tool(participant, options.tool_id, on_force, &log, options.server);
+  std::optional<client::ToolClient> tool;
+  tool.emplace(participant, options.tool_id, on_force, &log, options.server);
   const device::Path path = gentlePress(spot, options);
   SenderStats unmeasured;
   SenderStats stats;
-  stats.realtime = client::prepareToSend(tool);
+  stats.realtime = client::prepareToSend(*tool);
   rt::Pacer pacer(std::llround(1e9 / options.rate_hz));
-  send(tool, path, 0.0, kApproachSeconds, pacer, unmeasured);
+  send(*tool, path, 0.0, kApproachSeconds, pacer, unmeasured);
   log.record(true);
-  send(tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats);
+  send(*tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats);
   log.record(false);
-  send(tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
-  stats.left_out = tool.hold().leftOut();
+  const std::int64_t end_ns = rt::monotonicNow();
+  send(*tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
+  stats.left_out = tool->hold().leftOut();
   stats.left_out_text = client::leftOutText(stats.left_out, statuses);
+  tool.reset();  // no answer comes after this
+  log.finish(end_ns);
   return stats;
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "exchange.h"
+#include "palpate/client/parameter_exchange.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/printable.h"
 #include "tools/program/command_line.h"
@@ -30,12 +30,13 @@ struct Options {
 void addOptions(program::Options line, Options& options) {
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const LiveParameterInfo& info = kLiveParameters[i];
-    line.add(info.option, &(options.values.*kLiveFields<LiveFields<std::optional<double>>>[i]), info.help);
+    line.add(info.option, &(options.values.*kLiveFields<LiveFields<std::optional<double>>>[i]),
+             std::string(info.help) + "; default: stays as it is");
   }
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--tool", &options.tool, "change this tool only, 0 to 3; default: all of them").range(0, 3);
   line.add("--server-id", &options.server_id, "which server of the domain");
-  line.add("--wait", &options.wait_s, "how long to wait for an answer, s").range(0.0, 3600.0);
+  line.add("--wait", &options.wait_s, "how long to wait for an answer").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 
@@ -114,17 +115,16 @@ int body(int argc, char** argv) {
   addOptions(line.options(), options);
   line.footer(
       "The server's operator sets which values are allowed; by default none above that of its start. Without "
-      "values "
-      "the answer says them.\n"
-      "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4\nWithout values: says what is in "
-      "force.");
-  if (!line.read(argc, argv)) return 0;
+      "values it says what is in force, and what is allowed.\n"
+      "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4");
+  if (!line.read(argc, argv)) return program::kDone;
   client::catchStopSignals();
 
   // 2. Ask, until the server answers.
   const dds::Participant participant(options.domain);
   const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
-  const dds::ServerParameters answer = exchange(participant, requestOf(options), patience);
+  std::cerr << "waiting for server " << options.server_id << " on DDS domain " << options.domain << "\n";
+  const dds::ServerParameters answer = client::exchangeParameters(participant, requestOf(options), patience);
 
   // 3. Tell.
   const auto tool = static_cast<std::size_t>(options.tool.value_or(0));
@@ -136,7 +136,7 @@ int body(int argc, char** argv) {
   if (!answer.accepted)
     std::cerr << "palpate-parameters: refused, nothing has changed: "
               << dds::printable(answer.message, sizeof answer.message) << "\n";
-  return answer.accepted ? 0 : 1;
+  return answer.accepted ? program::kDone : program::kFailed;
 }
 
 }  // namespace

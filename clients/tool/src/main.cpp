@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-tool: a scripted tool touches the organ and prints the force over time.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <thread>
 
 #include "palpate/client/error.h"
+#include "palpate/client/place.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/report/asked_place.h"
 #include "tool_report.h"
 #include "tools/program/command_line.h"
 #include "tools/program/json.h"
@@ -19,6 +23,7 @@ namespace {
 
 /// A server keeps a tool for its sender until it has been silent for at most this long (StepConfig::zero_after).
 constexpr std::chrono::milliseconds kLetGo{50};
+constexpr std::size_t kLookedAt = 10;  // every so manieth pose, 10 ms apart, when the nearest is looked for
 
 struct Options {
   std::string script{"press"};
@@ -37,36 +42,51 @@ struct Options {
 void addOptions(program::Options line, Options& options) {
   line.add("--script", &options.script, "what to play: press, slide or poke")
       .oneOf({"press", "slide", "poke"});
-  line.add("--seconds", &options.seconds, "duration of the whole script, s").range(0.05, 3600.0);
-  line.add("--depth", &options.path.depth, "depth of the tip below the rest surface, m");
-  line.add("--slide", &options.path.slide_distance, "distance along the surface, m");
-  line.add("--pokes", &options.path.pokes, "number of times that poke goes in");
-  line.add("--clearance", &options.path.clearance, "distance at the start and the end, m");
-  line.add("--at", &options.at, "touch the accessible node nearest to x,y,z (m); default: the highest one");
+  line.add("--seconds", &options.seconds, "duration of the whole script; default: the script's own")
+      .range(0.05, 3600.0, "s");
+  line.add("--depth", &options.path.depth, "depth of the tip below the rest surface").range(1e-6, 0.05, "m");
+  line.add("--slide", &options.path.slide_distance, "distance along the surface").range(1e-6, 0.1, "m");
+  line.add("--pokes", &options.path.pokes, "number of times that poke goes in").range(1, 10000);
+  line.add("--clearance", &options.path.clearance, "distance at the start and the end").range(1e-6, 0.2, "m");
+  line.add("--at", &options.at,
+           "touch the accessible node nearest to x,y,z, m; refused off the organ; default: the highest one");
   line.add("--beside", &options.beside,
            "then play the same at x,y,z (m); both are told, the plot shows both forces over depth");
-  line.add("--tip-radius", &options.tip_radius, "radius of the tip, m; default: the server's");
+  line.add("--tip-radius", &options.tip_radius, "radius of the tip; default: the server's")
+      .range(0.0, 0.05, "m");
   line.add("--tool", &options.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
-  line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
+  line.add("--wait", &options.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.add("--plot", &options.plot, "write the force over time to this SVG file");
+  line.example("palpate-tool --script press --depth 0.003 --plot press.svg");
 }
 
-/// @param place  x,y,z, or empty
-Played prepare(const Options& options, const std::string& place, const client::ServerInfo& server) {
+Played prepare(const Options& options, const std::optional<device::Point>& place,
+               const client::ServerInfo& server) {
   client::ScriptOptions path_options = options.path;
   path_options.tip_radius = options.tip_radius.value_or(server.status.tip_radius[options.tool_id]);
   if (path_options.tip_radius != server.status.tip_radius[options.tool_id])
     std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
               << server.status.tip_radius[options.tool_id] << " m\n";
-  std::optional<device::Point> at;
-  if (!place.empty()) at = device::Point{program::parseVector("--at", place)};
-  const client::Spot spot = client::chooseSpot(server.surface, at);
+  const client::Spot spot = client::chooseSpot(server.surface, place);
   device::Path path = client::scriptedPath(options.script, spot, path_options);
   if (options.seconds) path = path.stretchedTo(*options.seconds);
   return {options.script, path_options, spot, std::move(path), server};
+}
+
+/// Scripts touch the organ. @return exit code 1, with a line that says how near the tool came, when none of the answers was of a
+/// contact; a script that was stopped is no failure
+int verdictOn(const Recording& recording, const client::Surface& surface) {
+  if (client::stopRequested() || recording.server_left) return 0;
+  const auto touches = [](const Sample& sample) { return (sample.force.flags & dds::flag::kInContact) != 0; };
+  if (std::any_of(recording.samples.begin(), recording.samples.end(), touches)) return 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < recording.samples.size(); i += kLookedAt)
+    nearest = std::min(nearest, client::distanceTo(surface, recording.samples[i].pose));
+  std::cerr << "palpate-tool: " << report::neverTouchedText(nearest) << '\n';
+  return 1;
 }
 
 int body(int argc, char** argv) {
@@ -76,8 +96,8 @@ int body(int argc, char** argv) {
       "Plays a scripted tool path against a palpate-server and prints the force on the tool.");
   Options options;
   addOptions(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
-  client::check(options.path);
+  if (!line.read(argc, argv)) return program::kDone;
+  program::checkOutput("--plot", options.plot);
   if (!options.at.empty()) (void)program::parseVector("--at", options.at);
   if (!options.beside.empty()) (void)program::parseVector("--beside", options.beside);
   client::catchStopSignals();
@@ -86,20 +106,23 @@ int body(int argc, char** argv) {
   const dds::Participant participant(options.domain);
   const client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
 
+  const auto at = report::askedPlace(server.surface, "--at", options.at);
+  const auto beside = report::askedPlace(server.surface, "--beside", options.beside);
+
   // 3. Play the path, and tell.
   std::ostream& out = options.json ? std::cerr : std::cout;
-  const Played played = prepare(options, options.at, server);
+  const Played played = prepare(options, at, server);
   const Recording recording = play(participant, options.tool_id, played.path, runOf(server));
   out << tableOf(played, recording) << std::flush;
-  if (options.beside.empty() || client::stopRequested() || recording.server_left) {
+  if (!beside || client::stopRequested() || recording.server_left) {
     if (options.json) program::printJson(jsonOf(played, recording));
     if (!options.plot.empty()) program::writeFile(options.plot, plotOf(played, recording));
-    return 0;
+    return verdictOn(recording, server.surface);
   }
 
   // 4. The same beside it.
   std::this_thread::sleep_for(kLetGo);
-  const Played other = prepare(options, options.beside, server);
+  const Played other = prepare(options, *beside, server);
   const Recording other_recording = play(participant, options.tool_id, other.path, runOf(server));
   out << '\n' << tableOf(other, other_recording) << comparisonOf(recording, other_recording) << std::flush;
   if (options.json) {
@@ -109,7 +132,7 @@ int body(int argc, char** argv) {
   }
   if (!options.plot.empty())
     program::writeFile(options.plot, plotOfBoth(played, recording, other, other_recording));
-  return 0;
+  return std::max(verdictOn(recording, server.surface), verdictOn(other_recording, server.surface));
 }
 
 }  // namespace

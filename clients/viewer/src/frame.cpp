@@ -41,6 +41,8 @@ void putAnswer(const AnswerRecord& answer, Bytes& out) {
   put(out, answer.t_us);
   for (const float number : {answer.force, answer.penetration, answer.wakeup_us, answer.stiffness})
     put(out, number);
+  put(out, answer.force_vector.data(), 3);
+  put(out, answer.tip.data(), 3);
 }
 
 void putHeader(const Frame& frame, Bytes& out) {

@@ -18,7 +18,7 @@ inline constexpr std::uint32_t kFrameKind = 2;
 
 inline constexpr std::size_t kFrameHeaderSize = 56;
 inline constexpr std::size_t kToolRecordSize = 72;
-inline constexpr std::size_t kAnswerRecordSize = 32;
+inline constexpr std::size_t kAnswerRecordSize = 56;
 
 /// A displacement field as pages get it: 16 bits per number.
 struct EncodedField {
@@ -43,15 +43,17 @@ struct ToolRecord {
   float domain_radius{0.0F};
 };
 
-/// One answer of the server, for the strip chart.
+/// One answer of the server, for the strip chart and what is saved of it; world frame W.
 struct AnswerRecord {
   std::uint32_t tool_id{0};
   std::uint32_t flags{0};
-  double t_us{0.0};         ///< when the tick woke, viewer's monotonic clock, us
-  float force{0.0F};        ///< size, N
-  float penetration{0.0F};  ///< m
-  float wakeup_us{0.0F};    ///< lateness of the tick's wake-up
-  float stiffness{0.0F};    ///< -n.K n, N/m, along the outward normal n; 0 when free
+  double t_us{0.0};                     ///< when the tick woke, viewer's monotonic clock, us
+  float force{0.0F};                    ///< size, N
+  float penetration{0.0F};              ///< m
+  float wakeup_us{0.0F};                ///< lateness of the tick's wake-up
+  float stiffness{0.0F};                ///< -n.K n, N/m, along the outward normal n; 0 when free
+  std::array<float, 3> force_vector{};  ///< on the tool, N
+  std::array<float, 3> tip{};           ///< centre of the tip in the newest pose known then, m
 };
 
 /// The content of one binary FRAME message.

@@ -14,8 +14,10 @@
 #include "palpate/idl/receive_threads.h"
 #include "palpate/rt/scheduling.h"
 #include "tools/program/command_line.h"
+#include "tools/program/installed.h"
 #include "tools/program/json.h"
 #include "tools/program/run.h"
+#include "tools/program/write_file.h"
 #include "web_server.h"
 
 namespace palpate::viewer {
@@ -42,7 +44,8 @@ void addOptions(program::Options line, Options& options) {
   line.add("--listen", &web.access.listen,
            "numeric address to listen on; one that other machines reach needs a token");
   line.add("--port", &web.access.port, "TCP port; 0: any that is free");
-  line.add("--page", &options.page, "folder with the page's index.html");
+  line.add("--page", &options.page,
+           "folder with the page's index.html; default: " + program::installedText(PALPATE_PAGE_FROM_BIN));
   line.add(
       "--export", &options.export_folder,
       "write the page into this new or empty folder, with an organ of its own, for any web server; then end");
@@ -55,13 +58,14 @@ void addOptions(program::Options line, Options& options) {
   line.add(
       "--origin", &web.access.origins,
       "further address under which browsers see the page, e.g. https://viewer.example.org; may be repeated");
-  line.add("--rate", &web.rate_hz, "frames a second to each page, at most").range(1.0, 1000.0);
+  line.add("--rate", &web.rate_hz, "frames a second to each page, at most").range(1.0, 1000.0, "Hz");
   line.add("--max-pages", &web.max_pages, "pages that may be open at once").range(1, 256);
   line.add("--tools", &options.tools, "tool ids that pages may drive, in the order of preference")
       .list(',')
       .range(0, 3);
   line.flag("--json", &options.json,
             "when it listens or has exported, print one JSON object on standard output");
+  line.example("palpate-viewer --port 8080");
 }
 
 std::string tokenFrom(const std::string& path) {
@@ -116,9 +120,10 @@ int body(int argc, char** argv) {
       "Shows the organ that a palpate-server simulates in browsers, and lets them touch it.");
   Options options;
   addOptions(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   if (!options.export_folder && !options.model.empty())
-    throw client::ClientError("--model is for --export: a server has its own model");
+    throw program::UsageError("--model is for --export: a server has its own model");
+  if (options.export_folder) program::checkOutputFolder("--export", *options.export_folder);
   options.web.page = options.page.empty() ? defaultPageFolder() : std::filesystem::path(options.page);
   if (options.export_folder) {
     writePage(options);

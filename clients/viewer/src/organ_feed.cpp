@@ -19,6 +19,10 @@ device::Point pointOf(const double (&v)[3]) {
   return {{v[0], v[1], v[2]}};
 }
 
+std::array<float, 3> narrow(const device::Point& p) {
+  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+}
+
 // -n.K n: rise of the organ's push per metre along the normal.
 double normalStiffness(const dds::ToolForce& force, const device::Point& n) {
   double sum = 0.0;
@@ -177,7 +181,10 @@ void OrganFeed::addAnswer(const TimedForce& timed) {
   answer.force = static_cast<float>(sizeOf(force.force));
   answer.penetration = static_cast<float>(force.penetration);
   answer.wakeup_us = static_cast<float>(static_cast<double>(force.wakeup_ns) * 1e-3);
-  answer.stiffness = static_cast<float>(normalStiffness(force, tools_[force.tool_id].normal));
+  const ToolView& view = tools_[force.tool_id];
+  answer.stiffness = static_cast<float>(normalStiffness(force, view.normal));
+  answer.force_vector = narrow(pointOf(force.force));
+  answer.tip = narrow(view.tip_known ? view.tip : pointOf(force.proxy));
   answers_.add(answer);
 }
 

@@ -118,6 +118,7 @@ std::string meshText(const client::Surface& surface, std::uint32_t revision, dou
                {"triangles", surface.triangles.size()},
                {"tip_radius", tip_radius},
                {"box", boxOf(surface)},
+               {"certificate", surface.certificate},
                {"regions", regionsOf(surface)}})
       .dump();
 }

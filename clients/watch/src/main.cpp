@@ -16,6 +16,7 @@
 #include "tools/program/json.h"
 #include "tools/program/printed.h"
 #include "tools/program/run.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::watch {
 namespace {
@@ -37,14 +38,15 @@ struct Watch {
 };
 
 void addOptions(program::Options line, Options& options) {
-  line.add("--seconds", &options.seconds, "how long to watch, s").range(0.1, 86400.0);
+  line.add("--seconds", &options.seconds, "how long to watch").range(0.1, 86400.0, "s");
   line.add("--rate", &options.rate_hz, "most fields per second to look at; 0: all of them")
-      .range(0.0, 10000.0);
+      .range(0.0, 10000.0, "Hz");
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
-  line.add("--wait", &options.wait_s, "how long to wait for a server, s").range(0.0, 3600.0);
+  line.add("--wait", &options.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.add("--vtk", &options.vtk, "write the surface at its largest displacement to this .vtu or .vtk file");
   line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.example("palpate-watch --seconds 5 --vtk deformed.vtu");
 }
 
 void printLine(std::ostream& out, double t, double rate, const client::Surface& surface,
@@ -102,8 +104,9 @@ int body(int argc, char** argv) {
                             "Follows the displacement of the organ that a palpate-server simulates.");
   Options options;
   addOptions(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
-  if (!options.vtk.empty()) report::checkSurfacePath(options.vtk);
+  if (!line.read(argc, argv)) return program::kDone;
+  if (!options.vtk.empty()) program::orUsageError([&] { report::checkSurfacePath(options.vtk); });
+  program::checkOutput("--vtk", options.vtk);
   client::catchStopSignals();
 
   // 2. Find the server and its organ.

@@ -20,7 +20,7 @@ namespace palpate::device {
 template <class ForceAt>
 [[nodiscard]] Trace closedLoop(HeldDevice& device, const Motion& motion, ForceAt&& force_at,
                                std::size_t delay = 1, double period = 1e-3) {
-  Trace trace{period, {device.position()}, {Point{}}};
+  Trace trace{period, {device.position()}, {Point{}}, {device.alongForce()}};
   std::array<Point, 4> pending{};  // answers on their way, by period
   const auto count = static_cast<std::size_t>(motion.path.seconds() / period + 0.5);
   for (std::size_t i = 0; i < count; ++i) {
@@ -29,6 +29,7 @@ template <class ForceAt>
     device.step(force, period);
     trace.position.push_back(device.position());
     trace.force.push_back(force);
+    trace.energy.push_back(device.alongForce());
   }
   return trace;
 }

@@ -48,8 +48,17 @@ void HeldDevice::substep(const Point& force_on_tool, double h) noexcept PALPATE_
   const Point w = held ? Point{} : ((1.0 - device_.friction / size) / A) * r;
   v_ = held ? Point{} : 2.0 * w - v_;
   x_ = x_ + h * w;
-  work_of_force_ += h * dot(force_on_tool, w);
+  book(force_on_tool, w, h);
   time_ += h;
+}
+
+void HeldDevice::book(const Point& force_on_tool, const Point& w, double h) noexcept PALPATE_NONBLOCKING {
+  const double force = length(force_on_tool), speed = length(w);
+  if (!(force > 0.0) || !(speed > 0.0)) return;
+  const double along = dot(force_on_tool, w) / force;
+  along_force_.work += h * force * along;
+  along_force_.damped += h * (device_.damping + hand_.damping + device_.friction / speed) * along * along;
+  along_force_.speed_squared += h * along * along;
 }
 
 }  // namespace palpate::device

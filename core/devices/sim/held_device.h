@@ -6,6 +6,13 @@
 
 namespace palpate::device {
 
+/// What happened along a force so far, v_F being the tip's velocity in its direction.
+struct AlongForce {
+  double work{0.0};  ///< of the force on the tool: the integral of F . dx, J. Below 0: the organ took energy
+  double damped{0.0};         ///< what device and hand damp: that of (b + B) v_F^2 + c v_F^2/|v| dt, J
+  double speed_squared{0.0};  ///< that of v_F^2 dt, m^2/s
+};
+
 /// A haptic device in a hand that follows a path, pushed by the organ:
 ///   (m + M) x'' = F - b x' - c x'/|x'| + B (y' - x') + K (y - x)
 /// x is the tip, y the path, F the organ's force on the tool, c the Coulomb friction. The integrator is the implicit
@@ -29,13 +36,14 @@ class HeldDevice {
   [[nodiscard]] const Point& position() const noexcept { return x_; }  ///< p_WT, m
   [[nodiscard]] const Point& velocity() const noexcept { return v_; }  ///< m/s
   [[nodiscard]] const Path& path() const noexcept { return path_; }
-  /// Work that the force has done on the tool so far: the integral of F . dx, J. Below 0: the organ took energy.
-  [[nodiscard]] double workOfForce() const noexcept { return work_of_force_; }
+  /// Sums since the start. B counts with the tip's own velocity: it damps what a force adds to the motion that the hand wants.
+  [[nodiscard]] const AlongForce& alongForce() const noexcept { return along_force_; }
   /// Kinetic energy plus the energy of the hand's spring, J.
   [[nodiscard]] double energy() const noexcept;
 
  private:
   void substep(const Point& force_on_tool, double h) noexcept PALPATE_NONBLOCKING;
+  void book(const Point& force_on_tool, const Point& w, double h) noexcept PALPATE_NONBLOCKING;
 
   Mechanics device_;
   Hand hand_;
@@ -43,7 +51,7 @@ class HeldDevice {
   Point x_;
   Point v_{};
   double time_{0.0};
-  double work_of_force_{0.0};
+  AlongForce along_force_;
 };
 
 }  // namespace palpate::device

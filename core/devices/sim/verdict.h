@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "core/devices/path/path.h"
+#include "core/devices/sim/held_device.h"
 #include "core/devices/sim/motion.h"
 
 namespace palpate::device {
 
 /// Positions of the tip and the forces on it, at even steps of time.
 struct Trace {
-  double dt{1e-3};              ///< s between two entries, above 0
-  std::vector<Point> position;  ///< n tip positions; entry i at time i dt, m
-  std::vector<Point> force;     ///< n forces on the tool that acted until then, N
+  double dt{1e-3};                   ///< s between two entries, above 0
+  std::vector<Point> position;       ///< n tip positions; entry i at time i dt, m
+  std::vector<Point> force;          ///< n forces on the tool that acted until then, N
+  std::vector<AlongForce> energy{};  ///< n sums until then; may be empty where nobody judges it
+  std::vector<bool> stalled{};       ///< n: the device stood still before the step to the entry; empty: never
 };
 
 /// Motion of the tip about its slow trend, after the time to settle.

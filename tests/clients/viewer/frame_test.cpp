@@ -46,6 +46,8 @@ TEST(ViewerFrame, HoldsFieldToolsAndAnswersAtTheirPlaces) {
   answer.flags = 129;
   answer.t_us = 77.25;
   answer.stiffness = 450.0F;
+  answer.force_vector = {1.0F, 2.0F, 3.0F};
+  answer.tip = {0.1F, 0.2F, 0.3F};
   Frame frame;
   frame.seq = 9;
   frame.mesh_revision = 4;
@@ -55,7 +57,7 @@ TEST(ViewerFrame, HoldsFieldToolsAndAnswersAtTheirPlaces) {
   frame.answers = {&answer, 1};
   Bytes out;
   encodeFrame(frame, out);
-  ASSERT_EQ(out.size(), 56U + 8U + 72U + 32U);
+  ASSERT_EQ(out.size(), 56U + 8U + 72U + 56U);
   EXPECT_EQ(at<std::uint32_t>(out, 0), 2U);
   EXPECT_EQ(at<std::uint32_t>(out, 4), 9U);
   EXPECT_EQ(at<std::uint32_t>(out, 8), 4U);
@@ -74,6 +76,8 @@ TEST(ViewerFrame, HoldsFieldToolsAndAnswersAtTheirPlaces) {
   EXPECT_EQ(at<std::uint32_t>(out, 140), 129U) << "answer's flags";
   EXPECT_EQ(at<double>(out, 144), 77.25);
   EXPECT_EQ(at<float>(out, 164), 450.0F);
+  EXPECT_EQ(at<float>(out, 176), 3.0F) << "force z";
+  EXPECT_EQ(at<float>(out, 188), 0.3F) << "tip z";
 }
 
 TEST(ViewerFrame, WithoutASurfaceIsHeaderToolsAndAnswersOnly) {

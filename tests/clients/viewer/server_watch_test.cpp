@@ -164,6 +164,7 @@ TEST(PageText, AMeshHasItsBox) {
   EXPECT_EQ(text["revision"], 3);
   EXPECT_EQ(text["box"], json::parse("[[0,0,0],[0.1,0.1,0.05]]"));
   EXPECT_EQ(text["tip_radius"], 0.005);
+  EXPECT_EQ(text["certificate"], "not certified: it is a pyramid") << "the page's line";
 }
 
 TEST(PageText, AToolThatIsNotGrantedHasNoNumber) {

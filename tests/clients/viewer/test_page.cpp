@@ -87,7 +87,7 @@ void TestPage::takeFrame(const std::vector<std::uint8_t>& bytes) {
                      at<std::uint32_t>(bytes, offset + 8), at<std::uint32_t>(bytes, offset + 12),
                      vectorAt(bytes, offset + 16), vectorAt(bytes, offset + 28), vectorAt(bytes, offset + 52),
                      at<float>(bytes, offset + 64)});
-  for (std::uint32_t i = 0; i < at<std::uint32_t>(bytes, 44); ++i, offset += 32)
+  for (std::uint32_t i = 0; i < at<std::uint32_t>(bytes, 44); ++i, offset += 56)
     answers.push_back({at<std::uint32_t>(bytes, offset), at<std::uint32_t>(bytes, offset + 4),
                        at<double>(bytes, offset + 8), at<float>(bytes, offset + 16)});
   if (acknowledges) client.say({{"type", "ack"}, {"seq", frame_seqs.back()}});

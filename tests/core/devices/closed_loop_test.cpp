@@ -32,7 +32,7 @@ Run run(const std::string& kind, double wall, const Mechanics& device = {0.045, 
   HeldDevice held(device, hand, motion.path);
   const Trace without = withoutOrgan(held, motion);
   const Trace with = closedLoop(held, motion, Wall{wall}, delay);
-  return {judge(with, without, motion), held.workOfForce()};
+  return {judge(with, without, motion), held.alongForce().work};
 }
 
 TEST(ClosedLoop, ASoftSpringIsStable) {

@@ -70,7 +70,7 @@ TEST(HeldDevice, EnergyIsWhatTheForceHasPutIn) {
   HeldDevice held({0.045, 0.0, 0.0}, {0.1, 0.0, 200.0}, resting());
   for (int i = 0; i < 500; ++i) held.step({std::sin(0.1 * i), 0.2, i % 100 < 50 ? 1.0 : -1.0}, 1e-3);
   EXPECT_GT(held.energy(), 1e-4);
-  EXPECT_NEAR(held.energy(), held.workOfForce(), 1e-9 * held.energy());
+  EXPECT_NEAR(held.energy(), held.alongForce().work, 1e-9 * held.energy());
 }
 
 TEST(HeldDevice, RestsWhereForceAndHandBalance) {

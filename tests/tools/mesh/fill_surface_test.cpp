@@ -68,6 +68,23 @@ TEST(FillSurface, GrowsInsideWhetherTheSurfaceIsKeptOrMadeAnew) {
   }
 }
 
+// Whether the surface is kept or made anew.
+TEST(FillSurface, LeavesCavitiesEmpty) {
+  TriangleSurface hollow = cube();
+  for (const double shift : {0.1, 0.6}) {
+    const auto offset = static_cast<std::int32_t>(hollow.vertices.size());
+    for (const auto& x : cube().vertices)
+      hollow.vertices.emplace_back(0.25 * x + Eigen::Vector3d::Constant(shift));
+    for (const auto& t : cube().triangles)
+      hollow.triangles.push_back({t[0] + offset, t[2] + offset, t[1] + offset});
+  }
+  for (const double size : {0.0, 0.15}) {
+    const TetMesh mesh = fillSurface(hollow, {size});
+    EXPECT_NO_THROW(checkMesh(mesh));
+    EXPECT_NEAR(volumeOf(mesh), 1 - 2.0 / 64, 1e-9) << size;
+  }
+}
+
 TEST(FillSurface, RefusesANegativeSize) {
   EXPECT_REFUSED(fillSurface(cube(), {-1}), "--element-size");
   EXPECT_REFUSED(fillSurface(cube(), {0.2, 0.1}), "--inner-size must be at least --element-size");

@@ -5,6 +5,7 @@
 
 #include "helpers.h"
 #include "palpate/testing/paths.h"
+#include "tools/mesh/surface_defects.h"
 
 namespace palpate::mesh::test {
 namespace {

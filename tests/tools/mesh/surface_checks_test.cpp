@@ -2,6 +2,8 @@
 #include <limits>
 
 #include "helpers.h"
+#include "tools/mesh/surface_defects.h"
+#include "tools/mesh/surface_solids.h"
 #include "tools/mesh/triangle_crossing.h"
 #include "tools/mesh/triangle_surface.h"
 
@@ -20,23 +22,31 @@ void add(TriangleSurface& surface, const TriangleSurface& other, const Eigen::Ve
   }
 }
 
-TEST(CheckSurface, TakesACube) {
-  TriangleSurface surface = cube();
-  EXPECT_NO_THROW(checkSurface(surface));
-}
-
-TEST(CheckSurface, TurnsAnInwardSurfaceOver) {
-  TriangleSurface surface = cube();
+TriangleSurface turnedOver(TriangleSurface surface) {
   for (auto& t : surface.triangles) std::swap(t[1], t[2]);
-  const auto inward = surface.triangles;
-  checkSurface(surface);
-  EXPECT_NE(surface.triangles, inward);
+  return surface;
 }
 
-TEST(CheckSurface, RefusesAHole) {
+TEST(CheckSurface, TakesACubeWhicheverWayItFaces) {
+  EXPECT_NO_THROW(checkSurface(cube()));
+  EXPECT_NO_THROW(checkSurface(turnedOver(cube())));
+  EXPECT_NEAR(enclosedVolume(cube()), 1, 1e-15);
+  EXPECT_NEAR(enclosedVolume(turnedOver(cube())), -1, 1e-15);
+  EXPECT_NEAR(areaOf(cube()), 6, 1e-15);
+}
+
+TEST(CheckSurface, RefusesAHoleByItsPlace) {
   TriangleSurface surface = cube();
   surface.triangles.pop_back();
-  EXPECT_REFUSED(checkSurface(surface), "not closed", "1 triangle instead of 2", "triangle 11");
+  EXPECT_REFUSED(checkSurface(surface), "1 hole: the surface is not closed",
+                 "at (1 0.6667 0.6667) m (triangle");
+}
+
+TEST(CheckSurface, CountsHoles) {
+  TriangleSurface surface = cube();
+  surface.triangles.pop_back();
+  surface.triangles.erase(surface.triangles.begin());
+  EXPECT_REFUSED(checkSurface(surface), "2 holes");
 }
 
 TEST(CheckSurface, RefusesAnEdgeOfThreeTriangles) {
@@ -45,31 +55,45 @@ TEST(CheckSurface, RefusesAnEdgeOfThreeTriangles) {
   surface.vertex_tags.push_back(9);
   surface.triangles.push_back({0, 1, 8});
   surface.triangle_tags.push_back(13);
-  EXPECT_REFUSED(checkSurface(surface), "vertex 1 and vertex 2", "3 triangles");
+  EXPECT_REFUSED(checkSurface(surface), "1 edge lies in more than two triangles, at (0.5 0 0) m (triangles");
 }
 
 TEST(CheckSurface, RefusesOneTriangleTurnedOver) {
   TriangleSurface surface = cube();
   std::swap(surface.triangles[4][1], surface.triangles[4][2]);
-  EXPECT_REFUSED(checkSurface(surface), "same direction", "triangle 5");
+  EXPECT_REFUSED(checkSurface(surface), "3 edges are passed in the same direction by both",
+                 "(triangles 5 and 6)");
 }
 
-TEST(CheckSurface, RefusesATriangleWithoutArea) {
+TEST(CheckSurface, RefusesTrianglesWithoutArea) {
   TriangleSurface surface = cube();
   surface.vertices[7] = surface.vertices[6];
-  EXPECT_REFUSED(checkSurface(surface), "triangle 4", "has no area");
+  EXPECT_REFUSED(checkSurface(surface), "2 triangles have no area", "triangle 8");
 }
 
 TEST(CheckSurface, RefusesNonFiniteVertex) {
   TriangleSurface surface = cube();
   surface.vertices[7].z() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_REFUSED(checkSurface(surface), "triangle 4", "not finite");
+  EXPECT_REFUSED(checkSurface(surface), "3 triangles have coordinates that are not finite", "triangle 4");
 }
 
-TEST(CheckSurface, RefusesTwoParts) {
+TEST(CheckSurface, RefusesATriangleThatIsThereTwice) {
   TriangleSurface surface = cube();
-  add(surface, cube(), {5, 0, 0}, 1);
-  EXPECT_REFUSED(checkSurface(surface), "disconnected", "triangle 13");
+  surface.triangles.push_back({1, 0, 2});
+  surface.triangle_tags.push_back(13);
+  EXPECT_REFUSED(checkSurface(surface), "1 triangle is there twice", "(triangles 1 and 13)");
+}
+
+TEST(CheckSurface, ListsAllDefectsAtOnceWithThePlacesOfTheFirstThree) {
+  TriangleSurface surface = cube();
+  for (int i = 1; i < 6; ++i) add(surface, cube(), {5.0 * i, 0, 0}, 1);
+  for (std::size_t i = 0; i < 5; ++i)
+    std::swap(surface.triangles[12 * i + 4][1], surface.triangles[12 * i + 4][2]);
+  surface.vertices.back() = {25.3, 0.4, -0.5};
+  surface.triangles.push_back({0, 2, 1});
+  surface.triangle_tags.push_back(99);
+  EXPECT_REFUSED(checkSurface(surface), "15 edges are passed", ", ...; ", "pairs of triangles intersect",
+                 "1 triangle is there twice");
 }
 
 TEST(CheckSurface, RefusesTwoConesJoinedAtTheirTips) {
@@ -78,7 +102,7 @@ TEST(CheckSurface, RefusesTwoConesJoinedAtTheirTips) {
   for (auto& t : surface.triangles) {
     for (auto& v : t) v = v == 8 ? 7 : v;  // the second cube's first corner is the first one's last
   }
-  EXPECT_REFUSED(checkSurface(surface), "vertex 8 joins several fans");
+  EXPECT_REFUSED(checkSurface(surface), "vertex 8 joins several fans", "at (1 1 1) m");
 }
 
 TEST(CheckSurface, RefusesACornerPushedThroughTheOppositeFace) {
@@ -87,33 +111,69 @@ TEST(CheckSurface, RefusesACornerPushedThroughTheOppositeFace) {
   EXPECT_REFUSED(checkSurface(surface), "cuts itself", "triangle", "intersect");
 }
 
+TEST(Solids, OneCubeKeepsItsOrderAndIsTurnedOutward) {
+  const auto solids = solidsOf(turnedOver(cube()));
+  ASSERT_EQ(solids.size(), 1U);
+  EXPECT_NEAR(solids[0].volume, 1, 1e-15);
+  EXPECT_EQ(solids[0].surface.triangles, cube().triangles);
+  EXPECT_EQ(solids[0].surface.vertices, cube().vertices);
+  EXPECT_TRUE(solids[0].cavities.empty());
+}
+
+TEST(Solids, TwoCubesAreTwoTheLargestFirst) {
+  TriangleSurface surface = cube();
+  add(surface, cube(), {5, 0, 0}, 2);
+  const auto solids = solidsOf(surface);
+  ASSERT_EQ(solids.size(), 2U);
+  EXPECT_NEAR(solids[0].volume, 8, 1e-12);
+  EXPECT_NEAR((solids[0].middle - Eigen::Vector3d(6, 1, 1)).norm(), 0, 1e-12);
+  EXPECT_NEAR(solids[1].volume, 1, 1e-12);
+  EXPECT_EQ(solids[1].surface.vertices.size(), 8U);
+}
+
+// Whether its triangles face outward or inward in the file. A cube in the cavity is a body of its own.
+TEST(Solids, ACubeInsideIsACavity) {
+  for (const bool inward : {false, true}) {
+    TriangleSurface surface = cube();
+    add(surface, inward ? turnedOver(cube()) : cube(), {0.2, 0.2, 0.2}, 0.5);
+    add(surface, cube(), {0.3, 0.3, 0.3}, 0.1);
+    const auto solids = solidsOf(surface);
+    ASSERT_EQ(solids.size(), 2U);
+    EXPECT_NEAR(solids[0].volume, 1 - 0.125, 1e-12);
+    ASSERT_EQ(solids[0].cavities.size(), 1U);
+    EXPECT_NEAR(solids[0].cavities[0].volume, 0.125, 1e-12);
+    EXPECT_NEAR((solids[0].cavities[0].middle - Eigen::Vector3d(0.45, 0.45, 0.45)).norm(), 0, 1e-12);
+    EXPECT_NEAR(enclosedVolume(solids[0].surface), 1 - 0.125, 1e-12);
+    EXPECT_NEAR(solids[1].volume, 0.001, 1e-12);
+  }
+}
+
 TEST(SelfIntersection, NamesTheTwoTriangles) {
   TriangleSurface surface;
   surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.2, 1}, {2, 2, 0}};
   surface.triangles = {{0, 1, 2}, {3, 4, 5}};
-  const auto pair = firstSelfIntersection(surface);
-  ASSERT_TRUE(pair.has_value());
-  EXPECT_EQ(*pair, (std::pair<std::size_t, std::size_t>(0, 1)));
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  EXPECT_EQ(selfIntersections(surface), (Pairs{{0, 1}}));
 }
 
 TEST(SelfIntersection, FindsTrianglesFoldedOntoTheirNeighbour) {
   TriangleSurface surface;
   surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.5, 0}};
   surface.triangles = {{0, 1, 2}, {1, 0, 3}};
-  EXPECT_TRUE(firstSelfIntersection(surface).has_value());
+  EXPECT_FALSE(selfIntersections(surface).empty());
   surface.vertices[3] = {0.5, -0.5, 0};  // unfolded
-  EXPECT_FALSE(firstSelfIntersection(surface).has_value());
+  EXPECT_TRUE(selfIntersections(surface).empty());
   surface.vertices[3] = {0.5, 0.5, 0.1};  // half open
-  EXPECT_FALSE(firstSelfIntersection(surface).has_value());
+  EXPECT_TRUE(selfIntersections(surface).empty());
 }
 
 TEST(SelfIntersection, FindsNeighboursAtACornerThatCross) {
   TriangleSurface surface;
   surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, -0.1}, {1, 1, 0.1}};
   surface.triangles = {{0, 1, 2}, {0, 3, 4}};
-  EXPECT_TRUE(firstSelfIntersection(surface).has_value());
+  EXPECT_FALSE(selfIntersections(surface).empty());
   surface.vertices[3] = {1, 1, 0.05};
-  EXPECT_FALSE(firstSelfIntersection(surface).has_value());
+  EXPECT_TRUE(selfIntersections(surface).empty());
 }
 
 TEST(SegmentMeetsTriangle, AlsoInItsPlane) {

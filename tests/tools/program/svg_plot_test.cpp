@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "palpate/testing/xml_fault.h"
+#include "tools/program/spread.h"
 
 namespace palpate::program {
 namespace {
@@ -55,6 +58,53 @@ TEST(Svg, EveryPointLiesInThePlot) {
   EXPECT_NEAR(x, 70.0, 1e-9);  // x = 0 on the axis
   EXPECT_GT(y, 48.0);
   EXPECT_LT(y, 420.0 - 52.0);
+}
+
+// Number after each `before`, from the first place that `from` is found.
+std::vector<double> numbersAfter(const std::string& text, const std::string& from,
+                                 const std::string& before) {
+  std::vector<double> numbers;
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1))
+    numbers.push_back(std::stod(text.substr(text.find(before, at) + before.size())));
+  return numbers;
+}
+
+TEST(Svg, NamesOfCurvesStandWhereTheyEndAndNotOverEachOther) {
+  SvgPlot plot;
+  plot.series = {
+      {"one", {0, 1, 2}, {0, 3, 1}, {}}, {"two", {0, 2}, {2, 1}, {}}, {"three", {0, 1}, {0, 3}, {}}};
+  const std::string svg = plot.render();
+  EXPECT_EQ(xmlFault(svg), "");
+  EXPECT_EQ(svg.find("class=\"curve c0\" x1"), std::string::npos) << "no legend above";
+  const auto ends = numbersAfter(svg, "<line class=\"leader", "y1=\"");
+  const auto names = numbersAfter(svg, "<line class=\"leader", "y2=\"");
+  ASSERT_EQ(names.size(), 3U);
+  EXPECT_NEAR(ends[0], ends[1], 1e-9) << "both end at 1";
+  EXPECT_GE(std::abs(names[0] - names[1]), 14.0) << "a line of text is 12 px high";
+  EXPECT_NEAR(names[0], ends[0], 18.0);
+  EXPECT_NEAR(names[2], ends[2], 1e-3) << "nothing is in its way";
+  const double frame = numbersAfter(svg, "<line class=\"axis", "x2=\"")[0];
+  for (const double x : numbersAfter(svg, "<line class=\"leader", "x2=\"")) EXPECT_GT(x, frame);
+  const double text = numbersAfter(svg, "<line class=\"leader", "<text x=\"")[0];
+  EXPECT_LT(text + 7.5 * 5, plot.width) << "the longest name ends inside";
+}
+
+TEST(Svg, NamesThatAreTooLongStandAbove) {
+  SvgPlot plot;
+  plot.width = 480;
+  const std::string name(40, 'n');
+  plot.series = {{name, {0, 1}, {0, 1}, {}}, {"short", {0, 1}, {1, 0}, {}}};
+  const std::string svg = plot.render();
+  EXPECT_EQ(svg.find("leader c"), std::string::npos);
+  EXPECT_EQ(countOf(svg, "<line class=\"curve c"), 2U) << "their legend";
+}
+
+TEST(Spread, KeepsWhatIsApartAndPartsWhatIsNot) {
+  EXPECT_EQ(spread({50, 10, 90}, 0, 100, 18), (std::vector<double>{50, 10, 90}));
+  EXPECT_EQ(spread({50, 50, 55}, 0, 100, 18), (std::vector<double>{50, 68, 86}));
+  EXPECT_EQ(spread({99, 98}, 0, 100, 18), (std::vector<double>{100, 82})) << "back from the end";
+  EXPECT_EQ(spread({-5}, 0, 100, 18), (std::vector<double>{0}));
+  EXPECT_TRUE(spread({}, 0, 100, 18).empty());
 }
 
 TEST(Svg, BarsOnLogarithmicAxesSkipZeros) {

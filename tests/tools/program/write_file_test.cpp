@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "palpate/testing/files.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::program {
 namespace {
@@ -71,6 +72,33 @@ TEST_F(WriteFile, ChecksBeforeTheWorkWhetherItCan) {
   EXPECT_EQ(refusalOf(folder_ / "missing" / "a.txt"), "No such file or directory");
   EXPECT_EQ(refusalOf(folder_.path()), "Is a directory");
   EXPECT_EQ(entries(), 0U);
+}
+
+TEST_F(WriteFile, RefusesAnOptionWhosePlaceCannotBeWritten) {
+  const auto refusalOf = [](auto check, const std::filesystem::path& place) {
+    try {
+      check("--plot", place);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::filesystem::path nowhere = folder_ / "missing" / "a.svg", file = folder_ / "b.svg";
+  EXPECT_EQ(refusalOf(checkOutput, ""), "");
+  EXPECT_EQ(refusalOf(checkOutput, folder_ / "a.svg"), "");
+  EXPECT_EQ(refusalOf(checkOutput, nowhere),
+            "--plot: cannot write " + nowhere.string() + ": No such file or directory");
+  EXPECT_EQ(refusalOf(checkOutput, folder_.path()),
+            "--plot: cannot write " + folder_.path().string() + ": Is a directory");
+  writeFile(file, std::string("b"));
+  EXPECT_EQ(refusalOf(checkOutput, file), "") << "it takes the place of the old one";
+  EXPECT_EQ(refusalOf(checkOutputFolder, folder_.path()), "");
+  EXPECT_EQ(refusalOf(checkOutputFolder, folder_ / "new" / ""), "") << "it is made";
+  EXPECT_EQ(refusalOf(checkOutputFolder, nowhere), "") << "its parent is made too";
+  EXPECT_EQ(refusalOf(checkOutputFolder, file / "c" / "d"),
+            "--plot: cannot write " + (file / "c" / "d").string() + ": Not a directory");
+  EXPECT_EQ(refusalOf(checkOutputFolder, file),
+            "--plot: cannot write " + file.string() + ": Not a directory");
 }
 
 TEST_F(WriteFile, KnowsOneFileByAllItsPaths) {

@@ -104,9 +104,10 @@ export class Seen {
     return this.see({ x: place.x - half, y: place.y - half, width: 2 * half, height: 2 * half });
   }
 
-  async shot(name) {
+  /** @param waitMs  until the sharp picture, drawn at rest */
+  async shot(name, waitMs = 700) {
     mkdirSync(shots, { recursive: true });
-    await this.page.waitForTimeout(700); // the sharp picture, drawn at rest
+    await this.page.waitForTimeout(waitMs);
     await this.page.screenshot({ path: join(shots, `${name}.png`) });
   }
 

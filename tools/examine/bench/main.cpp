@@ -94,8 +94,9 @@ int body(int argc, char** argv) {
   add.flag("--realtime", &options.realtime,
            "run with the priority of the tick, SCHED_FIFO 80: other work on that processor waits");
   add.flag("--scale", &options.scale, "instead print the largest synthetic model whose field fits 1 kHz");
-  add.add("--rate", &options.rate_hz, "ticks a second of cadence and growth").range(100.0, 10000.0);
+  add.add("--rate", &options.rate_hz, "ticks a second of cadence and growth").range(100.0, 10000.0, "Hz");
   add.add("--modes", &options.modes, "modes of these models").range(20, 1000);
+  add.example("palpate-bench liver.h5 --benchmark_filter=step");
   const double seconds = leastSeconds(argc, argv);
   benchmark::Initialize(&argc, argv);  // takes its own options out
   if (!line.read(argc, argv)) return 0;

@@ -51,14 +51,15 @@ void describe(program::Options line, Options& options) {
            "touches within the domain; a bound takes 59, fewer are not written")
       .range(1, 100000);
   line.add("--travel", &options.travel,
-           "how far tools press, m (default: the case's, else 0.007 below 50 kPa, 0.005 above)")
-      .range(kShortestTravel, kLongestTravel);
+           "how far tools press (default: the case's, else 0.007 below 50 kPa, 0.005 above)")
+      .range(kShortestTravel, kLongestTravel, "m");
   line.flag("--two-tools", &options.two_tools,
             "certify pairs of tools too, 1.5 to 8 patch radii apart: twice as many");
   line.add("--plot", &options.plot, "draw the errors over the length of d (.svg)");
   line.add("--report", &options.report, "folder for report.html and report.json: what the model is good for");
   line.add("--youngs-modulus-error", &options.modulus_error,
-           "with --report: how well E is known, relative, such as 0.2; a band on its force curves")
+           "with --report: how well E is known, relative, such as 0.2; a band on its force curves; default: "
+           "no band")
       .range(0.0, 1.0);
   line.flag("--no-write", &options.no_write, "leave the file as it is");
   line.flag("--json", &options.json, "print one JSON object on standard output");
@@ -67,8 +68,9 @@ void describe(program::Options line, Options& options) {
            "draw other touches than those of the content's digest; writes no certificate");
   line.flag("--inward", &options.inward,
             "draw only directions against the outward normal; writes no certificate");
-  line.add("--length", &options.length, "length of all touches, m; writes no certificate")
-      .range(kShortestTravel, kLongestTravel);
+  line.add("--length", &options.length, "length of all touches; writes no certificate")
+      .range(kShortestTravel, kLongestTravel, "m");
+  line.example("palpate-certify liver.h5 --report liver_report");
 }
 
 void checkKind(const MetaModel& model, const std::string& path) {
@@ -77,28 +79,21 @@ void checkKind(const MetaModel& model, const std::string& path) {
                        "; certify takes displacement models");
 }
 
-/// A range lets NaN through. @throw CertifyError
-void checkNumber(const char* option, const std::optional<double>& value, const char* expected) {
-  if (value && std::isnan(*value)) throw CertifyError(std::string(option) + " is nan, expected " + expected);
-}
-
 Drawing drawingOf(const MetaModel& model, const Options& options) {
-  checkNumber("--travel", options.travel, "a length in m");
-  checkNumber("--length", options.length, "a length in m");
   if (options.seed && *options.seed < 0)
-    throw CertifyError("--seed is " + std::to_string(*options.seed) + ", expected 0 or more");
+    throw program::UsageError("--seed is " + std::to_string(*options.seed) + ", expected 0 or more");
   const Travel travel = travelOf(model.attributes(), options.travel);
   return {travel,
           {travel.length, options.length, options.inward},
           options.seed ? static_cast<std::uint64_t>(*options.seed) : seedOf(model)};
 }
 
-/// Before the hours that an examination may take. @throw CertifyError, program::WriteError
+/// Before the hours that an examination may take. @throw program::UsageError, program::WriteError
 void checkFiles(const Options& options) {
   if (!options.plot.empty() && program::isSameFile(options.plot, options.model))
-    throw CertifyError("--plot is the model itself, " + options.plot + ": expected another file");
+    throw program::UsageError("--plot is the model itself, " + options.plot + ": expected another file");
   if (options.mayWrite()) program::checkWritable(std::filesystem::canonical(options.model));
-  if (!options.plot.empty()) program::checkWritable(options.plot);
+  program::checkOutput("--plot", options.plot);
 }
 
 /// Before an examination that a missing pair would lose. @param touches  a copy: what it draws is drawn again
@@ -130,9 +125,8 @@ std::string writtenText(const Options& options, const std::string& reason) {
 
 /// Nothing where none is asked for. @throw program::WriteError, CertifyError
 std::optional<ReportFolder> reportFolderOf(const Options& options) {
-  checkNumber("--youngs-modulus-error", options.modulus_error, "a share, 0 to 1");
   if (options.modulus_error && options.report.empty())
-    throw CertifyError("--youngs-modulus-error goes with --report: it is a band on its force curves");
+    throw program::UsageError("--youngs-modulus-error goes with --report: it is a band on its force curves");
   if (options.report.empty()) return {};
   return ReportFolder(options.report);
 }
@@ -206,6 +200,8 @@ void run(const Options& options) {
   };
   try {
     examineModel(options);
+  } catch (const program::UsageError&) {
+    throw;
   } catch (const program::WriteError&) {
     throw;  // names what it is about
   } catch (const std::runtime_error& error) {
@@ -219,9 +215,9 @@ int body(int argc, char** argv) {
       "Certifies a model: its errors against full nonlinear solutions of fresh random touches.");
   Options options;
   describe(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   run(options);
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "tools/examine/feel/studies.h"
 #include "tools/program/command_line.h"
 #include "tools/program/run.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::feel {
 namespace {
@@ -31,18 +32,24 @@ int body(int argc, char** argv) {
   loops.add("--loops", &study.count, "number of loops of each kind").range(1, 100000);
   slides.add("--paths", &study.paths, "number of slides").range(1, 100000);
   for (program::Options* command : {&loops, &slides})
-    command->add("--depth", &study.depth, "of the tip below the surface, m");
-  slides.add("--speed", &study.speed, "m/s");
+    command->add("--depth", &study.depth, "of the tip below the surface").unit("m");
+  slides.add("--speed", &study.speed, "of the slides").unit("m/s");
   coupling.flag("--no-device-friction", &study.frictionless,
                 "without the device's Coulomb friction, which hides small instabilities");
   contrast
       .add("without", &study.without,
            "model of the same organ without what lies in it: its case file without [[region]] tables, solved")
       .required();
-  contrast.add("--depth", &study.press_depth, "of the presses, along the normal, m").range(1e-6, 1.0);
+  contrast.add("--depth", &study.press_depth, "of the presses, along the normal").range(1e-6, 1.0, "m");
   contrast.add("--map", &study.map,
                "write the contrast over the surface: a picture (.svg) or a VTK file (.vtu)");
-  if (!line.read(argc, argv)) return 0;
+  line.options().example("palpate-feel coupling liver.h5");
+  loops.example("palpate-feel loops liver.h5 --loops 20");
+  slides.example("palpate-feel slides liver.h5 --paths 20 --speed 0.05");
+  coupling.example("palpate-feel coupling liver.h5 --no-device-friction");
+  contrast.example("palpate-feel contrast with_nodule.h5 without.h5 --map contrast.svg");
+  if (!line.read(argc, argv)) return program::kDone;
+  program::checkOutput("--map", study.map);
   if (loops.chosen()) return runLoops(study);
   if (slides.chosen()) return runSlides(study);
   if (contrast.chosen()) return runContrast(study);

@@ -15,6 +15,7 @@
 #include "tools/examine/fit/fit_plot.h"
 #include "tools/examine/fit/model_error.h"
 #include "tools/examine/fit/report.h"
+#include "tools/examine/query/place.h"
 #include "tools/modelfile/scale_model.h"
 #include "tools/program/command_line.h"
 #include "tools/program/numbers.h"
@@ -39,18 +40,20 @@ void describe(program::Options line, Options& options) {
       .required();
   program::Options where = line.exactlyOneOf("where");
   where.add("--node", &options.node, "measured at this surface node, by its number in the mesh file");
-  where.add("--at", &options.at, "measured at the surface point nearest to x,y,z, m");
+  where.add("--at", &options.at,
+            "measured at the surface point nearest to x,y,z, m, no farther than the patch's radius");
   line.add("--direction", &options.direction, "the tool went along dx,dy,dz (default: against the normal)");
   line.add("--force", &options.force,
            "what of the force was measured: its part along the direction, or its size")
       .oneOf({"along", "size"});
   line.flag("--no-offset", &options.no_offset,
             "contact begins at depth 0; else the fit finds where contact begins");
-  line.add("--deepest", &options.deepest, "leave out readings of more depth, m");
+  line.add("--deepest", &options.deepest, "leave out readings of more depth").unit("m");
   line.add("--confidence", &options.confidence, "of the interval of E").range(0.5, 0.9999);
   line.add("--plot", &options.plot, "draw points, curve and residuals (.svg)");
   line.add("--write", &options.write, "write a copy of the model that has the E that was found (.h5)");
   line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.example("palpate-fit --model liver.h5 --measured curve.csv --at 0.02,0,0.06 --plot fit.svg");
 }
 
 Vec3 vectorOf(const std::string& option, const std::string& text) {
@@ -74,15 +77,15 @@ MeasuredCurve curveOf(const Options& options) {
 }
 
 query::Anchor anchorOf(const MetaModel& model, const Options& options) {
-  return options.node ? query::anchorAtNode(model, *options.node)
-                      : query::anchorNear(model, vectorOf("--at", options.at));
+  if (options.node) return query::anchorAtNode(model, *options.node);
+  return query::anchorOf(model, {"--at", program::parseVector("--at", options.at)});
 }
 
 Vec3 directionOf(const MetaModel& model, const ContactPoint& s, const Options& options) {
   if (options.direction.empty()) return -model.surface().normal(s);
   const Vec3 d = vectorOf("--direction", options.direction);
   if (!(d.norm() > 0.0))
-    throw FitError("--direction is '" + options.direction + "', expected a vector of some length");
+    throw program::ValueError("--direction is '" + options.direction + "', expected a vector of some length");
   return d.normalized();
 }
 
@@ -126,9 +129,8 @@ void report(const Findings& found, const Options& options, const std::string& wr
   std::cout << json.dump(2, program::Keys::kAsWritten) << '\n';
 }
 
-/// A range lets NaN through. @throw FitError
+/// @throw FitError
 void checkNumbers(const Options& options) {
-  if (std::isnan(options.confidence)) throw FitError("--confidence is nan, expected 0.5 to 0.9999");
   if (options.deepest && !std::isfinite(*options.deepest))
     throw FitError("--deepest is " + std::to_string(*options.deepest) + ", expected a finite depth in m");
 }
@@ -146,13 +148,15 @@ void checkFiles(const Options& options) {
   checkOther("--write", options.write, "--model", options.model);
   checkOther("--write", options.write, "--measured", options.measured);
   checkOther("--write", options.write, "--plot", options.plot);
-  for (const std::string& file : {options.plot, options.write})
-    if (!file.empty()) program::checkWritable(file);
+  program::checkOutput("--plot", options.plot);
+  program::checkOutput("--write", options.write);
 }
 
 void run(const Options& options) {
-  checkNumbers(options);
-  checkFiles(options);
+  program::orUsageError([&] {
+    checkNumbers(options);
+    checkFiles(options);
+  });
   // 1. The model and the curve.
   const MetaModel model = modelOf(options);
   const MeasuredCurve curve = curveOf(options);
@@ -187,9 +191,9 @@ int body(int argc, char** argv) {
       "palpate-fit", "Finds an organ's Young's modulus from force against depth, measured at one point.");
   Options options;
   describe(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   run(options);
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

@@ -16,10 +16,11 @@ int body(int argc, char** argv) {
   bool json = false;
   line.options().add("model", &path, "model file (.h5)").required();
   line.options().flag("--json", &json, "print one JSON object on standard output");
-  if (!line.read(argc, argv)) return 0;
+  line.options().example("palpate-inspect liver.h5");
+  if (!line.read(argc, argv)) return program::kDone;
   const program::Json description = describe(MetaModel::load(path));
   std::cout << (json ? description.dump(2, program::Keys::kAsWritten) + "\n" : table(description));
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

@@ -76,12 +76,12 @@ Anchor anchorAtNode(const MetaModel& model, std::int64_t number) {
   if (model.view().position_of_node[static_cast<std::size_t>(node)] < 0)
     throw QueryError("node " + std::to_string(number) +
                      " has no contact position: it is clamped or not accessible");
-  return {touchableAt(model, node), nodePosition(model, node), node};
+  return {touchableAt(model, node), nodePosition(model, node), node, {}};
 }
 
 Anchor anchorNear(const MetaModel& model, const Vec3& c) {
   const NearestPoint nearest = model.surface().closestPoint(c);
-  return {nearest.s, nearest.position, nearestNode(model, nearest.position)};
+  return {nearest.s, nearest.position, nearestNode(model, nearest.position), nearest.signed_distance};
 }
 
 void checkQuestion(const MetaModel& model, const Question& question) {
@@ -99,13 +99,19 @@ Vec3 forceOf(const MetaModel& model, const Question& question) {
   return question.value.x() * a.load * Eigen::Map<const Vec3>(a.load_direction.data());
 }
 
-Answer ask(const MetaModel& model, const Anchor& anchor, const Question& question) {
+Answer askForce(const MetaModel& model, const ContactPoint& s, const Question& question) {
   Answer answer;
-  answer.field.assign(3 * static_cast<std::size_t>(model.surface().nodes()), 0.0F);
-  if (!model.surface().accessible(anchor.s.triangle)) return answer;
+  if (!model.surface().accessible(s.triangle)) return answer;
   answer.status = question.prescribed == Parameters::kDisplacement
-                      ? respond(model, anchor.s, question.value, answer.response)
-                      : respondToLoad(model, anchor.s, question.value, answer.response);
+                      ? respond(model, s, question.value, answer.response)
+                      : respondToLoad(model, s, question.value, answer.response);
+  return answer;
+}
+
+Answer ask(const MetaModel& model, const Anchor& anchor, const Question& question) {
+  Answer answer = askForce(model, anchor.s, question);
+  answer.field.assign(3 * static_cast<std::size_t>(model.surface().nodes()), 0.0F);
+  if (answer.status == ResponseStatus::kNoAnswer) return answer;
   FieldScratch scratch(model);
   const std::array<FieldSource, 1> source{FieldSource{anchor.s, answer.response.parameter, 1.0}};
   evaluateField(model, source, scratch, answer.field);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/contact_point.h"
@@ -16,6 +17,8 @@ struct Anchor {
   ContactPoint s;
   Vec3 position = Vec3::Zero();  ///< X(s), m
   int node{0};                   ///< surface node, 0-based
+  std::optional<double>
+      distance{};  ///< of a place that was asked for, to the surface, m, negative inside; none of a node
 };
 
 /// What is prescribed at the contact: d in m, f in N, or (t, 0, 0).
@@ -49,6 +52,9 @@ void checkQuestion(const MetaModel& model, const Question& question);
 /// kNoAnswer where the server does not answer either: no node of the triangle is accessible.
 /// @param question  passed by checkQuestion(); clamped to the domain like in the server
 [[nodiscard]] Answer ask(const MetaModel& model, const Anchor& anchor, const Question& question);
+
+/// The same without the field, which is left empty. @param question  passed by checkQuestion()
+[[nodiscard]] Answer askForce(const MetaModel& model, const ContactPoint& s, const Question& question);
 
 /// The same for a displacement. @param d  m
 [[nodiscard]] Answer ask(const MetaModel& model, const Anchor& anchor, const Vec3& d);

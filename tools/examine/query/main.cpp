@@ -7,15 +7,17 @@
 //               palpate-query force.h5 --node 1204 --force 0,0,-0.5 --newton
 //               palpate-query liver.h5 --node 1204 --displacement 0,0,-0.002 --tool2 87:0,0,-0.002 --newton
 //               palpate-query level.h5 --node 1204 --load-level 0.75 --newton
+//               palpate-query liver.h5 --batch touches.csv --unit mm -o answers.csv
 #include <cmath>
 #include <iostream>
 #include <optional>
 #include <span>
 
 #include "core/data/model_view.h"
-#include "tools/examine/query/arguments.h"
+#include "tools/examine/query/batch.h"
 #include "tools/examine/query/ccx_deck.h"
 #include "tools/examine/query/field_file.h"
+#include "tools/examine/query/place.h"
 #include "tools/examine/query/query_error.h"
 #include "tools/examine/query/report.h"
 #include "tools/examine/query/report_together.h"
@@ -29,7 +31,7 @@ namespace {
 using namespace palpate;
 
 struct Options {
-  std::string model, at;
+  std::string model, at, batch, output, unit{"m"};
   std::optional<std::string> displacement, force;
   std::optional<std::int64_t> node;
   std::optional<double> level;
@@ -44,15 +46,24 @@ void describe(program::Options line, Options& options) {
   line.add("model", &options.model, "model file (.h5)").required();
   program::Options where = line.exactlyOneOf("where");
   where.add("--node", &options.node, "touch this surface node, by its number in the mesh file");
-  where.add("--at", &options.at, "touch the surface point nearest to x,y,z, m");
-  program::Options what = line.exactlyOneOf("what");
-  what.add("--displacement", &options.displacement, "displacement dx,dy,dz of the contact patch, m");
+  where.add(
+      "--at", &options.at,
+      "touch the surface point nearest to x,y,z; refused farther from the surface than the patch's radius");
+  where.add("--batch", &options.batch,
+            "answer each line of a table (.csv) of places and displacements, see below");
+  program::Options what = line.atMostOneOf("what");
+  what.add("--displacement", &options.displacement, "displacement dx,dy,dz of the contact patch");
   what.add("--force", &options.force, "force fx,fy,fz of the tool, N (models driven by force)");
   what.add("--load-level", &options.level, "part of the model's load, 0 to 1 (models driven by level)")
       .range(0.0, 1.0);
   line.add("--tool2", &options.more_tools,
-           "another tool at the same time: NODE:dx,dy,dz, m; goes with --displacement, may be repeated")
+           "another tool at the same time: NODE:dx,dy,dz; goes with --displacement, may be repeated")
       .oneWordEach();
+  line.add("--unit", &options.unit,
+           "of places and displacements in --at, --displacement, --tool2 and --batch")
+      .oneOf(program::lengthUnitWords());
+  line.add("-o,--output", &options.output,
+           "with --batch: write the answers there (.csv), not on standard output");
   line.flag("--newton", &options.newton, "solve the full problem too, and tell how far the model is off");
   line.add("--steps", &options.steps, "load steps of the full solution to begin with").range(1, 1000);
   line.add("--ccx", &options.deck, "write the full problem as a CalculiX deck (implies --newton)");
@@ -65,9 +76,13 @@ Vec3 vectorOf(const std::string& option, const std::string& text) {
   return {x[0], x[1], x[2]};
 }
 
+program::AskedPlace asked(const std::string& option, const program::Point& numbers, const Options& options) {
+  return {option, numbers, program::lengthUnit(options.unit), true};
+}
+
 query::Anchor anchorOf(const MetaModel& model, const Options& options) {
-  return options.node ? query::anchorAtNode(model, *options.node)
-                      : query::anchorNear(model, vectorOf("--at", options.at));
+  if (options.node) return query::anchorAtNode(model, *options.node);
+  return query::anchorOf(model, asked("--at", program::parseVector("--at", options.at), options));
 }
 
 query::Question questionOf(const Options& options) {
@@ -77,6 +92,15 @@ query::Question questionOf(const Options& options) {
   if (options.force) return {Parameters::kForce, vectorOf("--force", *options.force)};
   if (!options.displacement) throw query::QueryError("--displacement or --force is empty, expected x,y,z");
   return {Parameters::kDisplacement, vectorOf("--displacement", *options.displacement)};
+}
+
+/// A displacement in metres. @throw program::ValueError where it is longer than any touch
+query::Question checked(const MetaModel& model, query::Question question, const Options& options) {
+  query::checkQuestion(model, question);
+  if (question.prescribed != Parameters::kDisplacement) return question;
+  const Vec3& d = question.value;
+  question.value = query::displacementOf(model, asked("--displacement", {d[0], d[1], d[2]}, options));
+  return question;
 }
 
 query::FullSolution solve(const MetaModel& model, const query::Organ& organ, const query::Anchor& anchor,
@@ -91,7 +115,7 @@ query::FullSolution solve(const MetaModel& model, const query::Organ& organ, con
 std::string about(const Options& options) {
   if (options.level) return "load level " + std::to_string(*options.level);
   if (options.force) return "force " + *options.force + " N";
-  return "patch displacement " + *options.displacement + " m";
+  return "patch displacement " + *options.displacement + " " + options.unit;
 }
 
 /// The tools of the question, none when it is about one.
@@ -103,8 +127,11 @@ std::vector<query::Touch> touchesOf(const MetaModel& model, const Options& optio
         "--tool2 moves tools by displacements, expected --displacement for the first one too");
   if (!options.deck.empty()) throw query::QueryError("--ccx writes a deck of one tool, expected no --tool2");
   std::vector<query::Touch> touches{{anchor, question.value}};
-  for (const std::string& text : options.more_tools)
-    touches.push_back(query::parseTouch(model, "--tool2", text));
+  for (const std::string& text : options.more_tools) {
+    query::Touch touch = query::parseTouch(model, "--tool2", text);
+    touch.d = query::displacementOf(model, asked("--tool2", {touch.d[0], touch.d[1], touch.d[2]}, options));
+    touches.push_back(touch);
+  }
   query::checkTouches(model, touches);
   return touches;
 }
@@ -151,11 +178,44 @@ void reportTogether(const Options& options, const query::Findings& first,
   std::cout << json.dump(2, program::Keys::kAsWritten) << '\n';
 }
 
-void run(const Options& options) {
-  // 1. The question.
-  const query::Question question = questionOf(options);
+/// @throw program::UsageError where options do not go together
+void checkOptions(const Options& options) {
+  program::checkOutput("--field", options.field);
+  program::checkOutput("--ccx", options.deck);
+  const bool what = options.displacement || options.force || options.level;
+  if (options.batch.empty()) {
+    if (!what)
+      throw program::UsageError("one of --displacement,--force,--load-level is required, or --batch");
+    if (!options.output.empty()) throw program::UsageError("-o goes with --batch");
+    return;
+  }
+  if (what || options.newton || options.json || !options.more_tools.empty() || !options.deck.empty() ||
+      !options.field.empty())
+    throw program::UsageError("--batch goes with --unit and -o only");
+  if (options.output.empty()) return;
+  program::checkOutput("-o", options.output);
+  if (program::isSameFile(options.batch, options.output))
+    throw program::UsageError("-o " + options.output + " would replace the touches");
+}
+
+void runBatch(const Options& options) {
+  const std::vector<query::TouchRow> touches =
+      query::readTouches(options.batch, program::lengthUnit(options.unit));
   const MetaModel model = MetaModel::load(options.model);
-  query::checkQuestion(model, question);
+  const std::string text = query::batchText(query::answersTo(model, touches));
+  if (options.output.empty())
+    std::cout << text;
+  else
+    program::writeFile(options.output, text);
+}
+
+void run(const Options& options) {
+  checkOptions(options);
+  if (!options.batch.empty()) return runBatch(options);
+  // 1. The question.
+  const query::Question asked_for = questionOf(options);
+  const MetaModel model = MetaModel::load(options.model);
+  const query::Question question = checked(model, asked_for, options);
   const query::Anchor anchor = anchorOf(model, options);
   const std::vector<query::Touch> touches = touchesOf(model, options, anchor, question);
   // 2. The model's answer.
@@ -182,6 +242,16 @@ int body(int argc, char** argv) {
       "palpate-query", "Asks a model for the answer to one touch: force, stiffness, surface displacement.");
   Options options;
   describe(line.options(), options);
+  line.footer(
+      "--batch reads comma-separated touches. Its first line names the columns, in any order:\n"
+      "  at_x,at_y,at_z,displacement_x,displacement_y,displacement_z\n"
+      "The answers have the same lines in the same order, with the columns\n  " +
+      query::batchColumns() +
+      "\nThe first six are as asked for, in --unit. distance_m is from the place to the surface, negative "
+      "inside; used_* is the\n"
+      "displacement that the answer belongs to; clamped says whether it is shorter than what was asked for.\n"
+      "A line that cannot be read or lies off the organ is named, and nothing is written.\n\n"
+      "Example: palpate-query liver.h5 --at 20,0,60 --displacement 0,0,-2 --unit mm --newton");
   if (!line.read(argc, argv)) return 0;
   run(options);
   return 0;

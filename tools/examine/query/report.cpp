@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/examine/query/report.h"
 
+#include <cmath>
+
 #include "core/data/model_view.h"
 #include "tools/examine/query/report_lines.h"
 
@@ -54,6 +56,12 @@ std::string askedText(const Question& question) {
   return line("level %.6g", question.value.x());
 }
 
+/// How far the asked place is from the point that answers.
+std::string distanceText(double distance) {
+  return line("%-14s %11.6g mm from the asked place, which is %s the organ\n", "  distance",
+              1e3 * std::abs(distance), distance < 0.0 ? "inside" : "outside");
+}
+
 std::string newtonText(const Findings& found) {
   const Errors errors = errorsOf(found.answer, *found.truth, *found.organ);
   const solver::NewtonResult& state = found.truth->state;
@@ -83,6 +91,7 @@ Json toJson(const Findings& found) {
                    {"triangle", s.triangle},
                    {"barycentric", s.barycentric},
                    {"position", found.anchor.position}};
+  if (found.anchor.distance) out["anchor"]["distance_m"] = *found.anchor.distance;
   out["domain_radius"] = response.domain_radius;
   out["status"] = toString(found.answer.status);
   if (found.truth == nullptr) return out;
@@ -97,6 +106,7 @@ std::string toText(const Findings& found) {
                           static_cast<long long>(meshNumber(found)), s.triangle, s.barycentric[0],
                           s.barycentric[1], s.barycentric[2]);
   text += vectorLine("  position", found.anchor.position, 1e3, "mm");
+  if (found.anchor.distance) text += distanceText(*found.anchor.distance);
   text += line("%-14s %s", "status", std::string(toString(found.answer.status)).c_str());
   if (found.answer.status == ResponseStatus::kNoAnswer)
     text += ": the model has no answer at this point, no force";

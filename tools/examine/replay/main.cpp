@@ -23,6 +23,7 @@ void addOptions(program::Options line, Options& options) {
   line.flag("--partial", &options.partial,
             "replay what is there, although ticks or the end are missing, or of another engine");
   line.flag("--json", &options.json, "print one JSON object on standard output");
+  line.example("palpate-replay session.rec --model liver.h5");
 }
 
 program::Json jsonOf(const Findings& findings, const record::SessionFacts& facts) {
@@ -73,7 +74,7 @@ int body(int argc, char** argv) {
       std::string("palpate-replay ") + PALPATE_VERSION);
   Options options;
   addOptions(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   // 2. The recording and its model.
   record::RecordReader recording(options.file);
   const MetaModel model = MetaModel::load(options.model);
@@ -85,7 +86,7 @@ int body(int argc, char** argv) {
   } else {
     print(findings);
   }
-  return findings.differing == 0 ? 0 : 1;
+  return findings.differing == 0 ? program::kDone : program::kNotHeld;
 }
 
 }  // namespace

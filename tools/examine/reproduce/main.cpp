@@ -19,6 +19,7 @@
 #include "tools/examine/reproduce/rod_study.h"
 #include "tools/program/command_line.h"
 #include "tools/program/run.h"
+#include "tools/program/write_file.h"
 #include "tools/solver/base/parallel.h"
 
 namespace {
@@ -58,7 +59,7 @@ void describe(program::Options line, Options& options) {
             "20 points for the liver; an option below still sets its own value");
   line.add("--threads", &options.threads, "worker threads").range(1, 1024);
   line.add("--rod-elements", &options.rod.elements, "elements of the rod").range(1, 1000);
-  line.add("--beam-load", &options.beam.load, "load of the beam, N").range(1e-3, 10.0);
+  line.add("--beam-load", &options.beam.load, "load of the beam").range(1e-3, 10.0, "N");
   line.add("--beam-steps", &options.beam.steps, "load steps of the beam").range(1, 10000);
   line.add("--beam-tolerance", &options.beam.tolerance,
            "relative residual at which a load step of the beam ends")
@@ -68,7 +69,7 @@ void describe(program::Options line, Options& options) {
       .range(2, 200);
   line.add("--mesh", &options.liver.mesh,
            "organ for the liver, in metres, with a group `fixed` (default: palpate-organ paper-liver)");
-  line.add("--element-size", &options.liver.element_size, "of the paper's liver, m").range(0.003, 0.02);
+  line.add("--element-size", &options.liver.element_size, "of the paper's liver").range(0.003, 0.02, "m");
   line.add("--coarse-element-size", &options.liver.coarse_element_size,
            "of the liver-like organ for the ten terms, m; 0 leaves them out")
       .rangeOr(0.008, 0.02, {"0"});
@@ -76,6 +77,7 @@ void describe(program::Options line, Options& options) {
   line.add("--pairs", &options.liver.pairs, "numbers of pairs to tabulate").list(',').range(1, 1000);
   line.flag("--json", &options.json, "also print results.json on standard output");
   line.flag("-q,--quiet", &options.quiet, "no progress");
+  line.example("palpate-reproduce all --quick -o quick");
 }
 
 std::string today() {
@@ -140,14 +142,15 @@ int body(int argc, char** argv) {
                             "Reproduces the benchmarks of Niroomandi et al. 2013: rod, beam, liver.");
   Options options;
   describe(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   if (options.quick) {
     // The smaller cases replace the defaults; options on the command line replace them in turn.
     chooseQuickCases(options);
-    if (!line.read(argc, argv)) return 0;
+    if (!line.read(argc, argv)) return program::kDone;
   }
+  program::checkOutputFolder("--output", options.output);
   run(options);
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

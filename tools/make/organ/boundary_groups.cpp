@@ -2,12 +2,16 @@
 #include "tools/make/organ/boundary_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 #include <vector>
 
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
+#include "tools/mesh/surface_solids.h"
 
 namespace palpate::organ {
 namespace {
@@ -51,6 +55,36 @@ FixedRule boxRule(std::string_view list, const std::string& text) {
   return rule;
 }
 
+FixedRule sideRule(const std::string& text) {
+  FixedRule rule;
+  rule.kind = FixedRule::Kind::kSide;
+  rule.normal = Eigen::Vector3d::Zero();
+  rule.normal[text[1] - 'x'] = text[0] == '-' ? -1 : 1;
+  return rule;
+}
+
+FixedRule normalRule(std::string_view list, const std::string& text) {
+  constexpr double kDegrees = 30;
+  const std::vector<double> v = numbers(list, text);
+  if (v.size() != 3 && v.size() != 4)
+    throw MeshError("--fixed " + text + ": a normal takes three numbers, and degrees if wanted, not " +
+                    std::to_string(v.size()));
+  const double degrees = v.size() == 4 ? v[3] : kDegrees;
+  if (!(degrees > 0 && degrees <= 90))
+    throw MeshError("--fixed " + text + ": the angle must be above 0 and at most 90 degrees");
+  FixedRule rule;
+  rule.kind = FixedRule::Kind::kNormal;
+  rule.normal = Eigen::Vector3d(v[0], v[1], v[2]);
+  if (!(rule.normal.norm() > 0)) throw MeshError("--fixed " + text + ": the normal has no length");
+  rule.normal.normalize();
+  rule.angle = degrees * std::numbers::pi / 180;
+  return rule;
+}
+
+bool isSide(const std::string& text) {
+  return text.size() == 2 && (text[0] == '-' || text[0] == '+') && text[1] >= 'x' && text[1] <= 'z';
+}
+
 Nodes groupNodes(const mesh::TetMesh& mesh, const std::string& name) {
   const auto found = mesh.groups.find(name);
   if (found != mesh.groups.end()) return found->second;
@@ -60,47 +94,94 @@ Nodes groupNodes(const mesh::TetMesh& mesh, const std::string& name) {
                   (known.empty() ? "the file has none" : "the file has " + known));
 }
 
-Nodes lowestNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, double fraction) {
-  Nodes nodes = boundary.nodes;
+// The outer part of a boundary; the others bound cavities.
+struct OuterSurface {
+  std::vector<std::array<std::int32_t, 3>> triangles;  // of nodes of the mesh
+  Nodes nodes;                                         // ascending
+};
+
+OuterSurface outerSurface(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary) {
+  mesh::TriangleSurface surface;
+  for (const auto node : boundary.nodes)
+    surface.vertices.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+  surface.triangles = boundary.triangles;
+  const std::vector<std::size_t> parts = mesh::partsOf(surface);
+  std::vector<Eigen::AlignedBox3d> boxes(parts.empty() ? 0
+                                                       : *std::max_element(parts.begin(), parts.end()) + 1);
+  for (std::size_t t = 0; t < parts.size(); ++t)
+    for (const auto v : surface.triangles[t])
+      boxes[parts[t]].extend(surface.vertices[static_cast<std::size_t>(v)]);
+  const auto largest = std::max_element(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) {
+    return a.diagonal().norm() < b.diagonal().norm();
+  });
+  const auto outer = static_cast<std::size_t>(largest - boxes.begin());
+  OuterSurface result;
+  for (std::size_t t = 0; t < parts.size(); ++t) {
+    if (parts[t] != outer) continue;
+    std::array<std::int32_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = boundary.nodes[static_cast<std::size_t>(surface.triangles[t][k])];
+    result.triangles.push_back(corners);
+    result.nodes.insert(result.nodes.end(), corners.begin(), corners.end());
+  }
+  std::sort(result.nodes.begin(), result.nodes.end());
+  result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());
+  return result;
+}
+
+Nodes lowestNodes(const mesh::TetMesh& mesh, const OuterSurface& outer, double fraction) {
+  Nodes nodes = outer.nodes;
   const auto z = [&](std::int32_t node) { return mesh.nodes[static_cast<std::size_t>(node)].z(); };
   // Stable, so that nodes of equal height are taken in the file's order.
   std::stable_sort(nodes.begin(), nodes.end(), [&](auto a, auto b) { return z(a) < z(b); });
   nodes.resize(static_cast<std::size_t>(std::lround(fraction * static_cast<double>(nodes.size()))));
-  std::sort(nodes.begin(), nodes.end());
   return nodes;
 }
 
-Nodes nodesInBox(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary,
-                 const Eigen::AlignedBox3d& box) {
+Nodes nodesInBox(const mesh::TetMesh& mesh, const OuterSurface& outer, const Eigen::AlignedBox3d& box) {
   Nodes nodes;
-  for (const auto node : boundary.nodes) {
+  for (const auto node : outer.nodes) {
     if (box.contains(mesh.nodes[static_cast<std::size_t>(node)])) nodes.push_back(node);
   }
   return nodes;
 }
 
-Nodes fixedNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const FixedRule& rule) {
+bool faces(const Eigen::Vector3d& normal, const FixedRule& rule) {
+  const double cosine = normal.dot(rule.normal);
+  if (rule.kind == FixedRule::Kind::kNormal) return cosine >= std::cos(rule.angle) - 1e-12;
+  return cosine >= normal.cwiseAbs().maxCoeff();
+}
+
+Nodes facingNodes(const mesh::TetMesh& mesh, const OuterSurface& outer, const FixedRule& rule) {
+  Nodes nodes;
+  for (const auto& t : outer.triangles) {
+    const auto at = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
+    if (faces((at(1) - at(0)).cross(at(2) - at(0)).normalized(), rule))
+      nodes.insert(nodes.end(), t.begin(), t.end());
+  }
+  return nodes;
+}
+
+Nodes nodesOf(const mesh::TetMesh& mesh, const OuterSurface& outer, const FixedRule& rule) {
   switch (rule.kind) {
     case FixedRule::Kind::kGroup:
       return groupNodes(mesh, rule.group);
     case FixedRule::Kind::kLowestZ:
-      return lowestNodes(mesh, boundary, rule.fraction);
+      return lowestNodes(mesh, outer, rule.fraction);
     case FixedRule::Kind::kBox:
-      return nodesInBox(mesh, boundary, rule.box);
-    case FixedRule::Kind::kKeep:
+      return nodesInBox(mesh, outer, rule.box);
+    case FixedRule::Kind::kSide:
+    case FixedRule::Kind::kNormal:
       break;
   }
-  const auto found = mesh.groups.find("fixed");
-  return found == mesh.groups.end() ? Nodes{} : found->second;
+  return facingNodes(mesh, outer, rule);
 }
 
 // What the file calls accessible may leave out more than the clamp, a rim around it for one.
-Nodes accessibleNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const Nodes& fixed) {
+Nodes accessibleNodes(const mesh::TetMesh& mesh, const Nodes& outer, const Nodes& fixed) {
   Nodes accessible;
-  std::set_difference(boundary.nodes.begin(), boundary.nodes.end(), fixed.begin(), fixed.end(),
-                      std::back_inserter(accessible));
-  if (accessible.empty())
-    throw MeshError("all " + std::to_string(boundary.nodes.size()) + " surface nodes are fixed");
+  std::set_difference(outer.begin(), outer.end(), fixed.begin(), fixed.end(), std::back_inserter(accessible));
+  if (accessible.empty()) throw MeshError("all " + std::to_string(outer.size()) + " surface nodes are fixed");
   const auto own = mesh.groups.find("accessible");
   if (own == mesh.groups.end()) return accessible;
   Nodes both;
@@ -118,37 +199,67 @@ FixedRule parseFixedRule(const std::string& text) {
   const std::string kind = text.substr(0, colon);
   const std::string_view rest =
       std::string_view(text).substr(colon == std::string::npos ? text.size() : colon + 1);
-  if (kind == "lowest-z" && colon != std::string::npos) return lowestRule(rest, text);
-  if (kind == "box" && colon != std::string::npos) return boxRule(rest, text);
-  if (kind != "group" || rest.empty()) {
-    throw MeshError("--fixed " + text + ": expected group:NAME, lowest-z:FRACTION or box:x0,y0,z0,x1,y1,z1");
-  }
   FixedRule rule;
-  rule.kind = FixedRule::Kind::kGroup;
-  rule.group = rest;
+  if (isSide(text)) {
+    rule = sideRule(text);
+  } else if (kind == "lowest-z" && colon != std::string::npos) {
+    rule = lowestRule(rest, text);
+  } else if (kind == "box" && colon != std::string::npos) {
+    rule = boxRule(rest, text);
+  } else if (kind == "normal" && colon != std::string::npos) {
+    rule = normalRule(rest, text);
+  } else if (kind == "group" && !rest.empty()) {
+    rule.group = rest;
+  } else {
+    throw MeshError("--fixed " + text +
+                    ": expected group:NAME, lowest-z:FRACTION, box:x0,y0,z0,x1,y1,z1, a side such as -x, or "
+                    "normal:x,y,z[,degrees]");
+  }
+  rule.text = text;
   return rule;
 }
 
-void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const FixedRule& rule) {
-  const Nodes fixed = fixedNodes(mesh, boundary, rule);
-  if (!fixed.empty() || rule.kind != FixedRule::Kind::kKeep) {
+Nodes fixedNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const FixedRules& rules) {
+  if (rules.empty()) {
+    const auto found = mesh.groups.find("fixed");
+    return found == mesh.groups.end() ? Nodes{} : found->second;
+  }
+  const OuterSurface outer = outerSurface(mesh, boundary);
+  Nodes fixed;
+  for (const FixedRule& rule : rules) {
+    const Nodes nodes = nodesOf(mesh, outer, rule);
+    if (nodes.empty() && rules.size() > 1) throw MeshError("--fixed " + rule.text + " holds no node");
+    fixed.insert(fixed.end(), nodes.begin(), nodes.end());
+  }
+  std::sort(fixed.begin(), fixed.end());
+  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+  return fixed;
+}
+
+void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const FixedRules& rules) {
+  const Nodes fixed = fixedNodes(mesh, boundary, rules);
+  if (!fixed.empty() || !rules.empty()) {
     mesh.groups["fixed"] = fixed;
     mesh::checkHeld(mesh, "fixed");
   }
-  Nodes accessible = accessibleNodes(mesh, boundary, fixed);
+  Nodes accessible = accessibleNodes(mesh, outerSurface(mesh, boundary).nodes, fixed);
   mesh.groups.clear();
   if (!fixed.empty()) mesh.groups["fixed"] = fixed;
   mesh.groups["accessible"] = std::move(accessible);
   for (const char* name : {"fixed", "accessible"}) mesh.regions.erase(name);  // they name nodes, no tissue
 }
 
-std::vector<std::string> groupsNotKept(const mesh::TetMesh& mesh, const FixedRule& rule) {
+std::vector<std::string> groupsNotKept(const mesh::TetMesh& mesh, const FixedRules& rules) {
+  const auto isHeld = [&](const std::string& name) {
+    return std::any_of(rules.begin(), rules.end(), [&](const FixedRule& rule) {
+      return rule.kind == FixedRule::Kind::kGroup && rule.group == name;
+    });
+  };
   std::vector<std::string> names;
   for (const auto& [name, nodes] : mesh.groups) {
     const bool whole = name == "organ" && nodes.size() == mesh.nodes.size();  // writeMsh() adds it again
-    const bool replaced = name == "fixed" && rule.kind != FixedRule::Kind::kKeep && rule.group != name;
-    const bool kept =
-        name == "fixed" || name == "accessible" || name == rule.group || mesh.regions.contains(name);
+    const bool replaced = name == "fixed" && !rules.empty() && !isHeld(name);
+    const bool kept = name == "fixed" || name == "accessible" || isHeld(name) || mesh.regions.contains(name);
     if (replaced || !(kept || whole)) names.push_back(name);
   }
   return names;

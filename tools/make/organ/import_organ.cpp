@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/make/organ/import_organ.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
+#include "tools/make/organ/fill_file.h"
+#include "tools/make/organ/unit.h"
 #include "tools/mesh/checks.h"
-#include "tools/mesh/fill_surface.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/midsides.h"
 #include "tools/mesh/quadratic.h"
@@ -19,34 +21,45 @@ namespace {
 
 using mesh::MeshError;
 
+void checkForSurfaces(const std::filesystem::path& path, const ImportOptions& options) {
+  if (options.sizes.surface > 0 || options.sizes.isGraded()) {
+    throw MeshError("--element-size and --inner-size are for surfaces (.stl, .obj); the tetrahedra of " +
+                    path.string() + " are taken as they are");
+  }
+  if (options.repair) throw MeshError("--repair is for surfaces (.stl, .obj), not for " + path.string());
+  if (options.part) throw MeshError("--part is for surfaces (.stl, .obj), not for " + path.string());
+}
+
+void checkForMeshes(const std::filesystem::path& path, const ImportOptions& options) {
+  for (const FixedRule& rule : options.fixed) {
+    if (rule.kind != FixedRule::Kind::kGroup) continue;
+    throw MeshError("--fixed " + rule.text + ": there is no such group; surfaces (.stl, .obj) such as " +
+                    path.string() + " have none");
+  }
+}
+
 void checkOptions(const std::filesystem::path& path, const ImportOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale))
     throw MeshError("--scale must be a positive number");
   mesh::checkElementSizes(options.sizes);
-  const bool is_sized = options.sizes.surface > 0 || options.sizes.isGraded();
-  if (is_sized && !mesh::isSurfaceFile(path)) {
-    throw MeshError("--element-size and --inner-size are for surfaces (.stl, .obj); the tetrahedra of " +
-                    path.string() + " are taken as they are");
-  }
   if (options.order && *options.order != 1 && *options.order != 2)
     throw MeshError("--element-order must be 1 or 2, not " + std::to_string(*options.order));
+  mesh::isSurfaceFile(path) ? checkForMeshes(path, options) : checkForSurfaces(path, options);
 }
 
-mesh::TetMesh readScaled(const std::filesystem::path& path, const ImportOptions& options) {
-  if (!mesh::isSurfaceFile(path)) {
-    mesh::TetMesh volume = mesh::readMesh(path);
-    for (auto& x : volume.nodes) x *= options.scale;
-    return volume;
-  }
-  mesh::TriangleSurface surface = mesh::readSurface(path);
-  for (auto& x : surface.vertices) x *= options.scale;
-  mesh::checkSurface(surface);
-  return mesh::fillSurface(surface, options.sizes);
+mesh::TetMesh readScaled(const std::filesystem::path& path, const ImportOptions& options,
+                         std::vector<std::string>& notes) {
+  if (mesh::isSurfaceFile(path)) return fill(readSolid(path, options, notes), options, notes);
+  mesh::TetMesh volume = mesh::readMesh(path);
+  Eigen::AlignedBox3d box;
+  for (auto& x : volume.nodes) box.extend(x *= options.scale);
+  if (const auto odd = oddLength(box.sizes().maxCoeff(), options.scale)) notes.push_back(*odd);
+  return volume;
 }
 
-void noteGroupsNotKept(ImportedOrgan& organ, const FixedRule& rule) {
+void noteGroupsNotKept(ImportedOrgan& organ, const FixedRules& rules) {
   std::string names;
-  for (const auto& name : groupsNotKept(organ.mesh, rule)) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& name : groupsNotKept(organ.mesh, rules)) names += (names.empty() ? "" : ", ") + name;
   if (!names.empty()) organ.notes.push_back("groups of the file that are not kept: " + names);
 }
 
@@ -68,7 +81,8 @@ void setOrder(ImportedOrgan& organ, const std::optional<int>& order) {
 }
 
 ImportedOrgan importChecked(const std::filesystem::path& path, const ImportOptions& options) {
-  ImportedOrgan organ{readScaled(path, options), {}, {}};
+  ImportedOrgan organ;
+  organ.mesh = readScaled(path, options, organ.notes);
   if (mesh::reorientIfAllNegative(organ.mesh)) {
     organ.notes.emplace_back("all tetrahedra had negative volume and were turned over");
   }
@@ -78,24 +92,40 @@ ImportedOrgan importChecked(const std::filesystem::path& path, const ImportOptio
   noteGroupsNotKept(organ, options.fixed);
   setBoundaryGroups(organ.mesh, organ.boundary, options.fixed);
   if (!organ.mesh.groups.contains("fixed")) {
-    organ.notes.emplace_back("nothing is fixed: name a group, a height or a box with --fixed");
+    organ.notes.emplace_back("nothing is fixed: name a side, a group or a box with --fixed");
   }
   setOrder(organ, options.order);
   return organ;
+}
+
+// The readers name the file already, the checks do not.
+template <class Work>
+auto withItsName(const std::filesystem::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const MeshError& error) {
+    const std::string message = error.what();
+    if (message.starts_with(path.string()) || message.starts_with("--")) throw;
+    throw MeshError(path.string() + ": " + message);
+  }
 }
 
 }  // namespace
 
 ImportedOrgan importOrgan(const std::filesystem::path& path, const ImportOptions& options) {
   checkOptions(path, options);
-  try {
-    return importChecked(path, options);
-  } catch (const MeshError& error) {
-    // The readers name the file already, the checks do not.
-    const std::string message = error.what();
-    if (message.starts_with(path.string()) || message.starts_with("--")) throw;
-    throw MeshError(path.string() + ": " + message);
-  }
+  return withItsName(path, [&] { return importChecked(path, options); });
+}
+
+std::optional<mesh::Solid> solidOf(const std::filesystem::path& path, const ImportOptions& options,
+                                   std::vector<std::string>& notes) {
+  if (!mesh::isSurfaceFile(path)) return std::nullopt;
+  checkOptions(path, options);
+  return withItsName(path, [&]() -> std::optional<mesh::Solid> {
+    mesh::Solid solid = readSolid(path, options, notes);
+    checkSizes(solid, options, notes);
+    return solid;
+  });
 }
 
 void renumber(mesh::TetMesh& mesh) {

@@ -6,19 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "tools/make/organ/boundary_groups.h"
-#include "tools/mesh/element_sizes.h"
+#include "tools/make/organ/import_options.h"
+#include "tools/mesh/surface_solids.h"
 #include "tools/mesh/tet_mesh.h"
 
 namespace palpate::organ {
-
-/// How a file becomes an organ.
-struct ImportOptions {
-  double scale{1};           ///< metres per unit of the file, positive
-  mesh::ElementSizes sizes;  ///< of a surface (.stl, .obj) and what fills it; all 0 by default
-  std::optional<int> order;  ///< of the elements, 1 or 2; absent: that of the file, 1 of a surface
-  FixedRule fixed;
-};
 
 /// An organ, and what its user should know about it.
 struct ImportedOrgan {
@@ -27,10 +19,17 @@ struct ImportedOrgan {
   std::vector<std::string> notes;
 };
 
-/// Reads, scales, fills (surfaces), checks, groups and raises to quadratic elements. Nodes keep the file's order; numbers are still the
-/// file's.
+/// Reads, scales, repairs and fills (surfaces), checks, groups and raises to quadratic elements. Nodes keep the
+/// file's order; numbers are still the file's.
 /// @throw MeshError naming the entity
 [[nodiscard]] ImportedOrgan importOrgan(const std::filesystem::path& path, const ImportOptions& options);
+
+/// Checks options, then reads as readSolid() does, with the file's name in errors, and tells what filling it would
+/// take.
+/// @return nothing when the file holds tetrahedra
+[[nodiscard]] std::optional<mesh::Solid> solidOf(const std::filesystem::path& path,
+                                                 const ImportOptions& options,
+                                                 std::vector<std::string>& notes);
 
 /// Numbers nodes and tetrahedra 1..N and 1..T in their order, as writeMsh() does.
 void renumber(mesh::TetMesh& mesh);

@@ -3,29 +3,34 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/make/organ/import_organ.h"
 #include "tools/make/organ/liver.h"
 #include "tools/make/organ/liver_case.h"
+#include "tools/make/organ/output_file.h"
 #include "tools/make/organ/paper_liver.h"
+#include "tools/make/organ/preview.h"
 #include "tools/make/organ/report.h"
+#include "tools/make/organ/unit.h"
 #include "tools/mesh/box_mesh.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
-#include "tools/mesh/write_msh.h"
 #include "tools/program/command_line.h"
 #include "tools/program/run.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::organ {
 namespace {
 
 struct Arguments {
   std::string output, input;
-  std::optional<std::string> fixed, case_file;
-  std::optional<double> element_size, inner_size, growth;
+  std::optional<std::string> case_file, unit, part, picture;
+  std::vector<std::string> fixed;
+  std::optional<double> element_size, inner_size, growth, scale;
   std::optional<int> element_order;
-  double scale{1};
-  bool json{false};
+  double max_nodes{kMaxNodes};
+  bool json{false}, repair{false}, dry_run{false};
 };
 
 // The kinds of organ. Each option stands where it means something.
@@ -35,7 +40,9 @@ struct Commands {
 
 program::Options addCommand(program::Options line, const char* name, const char* help, Arguments& arguments) {
   program::Options command = line.subcommand(name, help);
-  command.add("-o,--output", &arguments.output, "The .msh file to write (Gmsh 4.1)").required();
+  command.add(
+      "-o,--output", &arguments.output,
+      "The file to write: .msh (Gmsh 4.1), or .vtk to look at, without groups [needed, but for --dry-run]");
   command.flag("--json", &arguments.json, "Print one JSON object on standard output");
   return command;
 }
@@ -73,14 +80,34 @@ Commands addCommands(program::Options line, Arguments& arguments) {
   commands.paper_liver.add("--element-size", &arguments.element_size,
                            "Edge length of the tetrahedra, m [0.0067]");
   addOrder(commands.paper_liver, arguments, "1");
-  commands.import.add("file", &arguments.input, "The mesh to import").required();
-  commands.import.add("--scale", &arguments.scale, "Metres per unit of the file");
-  commands.import.add(
-      "--fixed", &arguments.fixed,
-      "What is held: group:NAME, lowest-z:FRACTION of the surface nodes, or box:x0,y0,z0,x1,y1,z1 in m "
-      "after scaling [the file's group 'fixed']");
+  commands.import.add("file", &arguments.input, "The mesh or surface to import").required();
+  commands.import.add("--unit", &arguments.unit, "Unit of the file's lengths: mm, cm or m [m]")
+      .oneOf({"mm", "cm", "m"});
+  commands.import.add("--scale", &arguments.scale, "Metres per unit of the file, in the place of --unit [1]");
+  commands.import.flag(
+      "--repair", &arguments.repair,
+      "Repair a surface: turn parts over, merge vertices, leave out twins and flat triangles, mend where "
+      "triangles cross, fill holes of up to a quarter of the body's diagonal; says what changed");
+  commands.import.add("--part", &arguments.part,
+                      "Which part of a surface of several: largest, or its number by size, from 1");
+  commands.import
+      .add("--fixed", &arguments.fixed,
+           "What is held: group:NAME of the file, a side (-x, +z, ...), normal:x,y,z[,degrees] within which "
+           "triangles face [30], box:x0,y0,z0,x1,y1,z1 in m after scaling, or lowest-z:FRACTION of the "
+           "surface "
+           "nodes. Several unite [the file's group 'fixed']")
+      .oneWordEach();
+  commands.import
+      .add("--max-nodes", &arguments.max_nodes, "Refuse to fill a surface with more nodes than this")
+      .range(100.0, 1e8);
+  commands.import.flag("--dry-run", &arguments.dry_run,
+                       "Fill nothing: say what would be held and what can be touched");
+  commands.import.add("--picture", &arguments.picture,
+                      "With --dry-run: draw what would be held and touched into this .svg");
   addSizes(commands.import, arguments, "a surface keeps its triangles", "as at the surface");
   addOrder(commands.import, arguments, "that of the file");
+  line.example(
+      "palpate-organ import scan.stl --unit mm --repair --element-size 0.008 --fixed -z -o organ.msh");
   return commands;
 }
 
@@ -107,15 +134,50 @@ ImportedOrgan withBoundary(mesh::TetMesh tets) {
   return organ;
 }
 
-ImportedOrgan importFile(const Arguments& arguments) {
+double scaleOf(const Arguments& arguments) {
+  if (arguments.scale && arguments.unit)
+    throw program::UsageError("--unit and --scale say the same: give one of them");
+  return arguments.unit ? metresOf(*arguments.unit) : arguments.scale.value_or(1);
+}
+
+ImportOptions importOptions(const Arguments& arguments) {
   ImportOptions options;
-  options.scale = arguments.scale;
+  options.scale = scaleOf(arguments);
   options.sizes = sizesOf(arguments, options.sizes);
   options.order = arguments.element_order;
-  if (arguments.fixed) options.fixed = parseFixedRule(*arguments.fixed);
-  ImportedOrgan organ = importOrgan(arguments.input, options);
+  for (const auto& rule : arguments.fixed) options.fixed.push_back(parseFixedRule(rule));
+  options.repair = arguments.repair;
+  options.part = arguments.part;
+  options.max_nodes = arguments.max_nodes;
+  options.say = [&](const std::string& line) {
+    (arguments.json ? std::cerr : std::cout) << line << std::endl;
+  };
+  return options;
+}
+
+ImportedOrgan importFile(const Arguments& arguments) {
+  ImportedOrgan organ = importOrgan(arguments.input, importOptions(arguments));
   renumber(organ.mesh);
   return organ;
+}
+
+// Before anything is made.
+void checkOutputs(const Arguments& arguments) {
+  if (arguments.picture && !arguments.dry_run) throw program::UsageError("--picture is for --dry-run");
+  if (arguments.picture) program::checkOutput("--picture", *arguments.picture);
+  if (!arguments.dry_run && arguments.output.empty()) throw program::UsageError("--output is required");
+  if (!arguments.output.empty()) checkOutput(arguments.output);
+  if (arguments.case_file) program::checkOutput("--case", *arguments.case_file);
+}
+
+void preview(const Arguments& arguments) {
+  const Preview seen = previewOrgan(arguments.input, importOptions(arguments));
+  if (arguments.picture) program::writeFile(*arguments.picture, clampPicture(seen));
+  if (arguments.json) program::printJson(toJson(seen));
+  std::ostream& out = arguments.json ? std::cerr : std::cout;
+  print(out, seen);
+  out << "dry run          nothing was filled; picture: "
+      << arguments.picture.value_or("none, --picture FILE.svg draws it") << '\n';
 }
 
 int body(int argc, char** argv) {
@@ -125,14 +187,19 @@ int body(int argc, char** argv) {
       "Makes and imports organ meshes: metres, tetrahedra, groups `fixed` and `accessible`.");
   Arguments arguments;
   const Commands commands = addCommands(line.options(), arguments);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
+  checkOutputs(arguments);
+  if (arguments.dry_run) {
+    preview(arguments);
+    return 0;
+  }
   // 2. The organ.
-  const ImportedOrgan organ = commands.liver.chosen()         ? withBoundary(liver(arguments))
-                              : commands.paper_liver.chosen() ? withBoundary(paperLiver(arguments))
-                              : commands.beam.chosen()        ? withBoundary(mesh::makeBeam())
-                                                              : importFile(arguments);
+  ImportedOrgan organ = commands.liver.chosen()         ? withBoundary(liver(arguments))
+                        : commands.paper_liver.chosen() ? withBoundary(paperLiver(arguments))
+                        : commands.beam.chosen()        ? withBoundary(mesh::makeBeam())
+                                                        : importFile(arguments);
   // 3. Its file, and what is in it.
-  mesh::writeMsh(arguments.output, organ.mesh, organ.boundary);
+  writeOrgan(arguments.output, organ.mesh, organ.boundary, organ.notes);
   if (arguments.case_file) writeLiverCase(*arguments.case_file, arguments.output);
   const Report report = makeReport(arguments.output, organ.mesh, organ.boundary, organ.notes);
   if (arguments.json) program::printJson(toJson(report));

@@ -60,13 +60,6 @@ Report makeReport(const std::string& file, const mesh::TetMesh& mesh, const mesh
                 std::move(notes)};
   for (const auto& [name, tetrahedra] : mesh.regions)
     if (!tetrahedra.empty()) report.regions[name] = regionOf(mesh, boundary, tetrahedra);
-  const double largest = (report.statistics.box_max - report.statistics.box_min).maxCoeff();
-  if (largest < 0.01 || largest > 1) {
-    char text[120];
-    std::snprintf(text, sizeof text,
-                  "the largest dimension is %.4g m, implausible for an organ: is --scale right?", largest);
-    report.notes.emplace_back(text);
-  }
   return report;
 }
 

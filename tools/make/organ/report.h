@@ -33,7 +33,7 @@ struct Report {
   std::vector<std::string> notes;
 };
 
-/// Adds to the notes when the size is implausible in metres (largest dimension below 0.01 or above 1 m).
+/// @param notes  what its user should know
 [[nodiscard]] Report makeReport(const std::string& file, const mesh::TetMesh& mesh,
                                 const mesh::BoundarySurface& boundary, std::vector<std::string> notes);
 

@@ -4,6 +4,7 @@
 // Sample runs:  palpate-solve liver.msh -o liver.h5
 //               palpate-solve case.toml -o liver.h5 --json
 //               palpate-solve case.toml -o liver.h5 --dry-run
+//               palpate-solve liver.msh --template -o case.toml
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include "tools/make/solve/dry_run.h"
 #include "tools/make/solve/options.h"
 #include "tools/make/solve/provenance.h"
+#include "tools/make/solve/size_warnings.h"
 #include "tools/make/solve/summary.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
@@ -21,7 +23,9 @@
 #include "tools/modelfile/write_model.h"
 #include "tools/modelfile/write_xdmf.h"
 #include "tools/program/run.h"
+#include "tools/program/write_file.h"
 #include "tools/solver/build/build_model.h"
+#include "tools/solver/build/case_keys.h"
 
 namespace {
 
@@ -64,8 +68,6 @@ mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fi
 /// What a solve takes; nothing is written.
 void tell(const solve_program::Options& options, const solver::Case& c, const mesh::TetMesh& organ,
           const solver::BuildOptions& build) {
-  if (c.method != solver::Method::kSeriesDisplacement)
-    throw solver::CaseError("--dry-run is for method series-displacement, not " + toString(c.method));
   solver::BuildReport report;
   const solver::Estimate estimate = solver::estimateDisplacementSeries(c, organ, build, report);
   const program::Json found = solve_program::estimateOf(estimate, c, report);
@@ -81,17 +83,41 @@ void tell(const solve_program::Options& options, const solver::Case& c, const me
   solver::requireRoom(estimate, chosen, build, build.output);
 }
 
+/// A case file to begin with.
+void writeTemplate(const solve_program::Options& options) {
+  const bool given = !options.input.empty();
+  const bool accessible = given && mesh::readMesh(options.input).groups.count("accessible") != 0;
+  // A path in a case starts at the case.
+  const std::filesystem::path at = options.output.empty()
+                                       ? std::filesystem::current_path()
+                                       : std::filesystem::absolute(options.output).parent_path();
+  const std::string named =
+      given ? std::filesystem::absolute(options.input).lexically_proximate(at).string() : "organ.msh";
+  const std::string text = solver::caseTemplate(named, accessible);
+  if (options.output.empty())
+    std::cout << text;
+  else
+    program::writeFile(options.output, text);
+}
+
 void run(solve_program::Options options) {
+  if (options.case_template) return writeTemplate(options);
+  if (options.input.empty()) throw program::UsageError("input is required: a case file or a mesh");
+  if (options.output.empty()) options.output = "model.h5";
   const auto start = Clock::now();
   // 1. What to solve, and where to.
   checkOutput(options.output);
   solver::Case c = solve_program::readCase(options);
+  if (options.dry_run && c.method != solver::Method::kSeriesDisplacement)
+    throw solver::CaseError("--dry-run is for method series-displacement, not " + toString(c.method));
   // 2. The organ.
   const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
   adoptGroups(c, organ);
   const std::filesystem::path folder = std::filesystem::absolute(options.output).parent_path();
   if (options.scratch.empty()) options.scratch = folder;
   const solver::BuildOptions build{options.threads, options.scratch, options.quiet, folder};
+  for (const std::string& warning : solve_program::sizeWarnings(c, organ))
+    std::cerr << "warning: " << warning << '\n';
   if (options.dry_run) return tell(options, c, organ, build);
   // 3. The model, by the method of the case.
   solver::BuildReport report;

@@ -87,9 +87,12 @@ void override(const Options& options, solver::Case& c) {
 }  // namespace
 
 void describe(program::Options line, Options& options) {
-  line.add("input", &options.input, "case file (.toml), or a mesh in metres to be solved with the defaults")
-      .required();
-  line.add("-o,--output", &options.output, "model file to write");
+  line.add("input", &options.input, "case file (.toml), or a mesh in metres to be solved with the defaults");
+  line.add("-o,--output", &options.output, "file to write (default: model.h5)");
+  line.flag("--template", &options.case_template,
+            "write a case file (.toml) with every key, its default, unit and range, on standard output or to "
+            "-o, and "
+            "stop; an input is the mesh that it names");
   line.add("--method", &options.method,
            "series-displacement (the default), series-force, pgd-linear, pgd-explicit or pgd-euler");
   line.add("--law", &options.law, "law of the material: stvk (the default) or stable-neo-hookean");

@@ -14,7 +14,8 @@ namespace palpate::solve_program {
 /// The command line. What it gives of the case overrides the case file.
 struct Options {
   std::filesystem::path input;
-  std::filesystem::path output{"model.h5"};
+  std::filesystem::path output;  ///< empty: model.h5, or standard output for a template
+  bool case_template{false};
   std::filesystem::path scratch;
   int threads{solver::machineThreads()};
   bool json{false};

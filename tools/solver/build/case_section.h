@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tools/solver/build/case_error.h"
+#include "tools/solver/build/case_keys.h"
 
 namespace palpate::solver {
 
@@ -30,8 +31,9 @@ class Section {
     return value;
   }
 
-  /// A number, integers included, with low < or <= x <= high.
-  std::optional<double> number(const std::string& key, double low, bool low_included, double high) {
+  /// A number, integers included, in the range that case_keys.cpp declares.
+  std::optional<double> number(const std::string& key) {
+    const auto [low, high, low_included] = rangeOf(key);
     known_.insert(key);
     const toml::node* node = table_.get(key);
     if (node == nullptr) return std::nullopt;
@@ -45,7 +47,9 @@ class Section {
     return x;
   }
 
-  std::optional<int> integer(const std::string& key, std::int64_t low, std::int64_t high) {
+  std::optional<int> integer(const std::string& key) {
+    const Range range = rangeOf(key);
+    const auto low = static_cast<std::int64_t>(range.low), high = static_cast<std::int64_t>(range.high);
     const std::optional<std::int64_t> x = take<std::int64_t>(key, "an integer");
     if (x && (*x < low || *x > high))
       refuse(*table_.get(key), key,
@@ -107,6 +111,15 @@ class Section {
   [[nodiscard]] const toml::node& node(const std::string& key) const { return *table_.get(key); }
 
  private:
+  struct Range {
+    double low, high;
+    bool low_included;
+  };
+  [[nodiscard]] Range rangeOf(const std::string& key) const {
+    const CaseKey& declared = caseKey(name_, key);
+    return {declared.low, declared.high, declared.low_included};
+  }
+
   const std::string& file_;
   std::string name_;
   const toml::table& table_;

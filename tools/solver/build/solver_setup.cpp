@@ -89,7 +89,7 @@ double patchRadius(const Case& c, const PatchSurface& surface) {
                     ": load.node needs linear elements: a pressure loads no corner of quadratic ones");
   if (c.nodalLoad()) return nodalRadius(surface);
   const double edge = surface.medianEdge();
-  const double a = c.patch_radius.value_or((quadratic ? 0.8 : 1.3) * edge);
+  const double a = c.patch_radius.value_or(usualPatchRadius(edge, quadratic));
   Vec3 low = surface.positions.front(), high = low;
   for (const Vec3& x : surface.positions) {
     low = low.cwiseMin(x);
@@ -140,6 +140,10 @@ ContactPatches patchesOf(const FeModel& model, const PatchSurface& surface, doub
 }
 
 }  // namespace
+
+double usualPatchRadius(double median_edge, bool quadratic) {
+  return (quadratic ? 0.8 : 1.3) * median_edge;
+}
 
 ContactPositions contactPositions(const FeModel& model, const PatchSurface& surface,
                                   const std::vector<bool>& accessible, double patch_radius,

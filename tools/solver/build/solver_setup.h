@@ -25,6 +25,9 @@ struct ContactPositions {
                                                 const std::vector<bool>& accessible, double patch_radius,
                                                 const mesh::TetMesh& mesh);
 
+/// Radius of the contact patch where the case does not give it, m. @param median_edge  of the surface, corner to corner, m
+[[nodiscard]] double usualPatchRadius(double median_edge, bool quadratic);
+
 /// The organ for every method: body, surface, patches.                       docs/design.md, Symbols
 struct SolverSetup {
   FeModel model;

@@ -83,10 +83,13 @@ export class ColourMap {
     return [out[0], out[1], out[2]];
   }
 
-  /** For a legend. */
+  /** For a legend: every tenth. */
+  stops(): string[] {
+    return Array.from({ length: 11 }, (_, i) => hexOf(this.at(i / 10)));
+  }
+
   gradient(direction = 'to right'): string {
-    const stops = Array.from({ length: 11 }, (_, i) => `${hexOf(this.at(i / 10))} ${10 * i}%`);
-    return `linear-gradient(${direction}, ${stops.join(', ')})`;
+    return `linear-gradient(${direction}, ${this.stops().map((stop, i) => `${stop} ${10 * i}%`).join(', ')})`;
   }
 }
 
@@ -98,10 +101,16 @@ export const STIFFNESS = new ColourMap([
   '#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725',
 ]);
 
-export const TISSUE = rgbOf('#c26a5c');
+/** Of the organ itself, from its darkest spots to its lightest: the red-brown of a liver, wet and lit. */
+export const TISSUE = new ColourMap(['#7d2f2b', '#a04539', '#bd6a55']);
 export const NOT_FELT = rgbOf('#cfcac3');
 /** Where the organ is clamped: darker than what is not felt, and without the colour of any scale. */
 export const CLAMPED = '#6f6a66';
+
+/** What no tool may touch although it moves: no answer was computed there. A grey with some violet, which no scale has. */
+export const NO_ANSWER = '#a893b4';
+/** Of an organ that nobody answers for. */
+export const ABSENT = rgbOf('#a7a4a0');
 
 /** Of regions, in turn: M. Okabe and K. Ito, "Color Universal Design" (2008), which colour-blind people tell apart. */
 export const REGIONS = ['#d55e00', '#009e73', '#cc79a7', '#0072b2', '#f0e442', '#56b4e9'];

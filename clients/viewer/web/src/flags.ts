@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import { FLAG_IN_CONTACT, FLAG_STALE_POSE, FLAGS } from './flag_list';
+import { FLAG_IN_CONTACT, FLAG_RAMPING, FLAG_STALE_POSE, FLAGS } from './flag_list';
 
 /**
- * The flags that the server's status adds to those of tools and answers. Stale poses are left out: a tool that was once
- * held stays stale until it is held again, and the frames show a tool whose force still fades.
+ * The flags that the server's status adds to those of tools and answers. Two are left out: a tool that was once held
+ * stays stale until it is held again, and one that was left in the organ ramps for as long. The frames show a tool whose force
+ * still fades.
  */
-export const flagsOfStatus = (flags: number): number => flags & ~FLAG_STALE_POSE;
+export const flagsOfStatus = (flags: number): number => flags & ~(FLAG_STALE_POSE | FLAG_RAMPING);
 
 /** Words for these flags; none for contact, which the state shows. */
 export function flagWords(flags: number): { words: string; severe: boolean }[] {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Said } from './connection';
+import type { DepthSlider } from './depth_slider';
 import type { Line } from './line';
-import { element, setText } from './page';
+import { element } from './page';
 import type { Toucher } from './pointer';
-import { DEEPEST, Press } from './press';
+import { Press, type Ray } from './press';
 import type { Stage } from './stage';
 import type { Surface } from './surface';
 
@@ -15,23 +16,19 @@ const RETRY_MS = 400; // between grabs, after the tool was taken away while the 
 export class Hand implements Toucher {
   toolId: number | undefined; // granted
   private press_: Press | undefined;
-  private wanted = 0; // m
   private askedMs = -Infinity;
   private timer = 0; // of targets, while it presses
-  private readonly slider = element('depth', HTMLInputElement);
-  private readonly sliderText = element('depth-text', HTMLOutputElement);
   private readonly hint = element('hint', HTMLParagraphElement);
 
+  /** @param absent  why nobody answers a press; empty: somebody does */
   constructor(
     private readonly stage: Stage,
     private readonly line: Line,
+    private readonly depth: DepthSlider,
+    private readonly absent: () => string,
     private readonly organ: () => { surface: Surface; tipRadius: number } | undefined,
     private readonly notice: (text: string) => void,
-  ) {
-    this.slider.max = String(1000 * DEEPEST);
-    this.slider.addEventListener('input', () => this.setDepth(Number(this.slider.value) / 1000));
-    this.setDepth(Number(this.slider.value) / 1000);
-  }
+  ) {}
 
   get pressing(): boolean {
     return this.press_ !== undefined;
@@ -39,12 +36,13 @@ export class Hand implements Toucher {
 
   press(clientX: number, clientY: number): boolean {
     const organ = this.organ();
-    if (!organ) return false;
+    if (!organ) return this.refused();
     const ray = this.stage.rayAt(clientX, clientY);
+    if (this.absent() && organ.surface.hit(ray.origin, ray.direction)) return this.refused();
     const press = Press.begin(organ.surface, ray, organ.tipRadius, performance.now());
     if (!press) {
       if (!organ.surface.hit(ray.origin, ray.direction)) return false;
-      this.notice('The organ is clamped here: no answer was computed at this spot.');
+      this.notice(this.whyNot(organ.surface, ray));
       return true;
     }
     this.press_ = press;
@@ -62,7 +60,7 @@ export class Hand implements Toucher {
   }
 
   deeper(metres: number): void {
-    this.setDepth(this.wanted + metres);
+    this.depth.set(this.depth.depth + metres);
   }
 
   letGo(): void {
@@ -99,10 +97,17 @@ export class Hand implements Toucher {
     this.line.hold(undefined);
   }
 
-  private setDepth(metres: number): void {
-    this.wanted = Math.min(DEEPEST, Math.max(0, metres));
-    this.slider.value = String(1000 * this.wanted);
-    setText(this.sliderText, `${(1000 * this.wanted).toFixed(1)} mm`);
+  /** @return whether it was said why nobody answers */
+  private refused(): boolean {
+    if (this.absent()) this.notice(this.absent());
+    return this.absent() !== '';
+  }
+
+  private whyNot(surface: Surface, ray: Ray): string {
+    const hit = surface.hit(ray.origin, ray.direction);
+    return hit && surface.clampedAt(hit)
+      ? 'The organ is clamped here: no answer was computed at this spot.'
+      : 'No tool may touch here: no answer was computed at this spot.';
   }
 
   private ask(): void {
@@ -113,8 +118,8 @@ export class Hand implements Toucher {
   private send(): void {
     if (!this.press_) return;
     const now = performance.now();
-    const target = this.press_.target(now, this.wanted);
-    if (this.toolId !== undefined) this.line.hold(target, this.press_.goal(this.wanted));
+    const target = this.press_.target(now, this.depth.depth);
+    if (this.toolId !== undefined) this.line.hold(target, this.press_.goal(this.depth.depth));
     else if (now - this.askedMs > RETRY_MS) this.ask();
   }
 }

@@ -32,7 +32,7 @@ export function figuresOf(app: App): Record<string, unknown> {
     flags: tool?.flags ?? 0,
     gap: mesh ? mesh.gap : null,
     inForce: app.parameters.inForce,
-    samples: tool ? app.strips.of(tool.id).length : 0,
+    samples: tool ? app.curves.strips.of(tool.id).length : 0,
     felt: app.view ? { low: app.view.felt.low, high: app.view.felt.high } : null,
     tickUs: app.panel.status?.['tick_us'] ?? null,
     fieldsPerSecond: app.panel.status?.['fields_hz'] ?? null,
@@ -44,6 +44,6 @@ export function figuresOf(app: App): Record<string, unknown> {
 }
 
 export function giveHook(app: App): void {
-  const hook = { figures: () => figuresOf(app), strip: () => app.strips.all(), felt: (point: Vec3) => app.view?.felt.at(point) };
+  const hook = { figures: () => figuresOf(app), strip: () => app.curves.strips.all(), felt: (point: Vec3) => app.view?.felt.at(point) };
   Object.defineProperty(window, 'palpate', { value: Object.freeze(hook) });
 }

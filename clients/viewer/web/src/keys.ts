@@ -15,6 +15,7 @@ export class Keys {
     private readonly canvas: HTMLCanvasElement,
     private readonly stage: Stage,
     private readonly toucher: Toucher,
+    private readonly picture: () => void,
   ) {
     canvas.addEventListener('keydown', (event) => this.pressed(event));
     canvas.addEventListener('keyup', (event) => {
@@ -47,6 +48,7 @@ export class Keys {
       PageDown: () => this.toucher.deeper(DEPTH),
       PageUp: () => this.toucher.deeper(-DEPTH),
       Escape: () => this.letGo(),
+      p: this.picture,
       Enter: begin,
       ' ': begin,
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { DISPLACEMENT, STIFFNESS } from './colours';
+import type { Caption } from './picture';
 import type { OrganView } from './organ_view';
 import type { Colouring } from './organ';
 import { brief, element, setText } from './page';
@@ -13,9 +14,13 @@ export class Legend {
   private readonly high = element('ramp-high', HTMLSpanElement);
   private readonly rule = element('rule-bar', HTMLElement);
   private readonly ruleText = element('rule-text', HTMLSpanElement);
-  private drawn: Colouring | undefined;
+  private written: Colouring | undefined;
 
-  constructor(choose: (colouring: Colouring) => void) {
+  /** @param swatches  what the legend names beside the scale */
+  constructor(
+    choose: (colouring: Colouring) => void,
+    private readonly swatches: () => Caption['swatches'],
+  ) {
     for (const input of document.querySelectorAll<HTMLInputElement>('input[name=colouring]'))
       input.addEventListener('change', () => input.checked && choose(input.value as Colouring));
   }
@@ -23,10 +28,10 @@ export class Legend {
   write(view: OrganView, stage: Stage): void {
     this.writeRule(stage);
     const { colouring, felt } = view;
-    if (this.drawn !== colouring) {
-      this.ramp.style.visibility = colouring === 'plain' ? 'hidden' : 'visible';
+    if (this.written !== colouring) {
+      this.ramp.hidden = colouring === 'plain';
       this.bar.style.background = (colouring === 'stiffness' ? STIFFNESS : DISPLACEMENT).gradient();
-      this.drawn = colouring;
+      this.written = colouring;
     }
     if (colouring === 'displacement') {
       setText(this.low, '0');
@@ -38,6 +43,17 @@ export class Legend {
       setText(this.low, 'press to');
       setText(this.high, 'feel');
     }
+  }
+
+  /** The same for a picture. */
+  drawn(): Pick<Caption, 'scale' | 'swatches' | 'rule'> {
+    const map = this.written === 'stiffness' ? STIFFNESS : DISPLACEMENT;
+    const scale = { stops: map.stops(), low: this.low.textContent ?? '', high: this.high.textContent ?? '' };
+    return {
+      scale: this.written === 'plain' || this.written === undefined ? undefined : scale,
+      swatches: this.swatches(),
+      rule: { pixels: parseFloat(this.rule.style.width) || 0, words: this.ruleText.textContent ?? '' },
+    };
   }
 
   private writeRule(stage: Stage): void {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshPhongMaterial, Sphere, Vector3, type Scene } from 'three';
-import { CLAMPED, DISPLACEMENT, NOT_FELT, niceCeiling, rgbOf, STIFFNESS, TISSUE } from './colours';
+import { ABSENT, CLAMPED, DISPLACEMENT, NO_ANSWER, NOT_FELT, niceCeiling, rgbOf, STIFFNESS, TISSUE } from './colours';
 import type { FeltMap } from './felt';
 import type { Surface } from './surface';
+import { mottled } from './tissue';
 
 export type Colouring = 'displacement' | 'stiffness' | 'plain';
 
@@ -10,13 +11,18 @@ const LEAST_TOP = 0.002; // m
 const AT_REST = 1e-4; // m
 const SHOWS_INSIDE = 0.4; // opacity
 const CLAMPED_RGB = rgbOf(CLAMPED);
+const NO_ANSWER_RGB = rgbOf(NO_ANSWER);
+const WET = { shininess: 110, specular: 0x6a625c };
+const MATT = { shininess: 36, specular: 0x2b2b2b }; // a highlight hides the colour of a scale
 
 /** The drawn organ: lit, shaded, coloured. */
 export class OrganMesh {
   private readonly geometry = new BufferGeometry();
   private readonly colours: Float32Array;
-  private readonly material = new MeshPhongMaterial({ vertexColors: true, shininess: 36, specular: 0x2b2b2b });
+  private readonly material = new MeshPhongMaterial({ vertexColors: true, ...WET });
   private readonly mesh: Mesh;
+  private spots: Float32Array | undefined; // of the tissue, 0 to 1; none until dress()
+  private coloured: Colouring | 'absent' | undefined; // what the colours are, where they do not change
   private top = LEAST_TOP; // m, end of the displacement scale
 
   constructor(
@@ -64,15 +70,33 @@ export class OrganMesh {
     this.top = largest < AT_REST ? LEAST_TOP : Math.max(this.top, niceCeiling(largest));
   }
 
-  colour(how: Colouring): void {
+  /** Gives the tissue its spots: not before the first picture, which is not to wait for them. */
+  dress(): void {
+    this.spots ??= mottled(this.surface);
+    this.coloured = undefined;
+  }
+
+  /** @param how  absent: nobody answers for the organ */
+  colour(how: Colouring | 'absent'): void {
+    const still = how === 'plain' || how === 'absent';
+    if (still && how === this.coloured) return;
+    this.coloured = still ? how : undefined;
+    this.material.shininess = how === 'plain' ? WET.shininess : MATT.shininess;
+    this.material.specular.setHex(how === 'plain' ? WET.specular : MATT.specular);
+    if (how === 'absent') for (let n = 0; n < this.surface.mesh.nodes; ++n) this.colours.set(ABSENT, 3 * n);
+    else this.paint(how);
+    this.geometry.attributes['color'].needsUpdate = true;
+  }
+
+  private paint(how: Colouring): void {
     const { displaced, mesh } = this.surface;
     for (let n = 0; n < mesh.nodes; ++n) {
       if (mesh.clamped[n]) this.colours.set(CLAMPED_RGB, 3 * n);
+      else if (!mesh.accessible[n]) this.colours.set(NO_ANSWER_RGB, 3 * n);
       else if (how === 'displacement') DISPLACEMENT.write(displaced[n] / this.top, this.colours, 3 * n);
-      else if (how === 'plain') this.colours.set(TISSUE, 3 * n);
+      else if (how === 'plain') TISSUE.write(this.spots?.[n] ?? 0.5, this.colours, 3 * n);
       else if (this.felt.weight[n] < 0.02) this.colours.set(NOT_FELT, 3 * n);
       else STIFFNESS.write(this.felt.share(n), this.colours, 3 * n);
     }
-    this.geometry.attributes['color'].needsUpdate = true;
   }
 }

@@ -25,6 +25,8 @@ export interface Told {
   frame(frame: Frame): void;
 }
 
+const vector = (v: readonly number[]): Vec3 => [v[0]!, v[1]!, v[2]!];
+
 /** Median and 99 % of the newest times, us. */
 class Times {
   private readonly newest: number[] = [];
@@ -184,6 +186,8 @@ export class OrganHost {
       penetration: tool.penetration,
       wakeupUs: 0,
       stiffness: this.organ.stiffness,
+      forceVector: vector(tool.force),
+      tip: vector(tool.tip),
     });
     if (this.answers.length > MOST_ANSWERS) this.answers.splice(0, MOST_ANSWERS / 2);
   }
@@ -199,7 +203,6 @@ export class OrganHost {
     const scale = most > 0 ? most / 32767 : 1e-9;
     const displacement = new Int16Array(u?.length ?? 0);
     if (u) for (let i = 0; i < u.length; ++i) displacement[i] = Math.round(u[i]! / scale);
-    const vector = (v: readonly number[]): Vec3 => [v[0]!, v[1]!, v[2]!];
     this.told.frame({
       seq: ++this.seq,
       meshRevision: 1,

@@ -17,7 +17,8 @@ export class OrganView {
   readonly surface: Surface;
   readonly felt: FeltMap;
   tools: readonly Tool[] = [];
-  colouring: Colouring = 'displacement';
+  colouring: Colouring = 'plain';
+  private absent = false;
   private readonly organ: OrganMesh;
   private readonly inside: InsideMesh;
   private readonly toolMeshes = new Map<number, ToolMesh>();
@@ -76,6 +77,19 @@ export class OrganView {
     this.toolMeshes.clear();
   }
 
+  /** @param on  nobody answers for the organ: it is grey */
+  setAbsent(on: boolean): void {
+    if (on === this.absent) return;
+    this.absent = on;
+    this.dirty = true;
+  }
+
+  /** The tissue gets its spots. */
+  dress(): void {
+    this.organ.dress();
+    this.dirty = true;
+  }
+
   setColouring(colouring: Colouring): void {
     this.colouring = colouring;
     this.dirty = true;
@@ -105,7 +119,7 @@ export class OrganView {
     if (!this.dirty) return false;
     if (this.moved) this.organ.moved();
     this.organ.fitScale();
-    this.organ.colour(this.colouring);
+    this.organ.colour(this.absent ? 'absent' : this.colouring);
     this.updateTools();
     this.dirty = this.moved = false;
     return true;

@@ -46,6 +46,8 @@ export interface Answer {
   readonly penetration: number; // m
   readonly wakeupUs: number; // lateness of the tick's wake-up, us
   readonly stiffness: number; // felt along the normal, N/m; 0: free
+  readonly forceVector: Vec3; // on the tool, N
+  readonly tip: Vec3; // centre of the tip in the newest pose known then, m
 }
 
 export interface Frame {
@@ -63,7 +65,7 @@ export interface Frame {
 
 const FRAME_HEAD = 56;
 const TOOL_BYTES = 72;
-const ANSWER_BYTES = 32;
+const ANSWER_BYTES = 56;
 
 function expect(ok: boolean, what: string): void {
   if (!ok) throw new Error(`viewer sent a bad message: ${what}`);
@@ -149,6 +151,8 @@ function answerAt(view: DataView, at: number): Answer {
     penetration: view.getFloat32(at + 20, true),
     wakeupUs: view.getFloat32(at + 24, true),
     stiffness: view.getFloat32(at + 28, true),
+    forceVector: vectorAt(view, at + 32),
+    tip: vectorAt(view, at + 44),
   };
 }
 

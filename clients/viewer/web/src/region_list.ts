@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { CLAMPED } from './colours';
+import { CLAMPED, NO_ANSWER } from './colours';
 import type { Said } from './connection';
 import { coloursOf } from './inside';
 import { brief, element, numberIn, setText } from './page';
@@ -10,10 +10,13 @@ interface Region {
   readonly youngs: number; // E of the model, Pa
 }
 
-/** The legend's lines of what is clamped and what is inside. Nothing is there of an organ that has neither. */
+/** The legend's lines of what is clamped, what cannot be touched and what is inside; of an organ that has none of it, nothing. */
 export class RegionList {
   private readonly box = element('parts', HTMLDivElement);
   private readonly texts: { region: Region; text: HTMLElement }[] = [];
+  private readonly swatches: { colour: string; text: HTMLElement }[] = [];
+  private box_: HTMLInputElement | undefined; // whether the inside is seen
+  private blind = false;
   private announced: readonly Region[] = [];
   private factor = 1;
   private on = false;
@@ -30,7 +33,10 @@ export class RegionList {
   show(mesh: Mesh): boolean {
     this.texts.length = 0;
     this.box.replaceChildren();
+    this.box_ = undefined;
+    this.swatches.length = 0;
     if (mesh.clamped.some((clamped) => clamped !== 0)) this.line(CLAMPED, 'clamped');
+    if (mesh.accessible.some((open, n) => !open && !mesh.clamped[n])) this.line(NO_ANSWER, 'cannot be touched');
     const colours = coloursOf(mesh.regions);
     if (!colours.some(Boolean)) return false;
     this.box.append(this.checkbox());
@@ -39,13 +45,26 @@ export class RegionList {
       this.texts.push({ region, text: this.line(colour, '') });
     });
     this.write();
-    return this.on;
+    return this.on && !this.blind;
   }
 
   /** @param factor  live E over the model's, the same for all regions; NaN while it is unknown */
   scale(factor: number): void {
     this.factor = factor > 0 ? factor : 1;
     this.write();
+  }
+
+  /** While on, the inside is not seen. */
+  hide(on: boolean): void {
+    this.blind = on;
+    if (this.box_) this.box_.disabled = on;
+    this.choose(this.on && !on);
+  }
+
+  /** Colours and words, for a picture's legend. The inside counts while it is seen. */
+  lines(): { colour: string; words: string }[] {
+    const inside = new Set(this.on && !this.blind ? [] : this.texts.map(({ text }) => text));
+    return this.swatches.filter(({ text }) => !inside.has(text)).map(({ colour, text }) => ({ colour, words: text.textContent ?? '' }));
   }
 
   private write(): void {
@@ -60,6 +79,7 @@ export class RegionList {
     swatch.hidden = !colour;
     const text = document.createElement('span');
     text.textContent = words;
+    if (colour) this.swatches.push({ colour, text });
     line.append(swatch, text);
     this.box.append(line);
     return text;
@@ -70,6 +90,8 @@ export class RegionList {
     const input = document.createElement('input');
     input.type = 'checkbox';
     input.checked = this.on;
+    input.disabled = this.blind;
+    this.box_ = input;
     input.addEventListener('change', () => this.choose((this.on = input.checked)));
     const note = document.createElement('span');
     note.className = 'quiet';

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Answer } from './protocol';
+import { UNKNOWN, type Settings } from './settings';
+import type { Vec3 } from './vec';
 
 export const SPAN_US = 10e6;
 
@@ -9,6 +11,9 @@ export interface Sample {
   readonly force: number; // N
   readonly penetration: number; // m
   readonly flags: number;
+  readonly forceVector: Vec3; // on the tool, N
+  readonly tip: Vec3; // its centre, m
+  readonly settings: Settings; // in force
 }
 
 /** Force and penetration of one tool over the last ten seconds, in order of time. */
@@ -16,11 +21,11 @@ export class Strip {
   private samples: Sample[] = [];
 
   /** Drops a sample that is not newer than the last: a reconnect brings no answer twice. */
-  add(answer: Answer): void {
+  add(answer: Answer, settings: Settings): void {
     const last = this.samples.at(-1);
     if (last && answer.tUs <= last.tUs) return;
-    const { tUs, toolId, force, penetration, flags } = answer;
-    this.samples.push({ tUs, toolId, force, penetration, flags });
+    const { tUs, toolId, force, penetration, flags, forceVector, tip } = answer;
+    this.samples.push({ tUs, toolId, force, penetration, flags, forceVector, tip, settings });
     if (this.samples.length > 16 && this.samples[8].tUs < tUs - SPAN_US) {
       const first = this.samples.findIndex((s) => s.tUs >= tUs - SPAN_US);
       this.samples.splice(0, first);
@@ -50,8 +55,8 @@ export class Strip {
 export class Strips {
   private readonly byTool = new Map<number, Strip>();
 
-  add(answers: readonly Answer[]): void {
-    for (const answer of answers) this.of(answer.toolId).add(answer);
+  add(answers: readonly Answer[], settings: Settings = UNKNOWN): void {
+    for (const answer of answers) this.of(answer.toolId).add(answer, settings);
   }
 
   of(toolId: number): Strip {
@@ -70,14 +75,4 @@ export class Strips {
     const newest = Math.max(...strips.map((strip) => strip.last()?.tUs ?? -Infinity));
     return strips.flatMap((strip) => [...strip.since(newest - SPAN_US)]);
   }
-}
-
-/** Comma-separated values (RFC 4180, without the carriage returns), SI units in the header; t from the first sample. */
-export function csvOf(samples: readonly Sample[]): string {
-  const sorted = [...samples].sort((a, b) => a.tUs - b.tUs || a.toolId - b.toolId);
-  const start = sorted[0]?.tUs ?? 0;
-  const lines = sorted.map(
-    (s) => `${((s.tUs - start) / 1e6).toFixed(6)},${s.toolId},${s.force.toPrecision(6)},${s.penetration.toPrecision(6)},${s.flags}`,
-  );
-  return ['t_s,tool_id,force_N,penetration_m,flags', ...lines, ''].join('\n');
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { niceCeiling } from './colours';
-import { SPAN_US, type Sample, type Strip } from './strip';
+import { SPAN_US, type Sample } from './strip';
+import type { ShownStrip } from './strip_view';
 import { themeColour } from './theme';
 
 const GAP_US = 50_000; // a longer silence is a gap in the line
@@ -18,7 +19,7 @@ interface Plot {
 /** Force above penetration on one time axis; the newest is at the right. */
 export class StripChart {
   private readonly draw2d: CanvasRenderingContext2D;
-  private empty = ''; // how the canvas was when nothing was drawn last
+  private drawn = ''; // what the canvas shows, while it stands still
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     const context = canvas.getContext('2d');
@@ -26,8 +27,7 @@ export class StripChart {
     this.draw2d = context;
   }
 
-  /** @param nowUs  viewer's clock at the right edge */
-  draw(strip: Strip | undefined, nowUs: number): void {
+  draw({ samples, edgeUs, mode }: ShownStrip): void {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     const ratio = Math.min(2, devicePixelRatio || 1);
     if (w === 0 || h === 0) return;
@@ -39,18 +39,18 @@ export class StripChart {
       { title: 'N', colour: themeColour('--force'), value: (s) => s.force, least: 0.5 },
       { title: 'mm', colour: themeColour('--depth'), value: (s) => 1000 * s.penetration, least: 1 },
     ];
-    const samples = strip?.since(nowUs - SPAN_US) ?? [];
-    const empty = samples.length > 0 ? '' : [this.canvas.width, this.canvas.height, plots[0].colour].join();
-    if (empty !== '' && empty === this.empty) return;
-    this.empty = empty;
+    const still = samples.length === 0 || mode !== 'live';
+    const key = [this.canvas.width, this.canvas.height, plots[0].colour, mode, samples.length, samples.at(-1)?.tUs].join();
+    if (still && key === this.drawn) return;
+    this.drawn = key;
     this.draw2d.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.draw2d.clearRect(0, 0, w, h);
     this.draw2d.font = '11px system-ui, "Liberation Sans", "DejaVu Sans", sans-serif';
     const foot = 15;
     const upper = Math.round(0.6 * (h - foot));
-    this.plot(plots[0], samples, nowUs, { x: LEFT, y: 8, w: w - LEFT - RIGHT, h: upper - 12 });
-    this.plot(plots[1], samples, nowUs, { x: LEFT, y: upper + 8, w: w - LEFT - RIGHT, h: h - foot - upper - 8 });
-    this.times(w, h);
+    this.plot(plots[0], samples, edgeUs, { x: LEFT, y: 8, w: w - LEFT - RIGHT, h: upper - 12 });
+    this.plot(plots[1], samples, edgeUs, { x: LEFT, y: upper + 8, w: w - LEFT - RIGHT, h: h - foot - upper - 8 });
+    this.times(w, h, samples.length > 0 && mode === 'held' ? 'let go' : mode === 'paused' ? 'paused' : 'now');
   }
 
   private plot(plot: Plot, samples: readonly Sample[], nowUs: number, box: { x: number; y: number; w: number; h: number }): void {
@@ -109,13 +109,14 @@ export class StripChart {
     g.fill();
   }
 
-  private times(w: number, h: number): void {
+  /** @param end  what the right edge is called */
+  private times(w: number, h: number, end: string): void {
     const g = this.draw2d;
     g.fillStyle = themeColour('--quiet');
     g.textBaseline = 'bottom';
     for (const seconds of [10, 5, 0]) {
       g.textAlign = seconds === 10 ? 'left' : seconds === 0 ? 'right' : 'center';
-      g.fillText(seconds === 0 ? 'now' : `−${seconds} s`, LEFT + (w - LEFT - RIGHT) * (1 - seconds / 10), h);
+      g.fillText(seconds === 0 ? end : `−${seconds} s`, LEFT + (w - LEFT - RIGHT) * (1 - seconds / 10), h);
     }
   }
 }

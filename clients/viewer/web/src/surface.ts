@@ -89,6 +89,11 @@ export class Surface {
     return [0, 1, 2].every((k) => this.mesh.accessible[this.mesh.triangles[3 * hit.triangle + k]] !== 0);
   }
 
+  /** Whether the clamp holds it: a corner is clamped. */
+  clampedAt(hit: Hit): boolean {
+    return [0, 1, 2].some((k) => this.mesh.clamped[this.mesh.triangles[3 * hit.triangle + k]] !== 0);
+  }
+
   /** Outward normal of the displayed surface at the node nearest to a point. */
   normalNear(point: Vec3): Vec3 {
     let best = 0;

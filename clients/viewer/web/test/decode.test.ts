@@ -18,9 +18,9 @@ function meshMessage(): ArrayBuffer {
   return data;
 }
 
-// One node, one tool, one answer, offsets as PROTOCOL.md has them: 56 + 8 (6 and padding), 72, 32.
+// One node, one tool, one answer, offsets as PROTOCOL.md has them: 56 + 8 (6 and padding), 72, 56.
 function frameMessage(): ArrayBuffer {
-  const data = new ArrayBuffer(56 + 8 + 72 + 32);
+  const data = new ArrayBuffer(56 + 8 + 72 + 56);
   const view = new DataView(data);
   [2, 9, 7, 1].forEach((x, i) => view.setUint32(4 * i, x, true));
   view.setFloat64(16, 123.5, true);
@@ -34,7 +34,7 @@ function frameMessage(): ArrayBuffer {
   Array.from({ length: 14 }, (_, i) => view.setFloat32(80 + 4 * i, i + 1, true));
   [2, 33].forEach((x, i) => view.setUint32(136 + 4 * i, x, true));
   view.setFloat64(144, 99.25, true);
-  [1.5, 0.25, 30, 400].forEach((x, i) => view.setFloat32(152 + 4 * i, x, true));
+  [1.5, 0.25, 30, 400, 1, 2, 3, 4, 5, 6].forEach((x, i) => view.setFloat32(152 + 4 * i, x, true));
   return data;
 }
 
@@ -75,7 +75,8 @@ test('a frame is read as it was written', () => {
   assert.deepEqual(frame.tools[0], {
     id: 2, state: 1, flags: 33, mine: true, tip: [1, 2, 3], proxy: [4, 5, 6], anchor: [7, 8, 9], force: [10, 11, 12], penetration: 13, domainRadius: 14,
   });
-  assert.deepEqual(frame.answers[0], { toolId: 2, flags: 33, tUs: 99.25, force: 1.5, penetration: 0.25, wakeupUs: 30, stiffness: 400 });
+  assert.deepEqual(frame.answers[0], { toolId: 2, flags: 33, tUs: 99.25, force: 1.5, penetration: 0.25, wakeupUs: 30, stiffness: 400,
+    forceVector: [1, 2, 3], tip: [4, 5, 6] });
 });
 
 test('a frame of another length is refused', () => {

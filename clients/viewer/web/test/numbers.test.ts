@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { certificateLine } from '../src/certificate';
 import { viewerUs, ViewerClock } from '../src/clock';
-import { DISPLACEMENT, encodedOf, labOf, linearOf, niceCeiling, STIFFNESS, type ColourMap } from '../src/colours';
+import { CLAMPED, DISPLACEMENT, encodedOf, labOf, linearOf, niceCeiling, NO_ANSWER, NOT_FELT, rgbOf, STIFFNESS, TISSUE, type ColourMap } from '../src/colours';
 import { viewerAddress } from '../src/connection';
 import { FLAGS } from '../src/flag_list';
 import { flagsOfStatus, flagWords, RecentFlags } from '../src/flags';
@@ -13,10 +13,14 @@ import { codeIn } from '../src/login';
 import { namedModel } from '../src/model_files';
 import { Quality } from '../src/quality';
 import { Recent } from '../src/recent';
-import { csvOf, Strip, Strips } from '../src/strip';
+import { csvOf } from '../src/csv';
+import { settingsOf, UNKNOWN } from '../src/settings';
+import { Strip, Strips } from '../src/strip';
+import { StripView } from '../src/strip_view';
 import type { Vec3 } from '../src/vec';
 
-const answer = (tUs: number, toolId = 0, force = 1) => ({ toolId, flags: 0, tUs, force, penetration: 0.001, wakeupUs: 0, stiffness: 0 });
+const answer = (tUs: number, toolId = 0, force = 1) => ({ toolId, flags: 0, tUs, force, penetration: 0.001, wakeupUs: 0, stiffness: 0,
+  forceVector: [0, 0.5, -0.25] as Vec3, tip: [0.01, 0, 0.02] as Vec3 });
 
 test('the clock takes its offset from the shortest round trip', () => {
   const clock = new ViewerClock(4);
@@ -44,8 +48,8 @@ test('percentiles and rates are of the last seconds', () => {
 
 test('a strip keeps ten seconds, in order, once', () => {
   const strip = new Strip();
-  for (let i = 0; i <= 30_000; ++i) strip.add(answer(1000 * i));
-  strip.add(answer(29_000_000)); // late
+  for (let i = 0; i <= 30_000; ++i) strip.add(answer(1000 * i), UNKNOWN);
+  strip.add(answer(29_000_000), UNKNOWN); // late
   assert.ok(strip.length >= 10_000 && strip.length < 10_020, `${strip.length}`);
   assert.equal(strip.last()?.tUs, 30_000_000);
   assert.equal(strip.since(29_999_000).length, 2);
@@ -57,16 +61,48 @@ test('what is saved is the last ten seconds, also of a tool that left before', (
   assert.deepEqual(strips.all().map((s) => s.tUs).sort(), [11_500_000, 2_000_000].sort());
 });
 
-test('saved as CSV: SI units, time from the first sample, all tools', () => {
+test('saved as CSV: SI units, time from the first sample, all tools, pose, force vector and the parameters in force', () => {
   const strips = new Strips();
-  strips.add([answer(5_000_000), answer(5_001_000, 2, 0.5), answer(5_002_000)]);
+  strips.add([answer(5_000_000), answer(5_001_000, 2, 0.5)]);
+  strips.add([answer(5_002_000)], settingsOf({ type: 'status', youngs_modulus: 5000, friction: null, force_limit: 20, tip_radius: 0.005 }));
+  const where = '0.00000,0.500000,-0.250000,0.0100000,0.00000,0.0200000';
   assert.deepEqual(csvOf(strips.all()).split('\n'), [
-    't_s,tool_id,force_N,penetration_m,flags',
-    '0.000000,0,1.00000,0.00100000,0',
-    '0.001000,2,0.500000,0.00100000,0',
-    '0.002000,0,1.00000,0.00100000,0',
+    't_s,tool_id,force_N,penetration_m,flags,force_x_N,force_y_N,force_z_N,tip_x_m,tip_y_m,tip_z_m,' +
+      'youngs_modulus_Pa,friction,coupling_stiffness_N_per_m,coupling_damping_N_s_per_m,force_limit_N,tip_radius_m',
+    `0.000000,0,1.00000,0.00100000,0,${where},,,,,,`,
+    `0.001000,2,0.500000,0.00100000,0,${where},,,,,,`,
+    `0.002000,0,1.00000,0.00100000,0,${where},5000.00,inf,,,20.0000,0.00500000`,
     '',
   ]);
+});
+
+test('the curve of a press stays when the tool is gone, until the next begins', () => {
+  const [strips, view] = [new Strips(), new StripView()];
+  const press = (fromUs: number, tool: number): void => {
+    for (let i = 0; i <= 100; ++i) strips.add([answer(fromUs + 1000 * i, tool)]);
+  };
+  assert.deepEqual(view.at(undefined, strips, 0).samples, []);
+  press(1_000_000, 3);
+  assert.deepEqual([view.at(3, strips, 1_100_000).edgeUs, view.at(3, strips, 1_100_000).mode], [1_100_000, 'live']);
+  const minutesLater = view.at(undefined, strips, 600_000_000);
+  assert.deepEqual([minutesLater.samples.length, minutesLater.mode], [101, 'held']);
+  assert.ok(minutesLater.edgeUs < 1_500_000, `${minutesLater.edgeUs}`);
+  press(700_000_000, 2);
+  const next = view.at(2, strips, 700_100_000);
+  assert.deepEqual([next.mode, next.samples[0]!.tUs], ['live', 700_000_000]);
+});
+
+test('a paused curve is what it was, whatever comes', () => {
+  const [strips, view] = [new Strips(), new StripView()];
+  strips.add([answer(1_000_000), answer(1_001_000)]);
+  const before = view.at(0, strips, 1_002_000);
+  view.pause(strips);
+  for (let i = 1; i < 20; ++i) strips.add([answer(1_002_000 + 1_000_000 * i)]);
+  strips.clear();
+  assert.deepEqual(view.at(undefined, strips, 30_000_000), { ...before, mode: 'paused' });
+  assert.equal(view.saved(strips).length, 2);
+  view.goOn();
+  assert.deepEqual(view.saved(strips), []);
 });
 
 test('the flags are those of the IDL', () => {
@@ -94,7 +130,7 @@ test('a certificate is one line, and a bad one is named', () => {
 });
 
 test('a tool that nobody holds is no news', () => {
-  assert.deepEqual(flagWords(flagsOfStatus(8 | 65536)).map(({ words }) => words), ['ticks were missed']);
+  assert.deepEqual(flagWords(flagsOfStatus(8 | 128 | 65536)).map(({ words }) => words), ['ticks were missed']);
 });
 
 test('a flag of one tick can be read for seconds, and then goes', () => {
@@ -131,6 +167,16 @@ test('colour-blind users tell every tenth of a scale from the next', () => {
   for (const [who, see] of Object.entries(SEEN))
     for (const [name, map] of Object.entries({ DISPLACEMENT, STIFFNESS }))
       assert.ok(tellsApart(map, see) > 0.025, `${name} ${who}: ${tellsApart(map, see)}`);
+});
+
+test('clamp, what cannot be touched, what was not felt and tissue are told apart by everybody', () => {
+  for (const [who, see] of Object.entries(SEEN)) {
+    const colours = [rgbOf(CLAMPED), rgbOf(NO_ANSWER), NOT_FELT, TISSUE.at(0), TISSUE.at(0.5), TISSUE.at(1)];
+    const labs = colours.map((c) => labOf(see(c).map((x) => Math.max(0, x)) as unknown as Vec3));
+    const apart = (a: number, b: number): number => Math.hypot(...labs[a].map((c, k) => c - labs[b][k]));
+    for (const [a, b] of [[0, 1], [0, 2], [1, 2], [0, 4], [1, 3], [1, 4], [1, 5], [2, 5]])
+      assert.ok(apart(a, b) > 0.06, `${who}: ${a} and ${b}: ${apart(a, b)}`);
+  }
 });
 
 test('lightness alone tells the order', () => {

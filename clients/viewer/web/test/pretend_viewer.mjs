@@ -65,7 +65,7 @@ function answer(p) {
 
 function frameMessage(seq, target) {
   const a = target && answer(target);
-  const out = Buffer.alloc(56 + 4 * Math.ceil((6 * nodes) / 4) + (a ? 72 + 32 : 0));
+  const out = Buffer.alloc(56 + 4 * Math.ceil((6 * nodes) / 4) + (a ? 72 + 56 : 0));
   [2, seq, 1, nodes].forEach((x, i) => out.writeUInt32LE(x, 4 * i));
   const now = nowUs();
   out.writeDoubleLE(now - 500, 16);
@@ -89,7 +89,7 @@ function frameMessage(seq, target) {
   out.writeUInt32LE(0, at);
   out.writeUInt32LE(a.touching ? 1 : 0, at + 4);
   out.writeDoubleLE(now, at + 8);
-  [Math.hypot(...a.force), a.depth, 20, a.touching ? STIFFNESS : 0].forEach((x, i) => out.writeFloatLE(x, at + 16 + 4 * i));
+  [Math.hypot(...a.force), a.depth, 20, a.touching ? STIFFNESS : 0, ...a.force, ...target].forEach((x, i) => out.writeFloatLE(x, at + 16 + 4 * i));
   return out;
 }
 

@@ -69,6 +69,10 @@ using DataCallback = void (*)(ReaderView<T> reader, void* context) noexcept;
 template <class T>
 using SampleFilter = bool (*)(const T& sample, void* context) noexcept;
 
+/// Called when a writer that was matched is so no more: it was deleted, or its process went silent for DDS's lease. Samples of it
+/// that came before may still wait in the reader. On Cyclone's discovery thread; must not block, throw, or use the reader.
+using GoneCallback = void (*)(WriterId writer, void* context) noexcept;
+
 /// Receives samples of T. The participant must outlive it.
 template <class T>
 class Reader {
@@ -82,15 +86,17 @@ class Reader {
   explicit Reader(const Participant& participant) : Reader(participant, nullptr, nullptr) {}
 
   /// With a callback, from before the first sample on. `context` is passed through and must outlive the
-  /// reader. `admits`, if given, is asked first, with the same context.
+  /// reader. `admits`, if given, is asked first, and `gone` told of writers, with the same context.
   Reader(const Participant& participant, DataCallback<T> callback, void* context,
-         SampleFilter<T> admits = nullptr)
-      : binding_(std::make_unique<Binding>(Binding{callback, context, admits})), topic_(participant) {
+         SampleFilter<T> admits = nullptr, GoneCallback gone = nullptr)
+      : binding_(std::make_unique<Binding>(Binding{callback, context, admits, gone})), topic_(participant) {
     if (admits != nullptr) filter();
     dds_listener_t* listener = nullptr;
     if (callback != nullptr) {
       listener = dds_create_listener(nullptr);
       dds_lset_data_available_arg(listener, &Reader::onData, binding_.get(), false);
+      if (gone != nullptr)
+        dds_lset_subscription_matched_arg(listener, &Reader::onMatched, binding_.get(), false);
     }
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> owner(listener,
                                                                                 &dds_delete_listener);
@@ -118,6 +124,7 @@ class Reader {
     DataCallback<T> callback;
     void* context;
     SampleFilter<T> admits;
+    GoneCallback gone;
   };
   void filter() {
     dds_topic_filter filter{};
@@ -134,6 +141,10 @@ class Reader {
   static void onData(dds_entity_t reader, void* arg) {
     const auto* binding = static_cast<const Binding*>(arg);
     binding->callback(ReaderView<T>(reader), binding->context);
+  }
+  static void onMatched(dds_entity_t, dds_subscription_matched_status_t status, void* arg) {
+    const auto* binding = static_cast<const Binding*>(arg);
+    if (status.current_count_change < 0) binding->gone(status.last_publication_handle, binding->context);
   }
 
   std::unique_ptr<Binding> binding_;  // on the heap: the listener keeps its address while the Reader may move

@@ -56,7 +56,7 @@ class Events {
   void noteTick(const TickRecord& record, std::int64_t now_ns);
   void raiseLateThreads(std::int64_t now_ns);
   void notePhase(std::uint32_t phase, std::int64_t now_ns);
-  void noteFlags(std::size_t tool, std::uint32_t rising, std::int64_t now_ns);
+  void noteFlags(std::size_t tool, std::uint32_t flags, std::int64_t now_ns);
   /// Whether a line of this kind may be written: once a second.
   [[nodiscard]] bool isDue(std::uint64_t kind, std::int64_t now_ns);
   void warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns);

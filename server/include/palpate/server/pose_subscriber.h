@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -32,9 +34,10 @@ struct Address {
 
 /// Books poses as they arrive: who sends a tool's poses, whether they come in order, which tools get no force; and
 /// hands each tool's newest pose to the tick. The engine judges the pose itself.
-/// A tool belongs to the publisher of its first pose for as long as its poses come, that is until none came for
-/// zero_after, when the force is zero anyway; until then the poses of others are counted and not used.
-/// Threads: one at a time (Cyclone's callback of one reader). Real-time: yes, no allocation of ours.
+/// A tool belongs to the publisher of its first pose until that is gone, or none of its poses came for zero_after, when the
+/// force is zero anyway. Until then the poses of others are not used, and counted when a pose of the owner follows them: an
+/// owner that ended has no rival (docs/decisions/tool_ownership.md).
+/// Threads: one at a time (Cyclone's callback of one reader), left() from any. Real-time: yes, no allocation of ours.
 class PoseIntake {
  public:
   /// @param[in] config  tools and zero_after are used
@@ -49,6 +52,9 @@ class PoseIntake {
   void accept(const dds::ToolPose& pose, dds::WriterId writer,
               std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
 
+  /// The writer is gone: a tool of its goes to whoever sends the next pose.
+  void left(dds::WriterId writer) noexcept;
+
   /// Whether DDS shall keep a pose for us: it is for this server, and its tool is known or there is room to answer it. One call at a time, but possibly during an accept().
   [[nodiscard]] bool admits(const dds::ToolPose& pose) noexcept PALPATE_NONBLOCKING;
 
@@ -57,6 +63,8 @@ class PoseIntake {
                     std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
   void acceptStranger(const dds::ToolPose& pose, std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
   void noteUnknown(std::uint32_t tool_id) noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool keepsOut(std::size_t tool, dds::WriterId writer,
+                              std::int64_t arrival_ns) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool isForUs(const dds::ToolPose& pose) const noexcept PALPATE_NONBLOCKING;
 
   Channels& channels_;
@@ -65,6 +73,13 @@ class PoseIntake {
   std::int64_t silence_ns_;
   std::array<PoseSample, kMaxTools> newest_{};
   std::array<dds::WriterId, kMaxTools> owner_{};
+  // DDS's discovery thread writes, accept() reads: an owner that is gone. Relaxed, it orders nothing.
+  std::array<std::atomic<dds::WriterId>, kMaxTools> left_{};
+  struct Foreign {
+    std::uint64_t count{0};
+    std::int64_t last_ns{0};
+  };
+  std::array<Foreign, kMaxTools> foreign_{};  // since the owner's last pose
   Strangers strangers_{};
   UnknownIds answered_;  // accept()'s
   UnknownIds admitted_;  // admits()'
@@ -77,7 +92,8 @@ class PoseSubscriber {
   PoseSubscriber(const dds::Participant& participant, Channels& channels, const StepConfig& config,
                  const Address& address)
       : intake_(channels, config, address),
-        reader_(participant, &PoseSubscriber::onPoses, &intake_, &PoseSubscriber::admits) {}
+        reader_(participant, &PoseSubscriber::onPoses, &intake_, &PoseSubscriber::admits,
+                &PoseSubscriber::onGone) {}
 
   /// Lets the watch compare others' endpoints with ours.
   void show(dds::EndpointWatch& watch) const { watch.add(reader_); }
@@ -86,6 +102,7 @@ class PoseSubscriber {
 
  private:
   static void onPoses(dds::ReaderView<dds::ToolPose> reader, void* context) noexcept;
+  static void onGone(dds::WriterId writer, void* context) noexcept;
   static bool admits(const dds::ToolPose& pose, void* context) noexcept;
 
   PoseIntake intake_;

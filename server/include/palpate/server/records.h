@@ -20,8 +20,11 @@ struct PoseSample {
   std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< q_WT, x y z w
   std::uint64_t received{0};                              ///< poses of this tool so far, this one included
   std::uint64_t unordered{0};  ///< those of them whose seq went back or repeated, or whose stamp went back
-  std::uint64_t foreign{0};    ///< poses of a second publisher: counted, not used
+  std::uint64_t foreign{
+      0};  ///< poses of a second publisher, between those of the tool's own: counted, not used
   std::int64_t foreign_ns{0};  ///< when the last of those came
+  std::uint64_t handed_over{
+      0};  ///< times that the tool went to another publisher at once, the former one being gone
 };
 
 /// Distinct tool ids above 3 that are answered, with zero force. Further ones are counted and forgotten.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/data/model_view.h"
@@ -35,6 +36,8 @@ class RestSurface {
 
   const Facts& facts_;
   const ModelView& view_;
+  double contact_radius_;  // m
+  std::string certificate_;
   std::vector<std::uint32_t> triangles_;
   std::vector<std::uint8_t> accessible_;
   std::vector<std::uint8_t> clamped_;

@@ -49,6 +49,8 @@ class Tick {
     std::uint64_t force_seq{0};   // forces sent
     std::uint64_t superseded{0};  // poses that no tick ever knew
     std::uint64_t came{0};        // poses since the last tick
+    bool changed_hands{
+        false};  // since the last tick, at once: another publisher's, and the former one is gone
   };
 
   void readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;

@@ -238,7 +238,7 @@ TEST_F(CertifyReport, IsRefusedBeforeAnythingIsSolved) {
   refused({"--youngs-modulus-error", "0.2"}, "--youngs-modulus-error goes with --report");
   const auto fresh = (model_->folder / "fresh").string();
   refused({"--report", fresh, "--youngs-modulus-error", "nan"},
-          "--youngs-modulus-error is nan, expected a share, 0 to 1");
+          "--youngs-modulus-error: nan is out of range, expected 0 to 1");
   EXPECT_FALSE(std::filesystem::exists(fresh));
   EXPECT_NE(model_->certify({"--report", fresh, "--youngs-modulus-error", "1.5"}).exit_code, 0);
 }

@@ -158,7 +158,7 @@ TEST(FitProgram, RefusesWrongArguments) {
   expectOneLineError(bench.fit(curve, {"--direction", "0,0,0"}), "--direction is '0,0,0'");
   expectOneLineError(bench.fit(curve, {"--node", "999999"}), "node 999999 is not in the mesh");
   expectOneLineError(bench.fit(curve, {"--confidence", "nan"}),
-                     "--confidence is nan, expected 0.5 to 0.9999");
+                     "--confidence: nan is out of range, expected 0.5 to 0.9999");
   expectOneLineError(bench.fit(curve, {"--deepest", "nan"}), "--deepest is nan, expected a finite depth");
   expectOneLineError(bench.fit(curve, {"--deepest", "0.0001"}),
                      "curve.csv has 1 different depths, expected 3");

@@ -60,11 +60,11 @@ TEST(Program, ComparesWithNewtonAndWritesFiles) {
   const BoxModel box;
   const auto deck = box.folder / "deck.inp", field = box.folder / "field.vtu";
   const ProgramResult result =
-      query(box, {"--at", "0.083,0.031,0.06", "--displacement=0,0,-0.002", "--ccx", deck.string(), "--field",
+      query(box, {"--at", "0.083,0.031,0.045", "--displacement=0,0,-0.002", "--ccx", deck.string(), "--field",
                   field.string(), "--steps", "2", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Vec3 d(0.0, 0.0, -0.002);
-  const Anchor anchor = anchorNear(box.model, {0.083, 0.031, 0.06});
+  const Anchor anchor = anchorNear(box.model, {0.083, 0.031, 0.045});
   const FullSolution truth = box.solve(anchor, d);
   const Errors errors = errorsOf(ask(box.model, anchor, d), truth, box.organ);
   const auto newton = nlohmann::json::parse(result.out).at("newton");
@@ -83,7 +83,7 @@ TEST(Program, ComparesWithNewtonAndWritesFiles) {
 TEST(Program, TellsAPersonTheSame) {
   const BoxModel box;
   const ProgramResult result =
-      query(box, {"--at", "0.083,0.031,0.06", "--displacement", "0,0,-0.002", "--newton"});
+      query(box, {"--at", "0.083,0.031,0.045", "--displacement", "0,0,-0.002", "--newton"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const char* part :
        {"anchor", "status", "domain radius", "force on organ", "stiffness", "Newton: force", "min det F"})
@@ -253,7 +253,8 @@ TEST(Program, RefusesBadArgumentsInOneLine) {
   expectOneLineError(query(box, {"--displacement", "0,0,0"}), "--node,--at");
   expectOneLineError(query(box, {"--node", node, "--at", "0,0,0", "--displacement", "0,0,0"}), "--node,--at");
   expectOneLineError(query(box, {"--node", node}), "--displacement,--force,--load-level");
-  expectOneLineError(query(box, {"--node", "four", "--displacement", "0,0,0"}), "--node = four");
+  expectOneLineError(query(box, {"--node", "four", "--displacement", "0,0,0"}),
+                     "--node: four is not a number");
   expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,0", "--newton", "--steps", "0"}),
                      "--steps");
   expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,0", "--field", "/none/a.vtu"}),
@@ -269,17 +270,72 @@ TEST(Program, RefusesATruncatedModel) {
   expectOneLineError(query(box, {"--node", "4", "--displacement", "0,0,0"}), "cannot be opened");
 }
 
-TEST(Program, RefusesADisplacementThatNewtonCannotReach) {
+TEST(Program, RefusesADisplacementLongerThanAnyTouch) {
   const BoxModel box;
-  expectOneLineError(query(box, {"--node", std::to_string(BoxMesh::number(5, 3, 2)), "--displacement",
-                                 "-1e100,0,0", "--newton"}),
-                     "displacement -1e+100,0,0 m: Newton does not converge");
+  const std::string node = std::to_string(BoxMesh::number(5, 3, 2));
+  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,-2", "--newton"}),
+                     "--displacement 0,0,-2 m is 2 m long, expected at most ");
+  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,-1e300"}),
+                     "m long, expected at most ");
+  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,-0.001", "--tool2",
+                                 std::to_string(BoxMesh::number(3, 1, 2)) + ":0,0,-1"}),
+                     "--tool2 0,0,-1 m is 1 m long");
+}
+
+TEST(Program, RefusesAPlaceOffTheOrganAndSuspectsTheUnit) {
+  const BoxModel box;
+  expectOneLineError(query(box, {"--at", "83,31,41", "--displacement", "0,0,-0.002"}),
+                     "in millimetres it would lie 1 mm from the organ's surface: --unit mm");
+  const std::vector<std::string> asked{"--at",   "83,31,41", "--displacement", "0,0,-2",
+                                       "--unit", "mm",       "--json"};
+  const ProgramResult result = query(box, asked);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(json.at("anchor").at("distance_m").get<double>(), 0.001, 1e-15);
+  EXPECT_LT((vectorOf(json.at("displacement")) - Vec3(0.0, 0.0, -0.002)).norm(), 1e-17);
+  const std::string told = query(box, {asked.begin(), asked.end() - 1}).out;
+  EXPECT_NE(told.find("1 mm from the asked place, which is outside the organ"), std::string::npos) << told;
+  expectOneLineError(query(box, {"--at", "8,3,4", "--displacement", "0,0,0", "--unit", "inch"}), "--unit");
+}
+
+TEST(Program, AnswersATableOfTouches) {
+  const BoxModel box;
+  const std::string titles = "at_x,at_y,at_z,displacement_x,displacement_y,displacement_z\n";
+  const auto touches = box.folder.write("touches.csv", titles + "83,31,41,0,0,-2\n60,20,40,0.5,0,-1\n");
+  const std::string answers = box.folder / "answers.csv";
+  const ProgramResult result = query(box, {"--batch", touches.string(), "--unit", "mm", "-o", answers});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string written = contentOf(answers);
+  EXPECT_EQ(query(box, {"--batch", touches.string(), "--unit", "mm"}).out, written);
+  EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 3);
+  EXPECT_NE(written.find("\n60,20,40,0.5,0,-1,"), std::string::npos) << written;
+  box.folder.write("touches.csv", titles + "83,31,41,0,0,-2\n60,20,x,0.5,0,-1\n");
+  expectOneLineError(query(box, {"--batch", touches.string(), "--unit", "mm", "-o", answers}),
+                     "touches.csv, line 3, column at_z: 'x' is no finite number");
+  EXPECT_EQ(contentOf(answers), written);  // as it was
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(box.folder.path()), {}),
+            3);  // nothing half written
+}
+
+TEST(Program, RefusesOptionsThatABatchHasNoPlaceFor) {
+  const BoxModel box;
+  const std::string touches = box.folder.write("t.csv", "");
+  const auto refused = [&](std::vector<std::string> more, const std::string& part) {
+    const ProgramResult result = query(box, std::move(more));
+    expectOneLineError(result, part);
+    EXPECT_EQ(result.exit_code, 2);
+  };
+  refused({"--batch", touches, "--displacement", "0,0,0"}, "--batch goes with --unit and -o only");
+  refused({"--batch", touches, "--newton"}, "--batch goes with --unit and -o only");
+  refused({"--batch", touches, "-o", touches}, "would replace the touches");
+  refused({"--at", "0.08,0.03,0.04", "--displacement", "0,0,0", "-o", "a.csv"}, "-o goes with --batch");
+  expectOneLineError(query(box, {"--batch", touches, "-o", "/none/a.csv"}), "cannot write /none/a.csv");
 }
 
 TEST(Program, WarnsOfElementsTurnedInsideOut) {
   const BoxModel box;
   const ProgramResult result = query(
-      box, {"--node", std::to_string(BoxMesh::number(5, 3, 2)), "--displacement", "-5,0,0", "--newton"});
+      box, {"--node", std::to_string(BoxMesh::number(5, 3, 2)), "--displacement", "-0.09,0,0", "--newton"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("inside out (min det F -"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("beyond_domain"), std::string::npos) << result.out;

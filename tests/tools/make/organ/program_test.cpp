@@ -6,6 +6,7 @@
 #include "palpate/testing/paths.h"
 #include "palpate/testing/run_program.h"
 #include "samples.h"
+#include "spoiled_sphere.h"
 #include "tools/mesh/read_mesh.h"
 
 namespace palpate::organ::test {
@@ -90,6 +91,46 @@ TEST(Program, PaperLiverCanBeRaised) {
   EXPECT_TRUE(mesh::readMesh(folder / "a.msh").isQuadratic());
 }
 
+TEST(Program, RepairsAScanInMillimetresAndSaysWhatItChanged) {
+  const TemporaryFolder folder;
+  const std::string scan = (folder / "scan.stl").string(), organ = (folder / "organ.msh").string();
+  writeStl(scan, spoiledSphere(0.05, 4), 0.001);
+  expectOneLineError(run({"import", scan, "--unit", "mm", "-o", organ}), "--repair mends it");
+  const ProgramResult result = run({"import", scan, "--unit", "mm", "--repair", "--element-size", "0.01",
+                                    "--fixed", "-z", "--fixed", "normal:0,-1,0,20", "-o", organ});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part :
+       {"repair           2 holes filled", "triangles turned over", "pairs of triangles crossed",
+        "repair           volume 0.000", "estimate         about ", "volume           0.000"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+  EXPECT_GT(mesh::readMesh(organ).groups.at("fixed").size(), 20U);
+}
+
+TEST(Program, TheEndingOfTheOutputSaysItsFormat) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run({"beam", "-o", (folder / "beam.vtk").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(mesh::readMesh(folder / "beam.vtk").nodes.size(), 1701U);
+  EXPECT_NE(result.out.find("warning: a .vtk file keeps no groups"), std::string::npos) << result.out;
+  for (const char* wrong : {"beam.stl", "beam", "beam.MSH"}) {
+    const ProgramResult refused = run({"beam", "-o", (folder / wrong).string()});
+    EXPECT_EQ(refused.exit_code, 2);
+    expectOneLineError(refused, "the ending says the format, .msh (Gmsh) or .vtk");
+    EXPECT_FALSE(std::filesystem::exists(folder / wrong));
+  }
+}
+
+TEST(Program, UnitAndScaleExcludeEachOther) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.msh", mesh::test::kMsh1).string(),
+                    to = (folder / "b.msh").string();
+  expectOneLineError(run({"import", file, "--unit", "mm", "--scale", "1", "-o", to}), "--unit and --scale");
+  expectOneLineError(run({"import", file, "--unit", "inch", "-o", to}), "--unit");
+  const ProgramResult result = run({"import", file, "--unit", "cm", "--json", "-o", to});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out).at("bounding_box").at("max")[0], 0.01);
+}
+
 TEST(Program, WarnsOfAnImplausibleSize) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.msh", mesh::test::kMsh1).string();
@@ -98,7 +139,7 @@ TEST(Program, WarnsOfAnImplausibleSize) {
     return result.out.find("implausible") != std::string::npos;
   };
   EXPECT_TRUE(complainsAt("3"));
-  EXPECT_TRUE(complainsAt("0.001"));
+  EXPECT_TRUE(complainsAt("0.001"));  // 1 mm
   EXPECT_FALSE(complainsAt("0.1"));
 }
 
@@ -117,7 +158,7 @@ TEST(Program, RefusesInOneLineAndLeavesNoFile) {
   const auto cut = folder.write("cut.msh", mesh::test::kMsh2.substr(0, 200));
   expectOneLineError(import(cut.string()), "cut.msh: line");
   EXPECT_FALSE(std::filesystem::exists(target));
-  expectOneLineError(run({"beam", "-o", (folder / "none/beam.msh").string()}), "cannot be written");
+  expectOneLineError(run({"beam", "-o", (folder / "none/beam.msh").string()}), "cannot write");
 }
 
 TEST(Program, RefusesUnknownArgumentsInOneLineWithItsName) {
@@ -153,6 +194,11 @@ TEST(Program, ImportsTheLiverOfTheSofaFramework) {
   EXPECT_NEAR(box.at("max")[0].get<double>() - box.at("min")[0].get<double>(), 0.2, 1e-3);
   expectOneLineError(run({"import", data + "liver_for_test_broken.vtk", "-o", to}), "POLYDATA");
   expectOneLineError(run({"import", data + "liver-smooth.obj", "-o", to}), "intersect");
+  const ProgramResult repaired = run({"import", data + "liver-smooth.obj", "--scale", "0.03", "--repair",
+                                      "--fixed", "lowest-z:0.08", "--json", "-o", to});
+  ASSERT_EQ(repaired.exit_code, 0) << repaired.err;
+  EXPECT_GT(nlohmann::json::parse(repaired.out).at("nodes"), 2000);
+  EXPECT_NE(repaired.err.find("pairs of triangles crossed"), std::string::npos) << repaired.err;
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ TEST_F(SolveTarget, RefusesATargetOrASizeThatThereIsNot) {
     expectRefusal(solve(options), part);
   };
   refuses({"--target", "phone"}, "--target phone is not known (known: server, handheld)");
-  refuses({"--target", "handheld", "--size-limit", "1000"}, "--size-limit: Value 1000 not in range");
+  refuses({"--target", "handheld", "--size-limit", "1000"}, "--size-limit: 1000 is out of range");
   refuses({"--size-limit", "8e6"}, "target.size_limit does not go with target.machine = \"server\"");
 }
 

@@ -33,11 +33,13 @@ struct Surface {
   std::vector<std::int64_t> mesh_tags;                  ///< Ns node numbers in the mesh file
   std::vector<std::uint8_t> clamped;                    ///< Ns, 1 = does not move
   std::vector<Region> regions;                          ///< empty: one material
+  double contact_radius{0.0};                           ///< as on the wire, m; 0: not said
+  std::string certificate;                              ///< one line; empty: not said
 };
 
 /// Checks and copies a surface from the wire; its sender is not trusted.
 /// @throw ClientError naming the field and the number: sizes that differ, an index out of range, a non-finite
-///        position, no triangle, a region without stiffness
+///        position, no triangle, a region without stiffness, a radius below 0, a text that is not printable ASCII
 [[nodiscard]] Surface checkedSurface(const dds::SurfaceMesh& message);
 
 /// A place on the surface for a tool to touch.

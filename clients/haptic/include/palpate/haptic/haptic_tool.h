@@ -96,6 +96,10 @@ class PALPATE_HAPTIC_API HapticTool {
   /// Forces of other servers for this tool that were left out so far. Not 0: stop one of the servers.
   [[nodiscard]] std::uint64_t leftOut() const noexcept;
 
+  /// How near the tip's centre came to the organ at rest, m: 0 once it touched it, infinity before the first answer. For a line at a
+  /// driver's end: poses in millimetres never come near.
+  [[nodiscard]] double nearest() const noexcept;
+
   /// The tip radius that the server assumes, m, and its force limit, N; 0 until its status has come.
   [[nodiscard]] double tipRadius() const noexcept;
   [[nodiscard]] double serverForceLimit() const noexcept;

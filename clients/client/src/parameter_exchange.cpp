@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exchange.h"
+#include "palpate/client/parameter_exchange.h"
 
 #include <array>
 #include <optional>
@@ -8,12 +8,13 @@
 #include <thread>
 
 #include "palpate/client/error.h"
+#include "palpate/client/no_server.h"
 #include "palpate/client/request_id.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
 
-namespace palpate::parameters {
+namespace palpate::client {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -38,33 +39,33 @@ struct Answers {
 // Two servers of one id take the same request, each for itself.
 dds::ServerParameters onlyAnswer(const Answers& answers) {
   if (answers.writers.size() > 1)
-    throw client::ClientError(std::to_string(answers.writers.size()) + " servers have the id " +
-                              std::to_string(answers.first->server_id) +
-                              " and each took the request for itself: stop all but one");
+    throw ClientError(std::to_string(answers.writers.size()) + " servers have the id " +
+                      std::to_string(answers.first->server_id) +
+                      " and each took the request for itself: stop all but one");
   return *answers.first;
 }
 
 std::string missing(std::uint32_t server_id, const dds::Participant& participant,
-                    const dds::Reader<dds::ServerParameters>& answers) {
-  std::string text = "no server " + std::to_string(server_id) + " answered on DDS domain " +
-                     std::to_string(participant.domain());
-  if (const std::string mismatch = answers.mismatch(); !mismatch.empty()) text += "; " + mismatch;
-  return text;
+                    const dds::Reader<dds::ServerParameters>& answers, std::chrono::milliseconds waited) {
+  const std::string text =
+      "no server " + std::to_string(server_id) + " answered" + where(participant.domain(), waited);
+  const std::string mismatch = answers.mismatch();
+  return mismatch.empty() ? text + kNoServerHint : text + "; " + mismatch;
 }
 
 }  // namespace
 
-dds::ServerParameters exchange(const dds::Participant& participant, dds::ParameterRequest request,
-                               std::chrono::milliseconds patience) {
+dds::ServerParameters exchangeParameters(const dds::Participant& participant, dds::ParameterRequest request,
+                                         std::chrono::milliseconds patience) {
   dds::Writer<dds::ParameterRequest> requests(participant);
   const dds::Reader<dds::ServerParameters> answers(participant);
-  request.request_id = client::firstRequestId();
+  request.request_id = firstRequestId();
   const Clock::time_point end = Clock::now() + patience;
   constexpr auto kLinger = std::chrono::milliseconds(50);  // for another server of the same id
   Clock::time_point next = Clock::now();
   Clock::time_point answered = end;
   Answers found;
-  while (Clock::now() <= end && !client::stopRequested()) {
+  while (Clock::now() <= end && !stopRequested()) {
     if (requests.matched() == 0) next = Clock::now() + kLinger;
     if (Clock::now() >= next) {
       (void)requests.write(request);
@@ -76,7 +77,8 @@ dds::ServerParameters exchange(const dds::Participant& participant, dds::Paramet
     if (found.first && Clock::now() - answered >= kLinger) return onlyAnswer(found);
   }
   if (found.first) return onlyAnswer(found);
-  throw client::ClientError(missing(request.server_id, participant, answers));
+  if (stopRequested()) throw ClientError("interrupted while waiting for a server");
+  throw ClientError(missing(request.server_id, participant, answers, patience));
 }
 
-}  // namespace palpate::parameters
+}  // namespace palpate::client

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+
+#include "palpate/idl/participant.h"
+#include "palpate/idl/types.h"
+
+namespace palpate::client {
+
+/// Sends a request every 200 ms, under one new request_id, until the server answers.
+/// @param[in] request  server_id, fields and values
+/// @return the server's answer, accepted or not
+/// @throw ClientError  no answer within `patience`, or the user interrupted; dds::DdsError
+/// Real-time: no.
+[[nodiscard]] dds::ServerParameters exchangeParameters(const dds::Participant& participant,
+                                                       dds::ParameterRequest request,
+                                                       std::chrono::milliseconds patience);
+
+}  // namespace palpate::client
