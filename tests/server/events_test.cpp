@@ -53,9 +53,9 @@ TEST_F(EventsTest, GathersTheTimesOfEveryTick) {
     ASSERT_TRUE(channels_->ticks.push(record));
   }
   events_.drain(0);
-  EXPECT_EQ(events_.health().wakeup.count(), 100U);
-  EXPECT_EQ(events_.health().tick.count(), 99U) << "the first tick has none before it";
-  EXPECT_EQ(events_.health().tick.quantile(0.0), 50);
+  EXPECT_EQ(events_.health().wakeup.run.count(), 100U);
+  EXPECT_EQ(events_.health().tick.run.count(), 99U) << "the first tick has none before it";
+  EXPECT_EQ(events_.health().tick.run.quantile(0.0), 50);
   EXPECT_EQ(events_.health().last.ticks, 100U);
 }
 
