@@ -2,21 +2,12 @@
 import type { Said } from './connection';
 import type { Figures } from './figures';
 import { flagWords } from './flags';
+import { lateWords } from './late_words';
 import type { Line } from './line';
 import { brief, element, numberIn, setText } from './page';
 import type { Stage } from './stage';
 
 type Level = '' | 'warn' | 'bad';
-/** Causes of late ticks: keys of the status, and words. */
-const CAUSES: readonly (readonly [string, string])[] = [
-  ['own_work', 'own work'],
-  ['page_fault', 'page faults'],
-  ['preempted', 'another thread'],
-  ['stopped', 'stopped'],
-  ['host_steal', 'the host'],
-  ['clock_step', 'clock'],
-  ['unknown', 'unknown'],
-];
 /** Rows that say nothing on a page that has its organ itself. */
 const OF_A_VIEWER = new Set(['DDS to decoded', 'Round trip to viewer', 'Woke late', 'Late ticks', 'Real time', 'Pages at the viewer']);
 const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {});
@@ -119,14 +110,6 @@ export class Panel {
 
 const pair = (recent: { percentile(share: number): number }, unit: string): string =>
   `${brief(recent.percentile(0.5))} / ${brief(recent.percentile(0.99))} ${unit}`;
-
-/** Ticks that were late and why, the most frequent cause first: "12: another thread 10, unknown 2". */
-export function lateWords(late: Record<string, unknown>): string {
-  const found = CAUSES.map(([key, words]) => ({ words, count: numberIn(late, key) })).filter(({ count }) => count > 0);
-  if (!found.length) return Number.isFinite(numberIn(late, 'unknown')) ? 'none' : '–';
-  found.sort((a, b) => b.count - a.count);
-  return `${found.reduce((sum, { count }) => sum + count, 0)}: ${found.slice(0, 2).map(({ words, count }) => `${words} ${count}`).join(', ')}`;
-}
 
 /** "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (LLVM 16)), ..)" -> "SwiftShader (software)". */
 export function shortName(renderer: string): string {
