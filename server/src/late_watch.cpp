@@ -26,13 +26,17 @@ int idOf(const rt::PeriodicThread& tick) {
   return tick.id();
 }
 
+std::int64_t timeOn(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+// CLOCK_REALTIME - CLOCK_BOOTTIME, which goes on while the machine sleeps; 0 where something came in between.
 std::int64_t wallAhead() {
-  timespec wall{};
-  const std::int64_t before_ns = rt::monotonicNow();
-  clock_gettime(CLOCK_REALTIME, &wall);
-  const std::int64_t after_ns = rt::monotonicNow();
-  if (after_ns - before_ns > kClockStep / 2) return 0;  // something came in between
-  return static_cast<std::int64_t>(wall.tv_sec) * 1'000'000'000 + wall.tv_nsec - before_ns;
+  const std::int64_t before_ns = timeOn(CLOCK_BOOTTIME);
+  const std::int64_t wall_ns = timeOn(CLOCK_REALTIME);
+  return timeOn(CLOCK_BOOTTIME) - before_ns > kClockStep / 2 ? 0 : wall_ns - before_ns;
 }
 
 std::vector<std::int64_t> stolenSoFar() {
