@@ -37,11 +37,13 @@ void forEachNumber(const fs::path& folder, Function function) {
 }  // namespace
 
 std::string MachineThread::text() const {
-  std::string said = name + " (" + std::to_string(process);
-  if (id != process) said += "/" + std::to_string(id);
-  said += ")";
-  if (deadline) return said + ", DEADLINE";
-  return priority > 0 ? said + ", FIFO " + std::to_string(priority) : said;
+  std::string said = name;
+  said.append(" (").append(std::to_string(process));
+  if (id != process) said.append("/").append(std::to_string(id));
+  said.append(")");
+  if (deadline) said.append(", DEADLINE");
+  if (priority > 0) said.append(", FIFO ").append(std::to_string(priority));
+  return said;
 }
 
 // proc(5): 1 is the number, 2 the name in brackets, which may hold blanks and brackets; 39 processor, 40 rt_priority, 41 policy.

@@ -46,9 +46,9 @@ std::string lateText(const dds::LateTicks& late) {
   std::string text = std::to_string(countOf(late)) + ":";
   for (const Cause& cause : causes) {
     if (late.*cause.count == 0) continue;
-    text += " " + std::to_string(late.*cause.count) + " " + cause.word;
+    text.append(" ").append(std::to_string(late.*cause.count)).append(" ").append(cause.word);
     if (cause.count == &dds::LateTicks::preempted && late.preempted_by[0] != '\0')
-      text += std::string(" by ") + late.preempted_by;
+      text.append(" by ").append(late.preempted_by);
     text += ";";
   }
   text.pop_back();
