@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loaded before all other libraries of palpate-server (LD_PRELOAD): makes ticks late, for a cause that is known. It begins at
-// SIGUSR2, acts where a tick wakes the thread that sends forces, and stops after kInjections.
+// SIGUSR2, acts where a tick wakes the thread that sends forces, and pauses after kInjections.
 #include <dlfcn.h>
 #include <pthread.h>
 #include <semaphore.h>
@@ -35,12 +35,11 @@ Post* next_post = nullptr;
 WaitUntil* next_wait_until = nullptr;
 
 std::string_view cause;
-std::atomic<bool> begun{false};
+std::atomic<int> left{0};               // injections to come
 std::atomic<std::int64_t> leapt_ns{0};  // CLOCK_MONOTONIC, as all threads of the server see it
 std::atomic<std::int64_t> wall_ns{0};   // CLOCK_REALTIME
 __attribute__((tls_model("initial-exec"))) thread_local int is_tick = -1;
 __attribute__((tls_model("initial-exec"))) thread_local int ticks = 0;
-__attribute__((tls_model("initial-exec"))) thread_local int injections = 0;
 
 template <class Function>
 void find(const char* name, Function*& next) noexcept {
@@ -50,7 +49,7 @@ void find(const char* name, Function*& next) noexcept {
 }
 
 void onBegin(int) {
-  begun.store(true);
+  left.store(kInjections);
 }
 
 // Before main().
@@ -111,9 +110,9 @@ extern "C" int sem_post(sem_t* semaphore) noexcept {
   using namespace palpate::proof;
   if (next_post == nullptr) prepare();
   if (is_tick < 0) is_tick = isTickThread() ? 1 : 0;
-  if (is_tick == 1 && begun.load() && injections < kInjections && ++ticks % kSeldom == 0) {
+  if (is_tick == 1 && left.load() > 0 && ++ticks % kSeldom == 0) {
     inject();
-    ++injections;
+    left.fetch_sub(1);
   }
   return next_post(semaphore);
 }

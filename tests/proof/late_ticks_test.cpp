@@ -128,20 +128,28 @@ class LateTicks : public ::testing::Test {
     return std::nullopt;
   }
 
-  // Once all that was injected is judged.
+  // Injects and waits until all that is judged. Where the host took time meanwhile, a tick that was made late may be late by that
+  // for the most part: then once more, at most twice.
+  template <class Inject>
+  void expectNamed(Count dds::LateTicks::*cause, Inject inject) {
+    for (int tries = 1; tries <= 3; ++tries) {
+      inject();
+      ASSERT_NO_FATAL_FAILURE(judge());
+      RecordProperty("after" + std::to_string(tries), text(after_.late));
+      if (after_.late.*cause - before_.late.*cause >= kNamedRight) return;
+      if (after_.late.host_steal == before_.late.host_steal) break;
+      before_ = after_;
+    }
+    ADD_FAILURE() << kInjections << " were injected\nbefore: " << text(before_.late)
+                  << "\nafter: " << text(after_.late);
+  }
+
   void judge() {
     const Count all = totalOf(before_.late) + kInjections;
     const auto last = waitFor([all](const dds::ServerStatus& status) { return totalOf(status.late) >= all; });
     ASSERT_TRUE(last.has_value()) << server_->log();
     wait(milliseconds(1200));  // others held back for a second
     after_ = waitFor([](const dds::ServerStatus&) { return true; }).value_or(*last);
-  }
-
-  void expectNamed(Count dds::LateTicks::*cause) const {
-    EXPECT_GE(after_.late.*cause - before_.late.*cause, kNamedRight)
-        << kInjections << " were injected\nbefore: " << text(before_.late)
-        << "\nafter: " << text(after_.late);
-    RecordProperty("after", text(after_.late));
   }
 
   const std::uint32_t domain_ = palpate::testing::exclusiveDomain();
@@ -154,35 +162,29 @@ class LateTicks : public ::testing::Test {
 
 TEST_F(LateTicks, OfOwnWorkAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start(kWork));
-  server_->signal(SIGUSR2);
-  ASSERT_NO_FATAL_FAILURE(judge());
-  expectNamed(&dds::LateTicks::own_work);
+  expectNamed(&dds::LateTicks::own_work, [this] { server_->signal(SIGUSR2); });
 }
 
 TEST_F(LateTicks, OfPageFaultsAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start(kFault));
-  server_->signal(SIGUSR2);
-  ASSERT_NO_FATAL_FAILURE(judge());
-  expectNamed(&dds::LateTicks::page_fault);
+  expectNamed(&dds::LateTicks::page_fault, [this] { server_->signal(SIGUSR2); });
 }
 
 TEST_F(LateTicks, OfAClockThatLeapsAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start(kLeap));
-  server_->signal(SIGUSR2);
-  ASSERT_NO_FATAL_FAILURE(judge());
-  expectNamed(&dds::LateTicks::clock_step);
+  expectNamed(&dds::LateTicks::clock_step, [this] { server_->signal(SIGUSR2); });
 }
 
 TEST_F(LateTicks, OfAStoppedProcessAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start({}));
-  for (int i = 0; i < kInjections; ++i) {
-    wait(kBetween);
-    server_->signal(SIGSTOP);
-    wait(kStall);
-    server_->signal(SIGCONT);
-  }
-  ASSERT_NO_FATAL_FAILURE(judge());
-  expectNamed(&dds::LateTicks::stopped);
+  expectNamed(&dds::LateTicks::stopped, [this] {
+    for (int i = 0; i < kInjections; ++i) {
+      wait(kBetween);
+      server_->signal(SIGSTOP);
+      wait(kStall);
+      server_->signal(SIGCONT);
+    }
+  });
 }
 
 TEST_F(LateTicks, OfAThreadWithAHigherPriorityAreNamedAndSoIsTheThread) {
@@ -192,9 +194,7 @@ TEST_F(LateTicks, OfAThreadWithAHigherPriorityAreNamedAndSoIsTheThread) {
   if (!hog.granted()) GTEST_SKIP() << "SCHED_FIFO is not granted here: no thread can be put above the tick";
   ASSERT_NO_FATAL_FAILURE(start({}, {"--tick-cpu", std::to_string(cpu)}));
   if (!before_.realtime) GTEST_SKIP() << "the server's tick has no real-time priority here";
-  hog.hog(cpu, kInjections);
-  ASSERT_NO_FATAL_FAILURE(judge());
-  expectNamed(&dds::LateTicks::preempted);
+  expectNamed(&dds::LateTicks::preempted, [&] { hog.hog(cpu, kInjections); });
   EXPECT_NE(std::string(after_.late.preempted_by).find("cpu-hog"), std::string::npos)
       << after_.late.preempted_by;
   EXPECT_NE(server_->log().find("preempted by cpu-hog ("), std::string::npos) << server_->log();
