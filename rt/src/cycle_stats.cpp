@@ -29,6 +29,13 @@ void CycleStats::add(std::int64_t ns) noexcept PALPATE_NONBLOCKING {
   max_ = std::max(max_, value);
 }
 
+void CycleStats::add(const CycleStats& other) noexcept PALPATE_NONBLOCKING {
+  if (other.count_ == 0) return;
+  for (std::size_t i = 0; i < kBuckets; ++i) buckets_[i] += other.buckets_[i];
+  count_ += other.count_;
+  max_ = std::max(max_, other.max_);
+}
+
 std::int64_t CycleStats::quantile(double fraction) const noexcept PALPATE_NONBLOCKING {
   const double wanted = std::ceil(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(count_));
   const auto rank = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted));

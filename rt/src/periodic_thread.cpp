@@ -2,8 +2,10 @@
 #include "palpate/rt/periodic_thread.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -29,13 +31,44 @@ Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns, std::int64_t
   return {std::max(next_ns, now_ns + 1), static_cast<std::uint64_t>(missed)};
 }
 
+// Finds late cycles, on the periodic thread, between two cycles. One that was on time costs one reading; one that was late also a
+// file of /proc and the listener.
+class PeriodicThread::LateWatch {
+ public:
+  LateWatch(const LateListener& listener, std::int64_t period_ns,
+            std::atomic<std::int64_t>& slack_ns) noexcept
+      : listener_(listener), late_ns_(period_ns / 2), slack_ns_(slack_ns), before_(readThisThread()) {}
+
+  void ended(const Cycle& cycle, std::uint64_t missed) noexcept {
+    const ThreadReading ended = readThisThread();
+    const std::int64_t slept_ns = (ended.boot_ns - before_.boot_ns) - (ended.at_ns - before_.at_ns);
+    if (missed > 0 || cycle.woke_ns - cycle.deadline_ns > late_ns_ || slept_ns > late_ns_) {
+      listener_.function(listener_.context, {cycle.deadline_ns, cycle.woke_ns, missed, before_, ended,
+                                             queue_.queued_ns(), slack_ns_.load(std::memory_order_relaxed)});
+      before_ = readThisThread();  // the listener's time is nobody's
+    } else {
+      const std::int64_t idle_ns = ended.at_ns - cycle.deadline_ns - (ended.cpu_ns - before_.cpu_ns);
+      if (idle_ns > 0)
+        slack_ns_.store(slack_ns_.load(std::memory_order_relaxed) + idle_ns, std::memory_order_relaxed);
+      before_ = ended;
+    }
+  }
+
+ private:
+  LateListener listener_;
+  std::int64_t late_ns_;
+  std::atomic<std::int64_t>& slack_ns_;
+  RunQueueFile queue_;
+  ThreadReading before_;
+};
+
 PeriodicThread::PeriodicThread(const ThreadOptions& options, std::int64_t period_ns, Function function,
-                               void* context) {
+                               void* context, const LateListener& late) {
   if (period_ns <= 0) {
     throw std::invalid_argument("thread " + options.name + ": period is " + std::to_string(period_ns) +
                                 " ns, expected more than 0");
   }
-  thread_ = std::make_unique<Thread>(options, [=, this] { run(period_ns, function, context); });
+  thread_ = std::make_unique<Thread>(options, [=, this] { run(period_ns, function, context, late); });
 }
 
 void PeriodicThread::stop() {
@@ -43,7 +76,11 @@ void PeriodicThread::stop() {
   thread_->join();
 }
 
-void PeriodicThread::run(std::int64_t period_ns, Function function, void* context) noexcept {
+void PeriodicThread::run(std::int64_t period_ns, Function function, void* context,
+                         const LateListener& late) noexcept {
+  id_.store(gettid(), std::memory_order_relaxed);
+  std::optional<LateWatch> watch;
+  if (late.function != nullptr) watch.emplace(late, period_ns, slack_ns_);
   std::int64_t faults_before = pageFaultsOfThisThread();
   Cycle cycle;
   cycle.deadline_ns = monotonicNow() + period_ns;
@@ -53,6 +90,7 @@ void PeriodicThread::run(std::int64_t period_ns, Function function, void* contex
     const std::int64_t shift_ns = function(context, cycle);
     const std::int64_t now_ns = monotonicNow();
     const Deadline next = nextDeadline(cycle.deadline_ns, period_ns, now_ns, shift_ns);
+    if (watch) watch->ended(cycle, next.missed);
     cycle.previous_ns = now_ns - cycle.woke_ns;
     cycle.deadline_ns = next.ns;
     cycle.overruns += next.missed;

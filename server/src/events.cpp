@@ -35,6 +35,8 @@ constexpr std::uint64_t kRivalKind = kOverrunKind + 11;
 constexpr std::uint64_t kMisfitKind = kOverrunKind + 12;
 constexpr std::uint64_t kAnnouncedKind = kOverrunKind + 13;
 constexpr std::uint64_t kAnnouncementFloodKind = kOverrunKind + 14;
+constexpr std::uint64_t kLateKind = kOverrunKind + 15;
+constexpr std::uint64_t kClockStepKind = kOverrunKind + 16;
 
 // Requests to other servers in a second that are no flood yet.
 constexpr std::uint64_t kManyRequests = 200;
@@ -68,8 +70,12 @@ void Events::drain(std::int64_t now_ns) {
     if (isDue(kChangedKind, now_ns)) info(*news.changed);
     noteParameters();
   }
+  noteDelays(now_ns);
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
+  noteLateTicks(now_ns);
+  noteClockSteps(now_ns);
+  noteOwners();
   noteUnknownTools(now_ns);
   noteMisaddressed(now_ns);
   noteRequestFloods(now_ns);
@@ -183,6 +189,57 @@ void Events::noteRecording(std::int64_t now_ns) {
   if (unrecorded == unrecorded_ || recording_failed_) return;
   unrecorded_ = unrecorded;
   warn(kUnrecordedKind, "recording: the ring was full (" + std::to_string(unrecorded) + " ticks lost so far)",
+       now_ns);
+}
+
+// Where a pose's delay can be told: the owner of its tool runs here.
+void Events::noteOwners() {
+  if (processes_ == nullptr) return;
+  for (std::size_t tool = 0; tool < owners_.size(); ++tool) {
+    const std::uint64_t owner = channels_.owners[tool].load(std::memory_order_relaxed);
+    if (owner == owners_[tool]) continue;
+    owners_[tool] = owner;
+    const std::string host = processes_->processOf(poses_, owner).host;
+    channels_.owner_is_here[tool].store(host == status_.facts().host, std::memory_order_relaxed);
+  }
+}
+
+void Events::noteDelays(std::int64_t now_ns) {
+  for (Times* times : {&health_.tick, &health_.wakeup, &health_.receive, &health_.force_out})
+    times->recent.goOn(now_ns);
+  std::int64_t delay_ns = 0;
+  while (channels_.receive_delays.pop(delay_ns)) health_.receive.add(delay_ns);
+  while (channels_.force_delays.pop(delay_ns)) health_.force_out.add(delay_ns);
+}
+
+// Every late tick counts; of those that missed a period one a second is told.
+void Events::noteLateTicks(std::int64_t now_ns) {
+  const std::uint64_t unjudged = channels_.unjudged.load(std::memory_order_relaxed);
+  health_.late[static_cast<std::size_t>(rt::LateCause::kUnknown)] += unjudged - unjudged_;
+  unjudged_ = unjudged;
+  LateTick tick;
+  while (channels_.late_ticks.pop(tick)) {
+    ++health_.late[static_cast<std::size_t>(tick.cause)];
+    const std::string by = tick.by.data();
+    if (!by.empty()) health_.preempted_by = by;
+    if (tick.missed > 0)
+      warn(kLateKind,
+           "a tick ended " + std::to_string(tick.late_ns / 1000) + " us after it was due: " +
+               (tick.cause == rt::LateCause::kUnknown ? "cause unknown" : rt::wordOf(tick.cause)) +
+               (by.empty() ? "" : " by " + by),
+           now_ns);
+  }
+}
+
+void Events::noteClockSteps(std::int64_t now_ns) {
+  const std::uint64_t steps = channels_.clock_steps.load(std::memory_order_relaxed);
+  if (steps == health_.clock_steps) return;
+  health_.clock_steps = steps;
+  health_.clock_step_ns = channels_.clock_step_ns.load(std::memory_order_relaxed);
+  warn(kClockStepKind,
+       "the machine's wall clock was set by " +
+           std::to_string(1e-9 * static_cast<double>(health_.clock_step_ns)) +
+           " s: no tick depends on it, stamps taken from it jump",
        now_ns);
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "palpate/rt/clock.h"
+
 namespace palpate::server {
 namespace {
 
@@ -49,6 +51,7 @@ void ForcePublisher::run() noexcept {
     while (channels_.forces.pop(record)) {
       if (!writer_.write(toWire(facts_, record)))
         channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
+      (void)channels_.force_delays.push(rt::monotonicNow() - record.handed_ns);
     }
     if (channels_.surface_waits.exchange(false, std::memory_order_relaxed)) channels_.surface_ready.post();
   }

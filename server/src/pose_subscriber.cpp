@@ -124,20 +124,33 @@ void PoseIntake::acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
 }
 
 void PoseSubscriber::onPoses(dds::ReaderView<dds::ToolPose> reader, void* context) noexcept {
-  auto& intake = *static_cast<PoseIntake*>(context);
+  auto& self = *static_cast<PoseSubscriber*>(context);
   std::array<dds::ToolPose, dds::kMaxTake> poses;
   std::array<dds::WriterId, dds::kMaxTake> writers;
-  const std::size_t count = reader.take(poses, writers);
+  std::array<std::int64_t, dds::kMaxTake> sent_ns;
+  const std::size_t count = reader.take(poses, writers, sent_ns);
   const std::int64_t now_ns = rt::monotonicNow();
-  for (std::size_t i = 0; i < count; ++i) intake.accept(poses[i], writers[i], now_ns);
+  for (std::size_t i = 0; i < count; ++i) {
+    self.intake_.accept(poses[i], writers[i], now_ns);
+    self.noteDelay(poses[i], sent_ns[i]);
+  }
+}
+
+// What is no delay came while the wall clock was set.
+void PoseSubscriber::noteDelay(const dds::ToolPose& pose, std::int64_t sent_ns) noexcept {
+  constexpr std::int64_t kLongest = 10'000'000'000;  // ns
+  if (isUnknown(pose.tool_id) || !channels_.owner_is_here[pose.tool_id].load(std::memory_order_relaxed))
+    return;
+  const std::int64_t delay_ns = dds_time() - sent_ns;
+  if (delay_ns >= 0 && delay_ns < kLongest) (void)channels_.receive_delays.push(delay_ns);
 }
 
 void PoseSubscriber::onGone(dds::WriterId writer, void* context) noexcept {
-  static_cast<PoseIntake*>(context)->left(writer);
+  static_cast<PoseSubscriber*>(context)->intake_.left(writer);
 }
 
 bool PoseSubscriber::admits(const dds::ToolPose& pose, void* context) noexcept {
-  return static_cast<PoseIntake*>(context)->admits(pose);
+  return static_cast<PoseSubscriber*>(context)->intake_.admits(pose);
 }
 
 }  // namespace palpate::server

@@ -79,6 +79,7 @@ Server::Server(const MetaModel& model, const ServerConfig& config)
       tick_(model, work_, channels_, planOf(config)),
       poses_in_(participant_, channels_, config.step, {facts_.server_id, facts_.answers_any}),
       endpoints_(participant_),
+      processes_(participant_),
       ramp_time_(config.step.ramp_time) {
   watchEndpoints();
   parameters_.listenToDrivers(poses_in_.handle());
@@ -106,6 +107,7 @@ void Server::watchEndpoints() {
   status_out_.show(endpoints_);
   parameters_.show(endpoints_);
   events_.serveStrangers(endpoints_, rest_surface_);
+  events_.lookForOwners(processes_, poses_in_.handle());
 }
 
 void Server::settleRealtime(rt::RealtimePolicy policy) {
@@ -136,7 +138,10 @@ void Server::startThreads(const ServerConfig& config) {
   if (recorder_) recorder_thread_ = start("recorder", 0, [this] { recorder_->run(); });
   rt::ThreadOptions tick{"tick", kTickPriority, policy, {}};
   if (config.tick_cpu != kAnyCpu) tick.cpus = {static_cast<int>(config.tick_cpu)};
-  tick_thread_ = std::make_unique<rt::PeriodicThread>(tick, periodOf(config), &Tick::onCycle, &tick_);
+  tick_thread_ = std::make_unique<rt::PeriodicThread>(tick, periodOf(config), &Tick::onCycle, &tick_,
+                                                      rt::LateListener{&Tick::onLate, &channels_});
+  late_watch_.emplace(channels_, *tick_thread_, tick_thread_->realtime() ? kTickPriority : 0);
+  late_thread_ = start("late-watch", 0, [this] { late_watch_->run(); });
 }
 
 void Server::stop() {
@@ -148,6 +153,8 @@ void Server::stop() {
   channels_.stopping.store(true, std::memory_order_release);  // SYNC STOP
   channels_.force_ready.post();
   channels_.surface_ready.post();
+  channels_.late_watch_ready.post();
+  late_thread_.reset();  // its last word is for events
   channels_.events_ready.post();
   force_thread_.reset();  // joins
   surface_thread_.reset();

@@ -19,6 +19,36 @@ dds::Percentiles percentiles(const rt::CycleStats& stats) {
   return us;
 }
 
+dds::RecentTimes recent(const rt::RecentStats& stats) {
+  return {percentiles(stats.second()), percentiles(stats.minute())};
+}
+
+void sayLateTicks(const Health& health, dds::LateTicks& late) {
+  const auto count = [&health](rt::LateCause cause) { return health.late[static_cast<std::size_t>(cause)]; };
+  late.unknown = count(rt::LateCause::kUnknown);
+  late.own_work = count(rt::LateCause::kOwnWork);
+  late.page_fault = count(rt::LateCause::kPageFault);
+  late.preempted = count(rt::LateCause::kPreempted);
+  late.stopped = count(rt::LateCause::kStopped);
+  late.host_steal = count(rt::LateCause::kHostSteal);
+  late.clock_step = count(rt::LateCause::kClockStep);
+  dds::assignText(late.preempted_by, health.preempted_by);
+}
+
+void sayTimes(const Health& health, dds::ServerStatus& status) {
+  status.tick_us = percentiles(health.tick.run);
+  status.tick_recent_us = recent(health.tick.recent);
+  status.wakeup_us = percentiles(health.wakeup.run);
+  status.wakeup_recent_us = recent(health.wakeup.recent);
+  status.receive_us = percentiles(health.receive.run);
+  status.receive_recent_us = recent(health.receive.recent);
+  status.force_out_us = percentiles(health.force_out.run);
+  status.force_out_recent_us = recent(health.force_out.recent);
+  sayLateTicks(health, status.late);
+  status.clock_steps = health.clock_steps;
+  status.clock_step_s = 1e-9 * static_cast<double>(health.clock_step_ns);
+}
+
 void sayParameters(const Facts& facts, const Health& health, dds::ServerStatus& status) {
   const LiveParameters live = asFelt(health.settings[0], facts.organ);
   dds::assignText(status.device, facts.device[0]);
@@ -65,8 +95,7 @@ dds::ServerStatus toWire(const Facts& facts, const Health& health, std::uint32_t
   dds::assignText(status.rival, health.rival);
   status.dropped = health.last.dropped + health.failed_writes;
   status.flags = health.recent_flags;
-  status.tick_us = percentiles(health.tick);
-  status.wakeup_us = percentiles(health.wakeup);
+  sayTimes(health, status);
   status.phase_lock = health.last.phase;
   dds::assignText(status.message, health.message);
   return status;

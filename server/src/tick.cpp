@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "palpate/rt/clock.h"
+
 namespace palpate::server {
 namespace {
 
@@ -135,6 +137,7 @@ void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NO
   record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
   record.previous_tick_ns = cycle.previous_ns;
   record.overruns = cycle.overruns;
+  record.handed_ns = rt::monotonicNow();
   // A full ring is a lost sample like any other: the receiver sees the gap in seq.
   if (!channels_.forces.push(record)) ++dropped_;
 }
@@ -186,6 +189,11 @@ void Tick::followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     if (phases_[tool].hasPhase()) followed_ = tool;
   }
   shift_ns_ = shifts[followed_];
+}
+
+void Tick::onLate(void* channels, const rt::LateCycle& cycle) noexcept PALPATE_NONBLOCKING {
+  auto& into = *static_cast<Channels*>(channels);
+  if (!into.late_cycles.push(cycle)) into.unjudged.fetch_add(1, std::memory_order_relaxed);
 }
 
 void Tick::reportTick(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {

@@ -364,6 +364,11 @@ TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
   EXPECT_NEAR(report["overruns"].get<double>(), answered / 50.0, 2.0);
   EXPECT_NEAR(report["seconds"].get<double>(), 1.5, 0.5);
   EXPECT_TRUE(report["late"].is_number_unsigned());
+  for (const char* cause :
+       {"own_work", "page_fault", "preempted", "stopped", "host_steal", "clock_step", "unknown"})
+    EXPECT_EQ(report["late_ticks"][cause], 0) << "this server says of no tick that it was late";
+  EXPECT_EQ(report["late_ticks"]["preempted_by"], "");
+  EXPECT_NE(result.err.find("\nlate ticks: none\n"), std::string::npos) << result.err;
   EXPECT_EQ(xmlFault(contentOf(svg.path())), "");
 }
 

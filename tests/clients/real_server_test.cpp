@@ -166,6 +166,8 @@ TEST(RealServer, LatencyAndWatchReportTheSameRun) {
   EXPECT_GT(report["pose_to_field_us"]["count"].get<int>(), 500);
   EXPECT_GT(report["pose_to_field_us"]["p50"].get<double>(), report["tick_us"]["p50"].get<double>());
   EXPECT_GT(report["tick_us"]["p50"].get<double>(), 0.0);
+  EXPECT_GT(report["force_out_us"]["count"].get<int>(), 500);
+  EXPECT_GT(report["receive_us"]["count"].get<int>(), 500) << "the sender is on the server's host";
   EXPECT_LE(report["lost"].get<double>(), 0.01 * report["received"].get<double>());
   EXPECT_GT(watched["received"].get<int>(), 500);
   EXPECT_EQ(watched["refused"], 0);

@@ -94,6 +94,20 @@ TEST(Callback, TellsWhichWriterSentASample) {
   EXPECT_EQ(senders.writer[0], senders.writer[2]);
 }
 
+TEST(Callback, TellsWhenASampleWasWritten) {
+  Link<ToolPose> link;
+  link.connect();
+  const std::int64_t before_ns = dds_time();
+  ASSERT_TRUE(link.writer.write(firstPoseOf(0)));
+  const std::int64_t after_ns = dds_time();
+  std::array<ToolPose, 1> pose;
+  std::array<WriterId, kMaxTake> writers;
+  std::array<std::int64_t, kMaxTake> sent_ns{};
+  ASSERT_TRUE(eventually([&] { return link.reader.view().take(pose, writers, sent_ns) == 1; }));
+  EXPECT_GE(sent_ns[0], before_ns);
+  EXPECT_LE(sent_ns[0], after_ns);
+}
+
 TEST(Callback, AFilterKeepsAFloodOfInstancesOutAndARealOneGetsIn) {
   const Participant participant(palpate::testing::exclusiveDomain());
   Sum sum;

@@ -27,6 +27,17 @@ TEST(CycleStats, ShortDurationsAreExact) {
   EXPECT_EQ(stats.quantile(1.0), 100);
 }
 
+TEST(CycleStats, ThoseOfAnotherAreAdded) {
+  CycleStats one, other;
+  for (int ns = 1; ns <= 50; ++ns) one.add(ns);
+  for (int ns = 51; ns <= 100; ++ns) other.add(ns);
+  one.add(other);
+  one.add(CycleStats{});
+  EXPECT_EQ(one.count(), 100U);
+  EXPECT_EQ(one.quantile(0.75), 75);
+  EXPECT_EQ(one.max(), 100);
+}
+
 TEST(CycleStats, QuantilesAgreeWithSortingWithinOneBucket) {
   std::mt19937_64 random(7);
   std::lognormal_distribution<double> durations(10.0, 2.0);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <ctime>
@@ -118,6 +119,40 @@ TEST(PeriodicThread, MovesItsGridByWhatTheCycleAsksFor) {
       continue;  // a stall ended in the last microseconds
     const std::int64_t shift = cycle.deadline_ns - last.deadline_ns - periods * kPeriod;
     EXPECT_EQ(shift, last.index < 20 ? 10'000 : -10'000) << i;
+  }
+}
+
+struct LateLog {
+  std::array<LateCycle, 4 * Log::kCycles> cycles;
+  std::size_t count{0};
+};
+
+void noteLate(void* context, const LateCycle& cycle) noexcept PALPATE_NONBLOCKING {
+  auto& log = *static_cast<LateLog*>(context);
+  if (log.count < log.cycles.size()) log.cycles[log.count++] = cycle;
+}
+
+TEST(PeriodicThread, TellsOfEachLateCycleWhatTheKernelSaysOfIt) {
+  Log log;
+  LateLog late;
+  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kPeriod, kLogCycle, &log,
+                        {noteLate, &late});
+  log.done.wait();
+  thread.stop();
+  EXPECT_GT(thread.id(), 0);
+  const auto* const paused =
+      std::find_if(late.cycles.begin(), late.cycles.begin() + late.count,
+                   [&](const auto& cycle) { return cycle.deadline_ns == log.cycles[10].deadline_ns; });
+  ASSERT_NE(paused, late.cycles.begin() + late.count) << "the cycle that blocked is not among the late ones";
+  EXPECT_GE(paused->missed, 5U);
+  EXPECT_EQ(paused->woke_ns, log.cycles[10].woke_ns);
+  EXPECT_GE(paused->ended.at_ns - paused->woke_ns, 5 * kPeriod);
+  EXPECT_LT(paused->ended.cpu_ns - paused->before.cpu_ns, 3 * kPeriod) << "it slept";
+  EXPECT_GE(paused->ended.waits - paused->before.waits, 1);
+  EXPECT_LE(paused->before.at_ns, paused->deadline_ns);
+  for (std::size_t i = 0; i < late.count; ++i) {
+    const LateCycle& cycle = late.cycles[i];
+    EXPECT_TRUE(cycle.missed > 0 || cycle.woke_ns - cycle.deadline_ns > kPeriod / 2) << i;
   }
 }
 

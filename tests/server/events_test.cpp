@@ -53,10 +53,55 @@ TEST_F(EventsTest, GathersTheTimesOfEveryTick) {
     ASSERT_TRUE(channels_->ticks.push(record));
   }
   events_.drain(0);
-  EXPECT_EQ(events_.health().wakeup.count(), 100U);
-  EXPECT_EQ(events_.health().tick.count(), 99U) << "the first tick has none before it";
-  EXPECT_EQ(events_.health().tick.quantile(0.0), 50);
+  EXPECT_EQ(events_.health().wakeup.run.count(), 100U);
+  EXPECT_EQ(events_.health().tick.run.count(), 99U) << "the first tick has none before it";
+  EXPECT_EQ(events_.health().tick.run.quantile(0.0), 50);
   EXPECT_EQ(events_.health().last.ticks, 100U);
+}
+
+TEST_F(EventsTest, CountsLateTicksByCauseAndTellsOfThoseThatMissedAPeriod) {
+  LateTick late{700'000, 0, rt::LateCause::kHostSteal, {}};
+  ASSERT_TRUE(channels_->late_ticks.push(late));
+  events_.drain(kSecond);
+  EXPECT_EQ(takeLog(), "") << "no period was missed";
+  late = {5'100'000, 5, rt::LateCause::kPreempted, {'h', 'o', 'g', ' ', '(', '7', ')'}};
+  ASSERT_TRUE(channels_->late_ticks.push(late));
+  late = {5'200'000, 5, rt::LateCause::kUnknown, {}};
+  ASSERT_TRUE(channels_->late_ticks.push(late));
+  channels_->unjudged = 2;
+  events_.drain(2 * kSecond);
+  EXPECT_EQ(takeLog(), "a tick ended 5100 us after it was due: preempted by hog (7)\n");
+  const Health& health = events_.health();
+  EXPECT_EQ(health.late[static_cast<std::size_t>(rt::LateCause::kHostSteal)], 1U);
+  EXPECT_EQ(health.late[static_cast<std::size_t>(rt::LateCause::kPreempted)], 1U);
+  EXPECT_EQ(health.late[static_cast<std::size_t>(rt::LateCause::kUnknown)], 3U);
+  EXPECT_EQ(health.preempted_by, "hog (7)");
+  ASSERT_TRUE(channels_->late_ticks.push(late));
+  events_.drain(4 * kSecond);
+  EXPECT_EQ(takeLog(), "a tick ended 5200 us after it was due: cause unknown\n");
+}
+
+TEST_F(EventsTest, TellsThatTheWallClockWasSet) {
+  channels_->clock_steps = 1;
+  channels_->clock_step_ns = 2'000'000'000;
+  events_.drain(kSecond);
+  EXPECT_EQ(
+      takeLog(),
+      "the machine's wall clock was set by 2.000000 s: no tick depends on it, stamps taken from it jump\n");
+  events_.drain(3 * kSecond);
+  EXPECT_EQ(takeLog(), "");
+}
+
+TEST_F(EventsTest, GathersWhatReceivingAndSendingTook) {
+  ASSERT_TRUE(channels_->receive_delays.push(40'000));
+  ASSERT_TRUE(channels_->force_delays.push(60'000));
+  ASSERT_TRUE(channels_->force_delays.push(70'000));
+  events_.drain(kSecond);
+  EXPECT_EQ(events_.health().receive.run.max(), 40'000);
+  EXPECT_EQ(events_.health().force_out.run.count(), 2U);
+  EXPECT_EQ(events_.health().force_out.recent.second().count(), 0U) << "the second is not over";
+  events_.drain(2 * kSecond);
+  EXPECT_EQ(events_.health().force_out.recent.second().max(), 70'000);
 }
 
 TEST_F(EventsTest, TellsWhereThePhaseCameToAndNotTheWayThere) {

@@ -37,7 +37,7 @@ TEST_F(ServerEndToEnd, RunsItsThreadsAtTheirPriorities) {
   if (!status->realtime) GTEST_SKIP() << "SCHED_FIFO is not granted here";
   const auto found = priorities(server_->pid());
   const std::map<std::string, int> wanted{
-      {"tick", 80}, {"force-out", 75}, {"surface-out", 40}, {"events", 0}};
+      {"tick", 80}, {"force-out", 75}, {"surface-out", 40}, {"events", 0}, {"late-watch", 0}};
   for (const auto& [name, priority] : wanted) {
     ASSERT_EQ(found.count(name), 1U) << name;
     EXPECT_EQ(found.at(name), priority) << name;
@@ -46,6 +46,22 @@ TEST_F(ServerEndToEnd, RunsItsThreadsAtTheirPriorities) {
     return thread.first.rfind("recv", 0) == 0 && thread.second == 70;
   });
   EXPECT_GT(receiving, 0) << "no receive thread of DDS was raised";
+}
+
+TEST_F(ServerEndToEnd, TellsWhatReceivingAndSendingTookAndWhatIsNow) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  client_->startSending(atDepth(-0.002));
+  const auto status = client_->waitForStatus([](const dds::ServerStatus& s) {
+    return s.receive_recent_us.second.count > 0 && s.force_out_recent_us.second.count > 0 &&
+           s.tick_recent_us.second.count > 0;
+  });
+  ASSERT_TRUE(status.has_value()) << server_->log();
+  EXPECT_GT(status->receive_us.p50, 0.0);
+  EXPECT_GE(status->receive_us.max, status->receive_recent_us.second.max);
+  EXPECT_GE(status->force_out_us.max, status->force_out_recent_us.minute.max);
+  EXPECT_GE(status->force_out_recent_us.minute.count, status->force_out_recent_us.second.count);
+  EXPECT_GE(status->wakeup_us.count, status->wakeup_recent_us.minute.count);
+  EXPECT_LT(status->tick_recent_us.second.count, 2000U) << "a second has about a thousand ticks";
 }
 
 // At 100 Hz: poses count as even when they come within a tenth of a period, which a busy machine keeps to 1 ms.

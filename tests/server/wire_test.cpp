@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "palpate/rt/phase_lock.h"
 #include "palpate/server/force_publisher.h"
 #include "palpate/server/status_publisher.h"
@@ -85,6 +87,50 @@ TEST(StatusOnTheWire, SaysTimesInMicrosecondsAndCutsLongTexts) {
   EXPECT_EQ(status.phase_lock, dds::phase::kLocked);
   EXPECT_EQ(status.dropped, 5U);
   EXPECT_EQ(std::string(status.model_id), std::string(sizeof status.model_id - 1, 'x'));
+}
+
+TEST(StatusOnTheWire, SaysWhyTicksWereLateAndWhoPreempted) {
+  Health health;
+  for (std::size_t i = 0; i < health.late.size(); ++i) health.late[i] = 10 + i;
+  health.preempted_by = std::string(500, 'x');
+  health.clock_steps = 3;
+  health.clock_step_ns = -2'500'000'000;
+  const dds::ServerStatus status = toWire({}, health, dds::server_state::kRunning);
+  const auto count = [](rt::LateCause cause) { return 10 + static_cast<std::uint64_t>(cause); };
+  EXPECT_EQ(status.late.unknown, count(rt::LateCause::kUnknown));
+  EXPECT_EQ(status.late.own_work, count(rt::LateCause::kOwnWork));
+  EXPECT_EQ(status.late.page_fault, count(rt::LateCause::kPageFault));
+  EXPECT_EQ(status.late.preempted, count(rt::LateCause::kPreempted));
+  EXPECT_EQ(status.late.stopped, count(rt::LateCause::kStopped));
+  EXPECT_EQ(status.late.host_steal, count(rt::LateCause::kHostSteal));
+  EXPECT_EQ(status.late.clock_step, count(rt::LateCause::kClockStep));
+  EXPECT_EQ(std::string(status.late.preempted_by), std::string(95, 'x'));
+  EXPECT_EQ(status.clock_steps, 3U);
+  EXPECT_EQ(status.clock_step_s, -2.5);
+}
+
+TEST(StatusOnTheWire, TellsTheLastSecondAndMinuteBesideTheRun) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  Health health;
+  Times* const all[] = {&health.tick, &health.wakeup, &health.receive, &health.force_out};
+  for (int second = 0; second < 3; ++second)
+    for (int i = 0; i < 4; ++i) {
+      all[i]->recent.goOn((second + 1) * kSecond);
+      if (second < 2) all[i]->add(1000 * (10 * (i + 1) - second));
+    }
+  const dds::ServerStatus status = toWire({}, health, dds::server_state::kRunning);
+  const std::pair<dds::Percentiles, dds::RecentTimes> told[] = {
+      {status.tick_us, status.tick_recent_us},
+      {status.wakeup_us, status.wakeup_recent_us},
+      {status.receive_us, status.receive_recent_us},
+      {status.force_out_us, status.force_out_recent_us}};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(told[i].first.max, 10.0 * (i + 1));
+    EXPECT_EQ(told[i].second.minute.max, 10.0 * (i + 1));
+    EXPECT_EQ(told[i].second.minute.count, 2U);
+    EXPECT_EQ(told[i].second.second.max, 10.0 * (i + 1) - 1.0);
+    EXPECT_EQ(told[i].second.second.count, 1U);
+  }
 }
 
 TEST(StatusOnTheWire, PhasesAreThoseOfTheLock) {

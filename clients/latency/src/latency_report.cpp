@@ -2,6 +2,7 @@
 #include "latency_report.h"
 
 #include "palpate/client/time_summary.h"
+#include "palpate/report/late_ticks.h"
 #include "palpate/report/program.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
@@ -53,6 +54,8 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
   if (log.poseToField().count() > 0) text += rowOf("pose to field", summaryOf(log.poseToField()));
   text += rowOf("tick, compute time", summaryOf(log.tick()));
   text += rowOf("tick, woke late by", summaryOf(log.wakeup()));
+  text += rowOf("server: pose received", report::summaryOf(server.receive_recent_us.minute));
+  text += rowOf("server: force sent", report::summaryOf(server.force_out_recent_us.minute));
   text += rowOf("sender, woke late by", summaryOf(sender.wakeup));
   text += program::printed(
       "%.2f s at %g Hz: %llu poses, %llu forces, lost %llu, late %llu, superseded %llu, overruns %llu\n",
@@ -60,6 +63,7 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
       static_cast<unsigned long long>(log.received()), static_cast<unsigned long long>(log.lost()),
       static_cast<unsigned long long>(log.late()), static_cast<unsigned long long>(log.superseded()),
       static_cast<unsigned long long>(log.overruns()));
+  text += "late ticks: " + report::lateText(server.late) + "\n";
   text += sender.left_out_text;
   text += std::string("real-time priority: server ") + (server.realtime ? "yes" : "no") + ", sender " +
           (sender.realtime ? "yes" : "no") +
@@ -76,6 +80,9 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"pose_to_field_us", report::toJson(summaryOf(log.poseToField()))},
           {"wakeup_us", report::toJson(summaryOf(log.wakeup()))},
           {"tick_us", report::toJson(summaryOf(log.tick()))},
+          {"receive_us", report::toJson(report::summaryOf(server.receive_recent_us.minute))},
+          {"force_out_us", report::toJson(report::summaryOf(server.force_out_recent_us.minute))},
+          {"late_ticks", report::toJson(server.late)},
           {"phase_lock", phaseName(server)},
           {"client_wakeup_us", report::toJson(summaryOf(sender.wakeup))},
           {"overruns", log.overruns()},

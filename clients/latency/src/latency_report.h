@@ -12,6 +12,8 @@
 
 namespace palpate::latency {
 
+// `server` is its status at the end; in it `late` holds the ticks that were late since the measurement began.
+
 /// For people: the table of percentiles, the counters, and the histogram of the round trip.
 [[nodiscard]] std::string textOf(const LatencyLog& log, const SenderStats& sender,
                                  const dds::ServerStatus& server);

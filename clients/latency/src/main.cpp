@@ -15,6 +15,7 @@
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/reader.h"
 #include "palpate/report/asked_place.h"
+#include "palpate/report/late_ticks.h"
 #include "tools/program/command_line.h"
 #include "tools/program/json.h"
 #include "tools/program/numbers.h"
@@ -116,7 +117,9 @@ int body(int argc, char** argv) {
   if (log.received() == 0)
     throw client::ClientError("no force came back for " + std::to_string(sender.sent) + " poses");
 
+  const dds::LateTicks late_before = server.status.late;
   server.status = statuses.find(runOf(server)).value_or(server.status);
+  server.status.late = report::lateSince(late_before, server.status.late);
 
   // 4. Tell.
   (options.json ? std::cerr : std::cout) << textOf(log, sender, server.status) << std::flush;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "page_message.h"
+#include "palpate/report/late_ticks.h"
 #include "palpate/report/program.h"
 #include "tools/program/json.h"
 
@@ -22,11 +23,7 @@ Json flagList(std::uint32_t flags) {
 }
 
 Json toJson(const dds::Percentiles& times) {
-  return {{"p50", times.p50},
-          {"p99", times.p99},
-          {"p999", times.p999},
-          {"max", times.max},
-          {"count", times.count}};
+  return report::toJson(report::summaryOf(times));
 }
 
 Json serverOf(const dds::ServerStatus& s) {
@@ -50,6 +47,12 @@ Json serverOf(const dds::ServerStatus& s) {
           {"flags_text", flagList(s.flags)},
           {"tick_us", toJson(s.tick_us)},
           {"wakeup_us", toJson(s.wakeup_us)},
+          {"tick_minute_us", toJson(s.tick_recent_us.minute)},
+          {"wakeup_minute_us", toJson(s.wakeup_recent_us.minute)},
+          {"receive_minute_us", toJson(s.receive_recent_us.minute)},
+          {"force_out_minute_us", toJson(s.force_out_recent_us.minute)},
+          {"late_ticks", report::toJson(s.late)},
+          {"clock_steps", s.clock_steps},
           {"message", s.message},
           {"device", s.device},
           {"speed_limit", s.speed_limit},

@@ -27,7 +27,7 @@ def _server(setup, rate):
                    "--rate", f"{min(rate, _FASTEST_POSES):g}", "--wait", 60, "--json"]
         report = json.loads(processes.output_of(command, setup.log("latency"), setup.seconds + 60, setup.env))
     return {"ticks": report["received"] + report["lost"], "missed": report["overruns"], "tick_us": report["tick_us"],
-            "wakeup_us": report["wakeup_us"]}
+            "wakeup_us": report["wakeup_us"], "late_ticks": report["late_ticks"]}
 
 
 def as_text(found, rate, seconds):
@@ -39,6 +39,10 @@ def as_text(found, rate, seconds):
     last = found["server"][-1]
     lines.append("tick / us, the last run: compute p50 {:.1f}, p99 {:.1f}; woke late by p50 {:.1f}, p99 {:.1f}".format(
         last["tick_us"]["p50"], last["tick_us"]["p99"], last["wakeup_us"]["p50"], last["wakeup_us"]["p99"]))
+    late = {}
+    for one in found["server"]:
+        measure.add_late(late, one["late_ticks"])
+    lines.append("its late ticks: " + measure.late_text(late))
     lines.append("no more than cyclictest: " + ("held" if totals["server"][0] <= totals["cyclictest"][0] else "missed"))
     return "\n".join(lines)
 

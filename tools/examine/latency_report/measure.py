@@ -26,6 +26,7 @@ class Setup:
         self.model, self.bin, self.out = options.model, options.bin, options.out
         self.server_arguments = options.server_arguments.split()
         self.notes = []
+        self.late = {}  # late ticks by cause, in all runs
         self._check_programs()
         self.out.mkdir(parents=True, exist_ok=True)
         for old in self.out.glob("*.log"):
@@ -46,6 +47,10 @@ class Setup:
 
     def log(self, name):
         return self.out / f"{name}.log"
+
+    def note_late(self, late):
+        """Late ticks of one run, as palpate-latency counts them."""
+        add_late(self.late, late)
 
     def note_awake(self, granted):
         if not granted:
@@ -70,6 +75,18 @@ class Setup:
         """Processors that get the load: all but one that the tick may use."""
         keep = max(self.tick_cpus)
         return sorted(cpu for cpu in os.sched_getaffinity(0) if cpu != keep)
+
+
+def add_late(total, late):
+    for cause, count in late.items():
+        if cause != "preempted_by":
+            total[cause] = total.get(cause, 0) + count
+
+
+def late_text(late):
+    """Most frequent cause first. @param late  counts by cause"""
+    found = sorted(((count, cause) for cause, count in late.items() if count > 0), key=lambda one: (-one[0], one[1]))
+    return ", ".join(f"{count} {cause.replace('_', ' ')}" for count, cause in found) or "none"
 
 
 def _shell(tools, command):
@@ -216,6 +233,7 @@ def latency(setup, rate, fields=False):
     if fields:
         command.append("--fields")
     report = json.loads(processes.output_of(command, setup.log("latency"), setup.seconds + 60, setup.env))
+    setup.note_late(report["late_ticks"])
     names = {"wakeup": "wakeup_us", "tick": "tick_us", "pose_to_force": "pose_to_force_us",
              "pose_to_force_less_wait": "pose_to_force_less_wait_us"}
     if fields:

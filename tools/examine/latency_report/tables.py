@@ -4,6 +4,8 @@ import json
 import os
 import platform
 
+from . import measure
+
 STATES = {"idle": "machine at rest", "loaded": "other processors busy"}
 
 # Row: title, where it is in the results, what it is divided by, and the limits for p50 and p99 (None: not judged).
@@ -68,6 +70,7 @@ def _about(setup):
             f"ddsperf: mean of ping-pongs of {setup.pose_bytes} and {setup.force_bytes} bytes, the sizes of ToolPose and ToolForce, "
             "1000 a second, best effort, " + ("SCHED_FIFO 70" if setup.realtime else "no real-time priority"),
             "pose to force: 991 poses a second, so that all waits for a tick of 1 kHz come up; with phase lock 1000",
+            "late ticks in all runs of palpate: " + measure.late_text(setup.late),
             *setup.notes]
 
 
@@ -104,7 +107,8 @@ def as_json(setup, results):
                   for state, found in results.items()}
     out["about"] = {"alternations": setup.alternations, "seconds": setup.seconds, "pose_bytes": setup.pose_bytes,
                     "force_bytes": setup.force_bytes, "realtime": setup.realtime, "phase_lock": setup.phase_lock,
-                    "tick_cpus": sorted(setup.tick_cpus), "busy_cpus": setup.busy_cpus, "notes": setup.notes}
+                    "tick_cpus": sorted(setup.tick_cpus), "busy_cpus": setup.busy_cpus, "late_ticks": setup.late,
+                    "notes": setup.notes}
     return json.dumps(out, indent=2) + "\n"
 
 

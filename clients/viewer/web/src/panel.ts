@@ -2,16 +2,17 @@
 import type { Said } from './connection';
 import type { Figures } from './figures';
 import { flagWords } from './flags';
+import { lateWords } from './late_words';
 import type { Line } from './line';
 import { brief, element, numberIn, setText } from './page';
 import type { Stage } from './stage';
 
 type Level = '' | 'warn' | 'bad';
 /** Rows that say nothing on a page that has its organ itself. */
-const OF_A_VIEWER = new Set(['DDS to decoded', 'Round trip to viewer', 'Woke late', 'Real time', 'Pages at the viewer']);
+const OF_A_VIEWER = new Set(['DDS to decoded', 'Round trip to viewer', 'Woke late', 'Late ticks', 'Real time', 'Pages at the viewer']);
 const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {});
 
-/** Rates, latencies and health, in numbers and words; times as p50 / p99. */
+/** Rates, latencies and health, in numbers and words; times as p50 / p99, the server's of the last minute. */
 export class Panel {
   private readonly list = element('health-list', HTMLDListElement);
   private readonly flags = element('flags', HTMLUListElement);
@@ -59,8 +60,8 @@ export class Panel {
   }
 
   private server(status: Said): void {
-    const tick = asRecord(status['tick_us']);
-    const wake = asRecord(status['wakeup_us']);
+    const tick = asRecord(status['tick_minute_us'] ?? status['tick_us']);
+    const wake = asRecord(status['wakeup_minute_us'] ?? status['wakeup_us']);
     const viewer = asRecord(status['viewer']);
     const overruns = numberIn(status, 'overruns');
     const ticks = numberIn(status, 'ticks');
@@ -69,6 +70,7 @@ export class Panel {
     this.row('Tick', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
     this.row('Woke late', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
     this.row('Ticks missed', Number.isFinite(overruns) ? `${overruns} of ${ticks}` : '–', overruns > 0.01 * ticks ? 'bad' : '');
+    this.row('Late ticks', lateWords(asRecord(status['late_ticks'])));
     const granted = status['realtime'];
     this.row('Real time', granted === undefined ? '–' : granted ? 'granted' : 'not granted', granted === false ? 'warn' : '');
     this.row('Force limit', `${brief(numberIn(status, 'force_limit'))} N`);

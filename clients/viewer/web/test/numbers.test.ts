@@ -9,6 +9,7 @@ import { CLAMPED, DISPLACEMENT, encodedOf, labOf, linearOf, niceCeiling, NO_ANSW
 import { viewerAddress } from '../src/connection';
 import { FLAGS } from '../src/flag_list';
 import { flagsOfStatus, flagWords, RecentFlags } from '../src/flags';
+import { lateWords } from '../src/late_words';
 import { codeIn } from '../src/login';
 import { namedModel } from '../src/model_files';
 import { Quality } from '../src/quality';
@@ -21,6 +22,13 @@ import type { Vec3 } from '../src/vec';
 
 const answer = (tUs: number, toolId = 0, force = 1) => ({ toolId, flags: 0, tUs, force, penetration: 0.001, wakeupUs: 0, stiffness: 0,
   forceVector: [0, 0.5, -0.25] as Vec3, tip: [0.01, 0, 0.02] as Vec3 });
+
+test('late ticks are told by cause, the most frequent first', () => {
+  const none = { own_work: 0, page_fault: 0, preempted: 0, stopped: 0, host_steal: 0, clock_step: 0, unknown: 0, preempted_by: '' };
+  assert.equal(lateWords(none), 'none');
+  assert.equal(lateWords({}), '–');
+  assert.equal(lateWords({ ...none, unknown: 2, preempted: 10, host_steal: 1, preempted_by: 'hog (7)' }), '13: another thread 10, unknown 2');
+});
 
 test('the clock takes its offset from the shortest round trip', () => {
   const clock = new ViewerClock(4);

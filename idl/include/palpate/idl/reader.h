@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,6 +36,14 @@ class ReaderView {
   /// The same, and who sent each of them. @param[out] writers  kMaxTake of them
   [[nodiscard]] std::size_t take(
       std::span<T> out, std::span<WriterId, kMaxTake> writers) const noexcept requires TopicTraits<T>::kFlat {
+    std::array<std::int64_t, kMaxTake> sent_ns;
+    return take(out, writers, sent_ns);
+  }
+
+  /// The same, and when each was written: the sender's CLOCK_REALTIME, ns. @param[out] sent_ns  kMaxTake of them
+  [[nodiscard]] std::size_t take(std::span<T> out, std::span<WriterId, kMaxTake> writers,
+                                 std::span<std::int64_t, kMaxTake> sent_ns) const noexcept requires
+      TopicTraits<T>::kFlat {
     std::array<void*, kMaxTake> buffers;
     std::array<dds_sample_info_t, kMaxTake> infos;
     const auto wanted = static_cast<std::uint32_t>(std::min(out.size(), kMaxTake));
@@ -46,6 +55,7 @@ class ReaderView {
       if (!infos[i].valid_data) continue;
       if (valid != i) out[valid] = out[i];
       writers[valid] = infos[i].publication_handle;
+      sent_ns[valid] = infos[i].source_timestamp;
       ++valid;
     }
     return valid;

@@ -26,6 +26,9 @@ class CycleStats {
   /// @param[in] ns  a duration; negative counts as 0
   void add(std::int64_t ns) noexcept PALPATE_NONBLOCKING;
 
+  /// All durations of another one. Cost that of quantile().
+  void add(const CycleStats& other) noexcept PALPATE_NONBLOCKING;
+
   /// @param[in] fraction  in [0, 1]: 0.5 is the median
   /// @return upper edge of the bucket that holds the quantile, never above max(), ns; 0 when empty
   [[nodiscard]] std::int64_t quantile(double fraction) const noexcept PALPATE_NONBLOCKING;

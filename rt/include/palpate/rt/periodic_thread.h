@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "palpate/rt/thread.h"
+#include "palpate/rt/thread_reading.h"
 
 namespace palpate::rt {
 
@@ -16,6 +17,24 @@ struct Cycle {
   std::int64_t woke_ns{0};      ///< when it began
   std::int64_t previous_ns{0};  ///< how long the cycle before computed; 0 in the first
   std::uint64_t overruns{0};    ///< periods missed since the start
+};
+
+/// A late cycle: it woke more than half a period after it was due, or ended after the next one was due, or the machine slept
+/// meanwhile; and what is known of it.
+struct LateCycle {
+  std::int64_t deadline_ns{0};
+  std::int64_t woke_ns{0};
+  std::uint64_t missed{0};     ///< periods
+  ThreadReading before;        ///< at the end of the cycle before
+  ThreadReading ended;         ///< at its own end
+  std::int64_t queued_ns{-1};  ///< RunQueueFile at its end
+  std::int64_t slack_ns{0};    ///< PeriodicThread::slack() then
+};
+
+/// Is told of each late cycle, on the periodic thread, after its end. Real-time: must be.
+struct LateListener {
+  void (*function)(void* context, const LateCycle& cycle) noexcept PALPATE_NONBLOCKING{nullptr};
+  void* context{nullptr};
 };
 
 /// The next wake-up on the grid of periods, and how many were missed.
@@ -46,8 +65,10 @@ class PeriodicThread {
 
   /// Starts at once.
   /// @param[in] period_ns  > 0
+  /// @param[in] late       with a function, each cycle ends with a ThreadReading
   /// @throw RealtimeError  as Thread; @throw std::invalid_argument  period_ns <= 0
-  PeriodicThread(const ThreadOptions& options, std::int64_t period_ns, Function function, void* context);
+  PeriodicThread(const ThreadOptions& options, std::int64_t period_ns, Function function, void* context,
+                 const LateListener& late = {});
   ~PeriodicThread() { stop(); }
   PeriodicThread(const PeriodicThread&) = delete;
   PeriodicThread& operator=(const PeriodicThread&) = delete;
@@ -57,14 +78,24 @@ class PeriodicThread {
 
   [[nodiscard]] bool realtime() const noexcept { return thread_->realtime(); }
 
+  /// The kernel's number of the thread; 0 until its first cycle. Threads: any.
+  [[nodiscard]] int id() const noexcept { return id_.load(std::memory_order_relaxed); }
+
+  /// Time that cycles which were not late did not run, from when they were due until they ended, ns, so far; 0 without a
+  /// LateListener. No more of what the thread has queued belongs to them. Threads: any.
+  [[nodiscard]] std::int64_t slack() const noexcept { return slack_ns_.load(std::memory_order_relaxed); }
+
   /// Page faults of the thread from the end of its tenth cycle to the end of its last one. Valid after stop().
   [[nodiscard]] std::int64_t pageFaults() const noexcept { return page_faults_; }
 
  private:
-  void run(std::int64_t period_ns, Function function, void* context) noexcept;
+  class LateWatch;
+  void run(std::int64_t period_ns, Function function, void* context, const LateListener& late) noexcept;
 
   std::atomic<bool> stopping_{false};  // a flag only, orders nothing: join() in stop() does
-  std::int64_t page_faults_{0};        // written by the thread, read after join()
+  std::atomic<int> id_{0};             // relaxed, as slack_ns_: they order nothing
+  std::atomic<std::int64_t> slack_ns_{0};
+  std::int64_t page_faults_{0};  // written by the thread, read after join()
   std::unique_ptr<Thread> thread_;
 };
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/record/recording.h"
+#include "palpate/rt/periodic_thread.h"
 #include "palpate/rt/semaphore.h"
 #include "palpate/rt/spsc_queue.h"
 #include "palpate/rt/triple_buffer.h"
@@ -51,6 +52,26 @@ struct Channels {
   // Tick -> events. Polled: the tick does not pay for waking it. 4096 ticks are a second at 4 kHz.
   rt::SpscQueue<TickRecord, 4096> ticks;
 
+  // Tick -> late-watch: ticks that were late. 1024 are a second at 1 kHz. A full ring
+  // loses the newest, which the counter says; relaxed, it orders nothing.
+  rt::SpscQueue<rt::LateCycle, 1024> late_cycles;
+  std::atomic<std::uint64_t> unjudged{0};
+
+  // Late-watch -> events: why ticks were late; polled.
+  rt::SpscQueue<LateTick, 1024> late_ticks;
+
+  // Late-watch -> events: how often the wall clock was set, and by how much the last time, ns. Relaxed, they order nothing.
+  std::atomic<std::uint64_t> clock_steps{0};
+  std::atomic<std::int64_t> clock_step_ns{0};
+
+  // Events -> subscriber: the owner of the tool runs on this host, and shares our wall clock. Flags; relaxed.
+  std::array<std::atomic<bool>, kMaxTools> owner_is_here{};
+
+  // Subscriber -> events, force-out -> events: how long a pose took to be handed over, and a force to be sent, ns. Polled; a
+  // full ring loses the newest.
+  rt::SpscQueue<std::int64_t, 2048> receive_delays;
+  rt::SpscQueue<std::int64_t, 2048> force_delays;
+
   // Subscriber -> events: poses with a tool_id above 3, and the newest such id. Counters; relaxed, they order
   // nothing.
   std::atomic<std::uint64_t> unknown_poses{0};
@@ -87,11 +108,12 @@ struct Channels {
   std::atomic<bool> shutting_down{false};
   rt::Semaphore zero_force_sent;
 
-  // Main -> force-out, surface-out, events, once the tick has ended: finish what is queued, and return.
+  // Main -> force-out, surface-out, late-watch, events, once the tick has ended: finish what is queued, and return.
   // SYNC STOP: stored with release before the thread's semaphore is posted, loaded with acquire after
   // waiting.
   std::atomic<bool> stopping{false};
   rt::Semaphore events_ready;
+  rt::Semaphore late_watch_ready;
 };
 
 }  // namespace palpate::server

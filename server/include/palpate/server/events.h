@@ -7,6 +7,7 @@
 #include <string>
 
 #include "palpate/idl/endpoint_watch.h"
+#include "palpate/idl/process_of.h"
 #include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"
 #include "palpate/server/health.h"
@@ -37,6 +38,13 @@ class Events {
     rest_surface_ = &surface;
   }
 
+  /// Also find out which tools are driven from this host. Before run(); `processes` must outlive the thread.
+  /// @param[in] poses  the reader of the poses, which knows their writers
+  void lookForOwners(const dds::ProcessBook& processes, dds_entity_t poses) noexcept {
+    processes_ = &processes;
+    poses_ = poses;
+  }
+
   /// Body of the events thread. Returns when the server stops, after it has published that.
   void run() noexcept;
 
@@ -53,6 +61,10 @@ class Events {
   void noteMisaddressed(std::int64_t now_ns);
   void noteRequestFloods(std::int64_t now_ns);
   void noteRecording(std::int64_t now_ns);
+  void noteOwners();
+  void noteDelays(std::int64_t now_ns);
+  void noteLateTicks(std::int64_t now_ns);
+  void noteClockSteps(std::int64_t now_ns);
   void noteTick(const TickRecord& record, std::int64_t now_ns);
   void raiseLateThreads(std::int64_t now_ns);
   void notePhase(std::uint32_t phase, std::int64_t now_ns);
@@ -70,6 +82,10 @@ class Events {
   dds::EndpointWatch* endpoints_{nullptr};
   RestSurface* rest_surface_{nullptr};
   std::uint64_t untold_misfits_{0};
+  const dds::ProcessBook* processes_{nullptr};
+  dds_entity_t poses_{0};
+  std::array<std::uint64_t, kMaxTools> owners_{};  // as channels_.owners, looked up
+  std::uint64_t unjudged_{0};
   Health health_;
   std::array<std::uint32_t, kMaxTools> last_flags_{};
   std::map<std::uint64_t, std::int64_t> last_told_ns_;  // by kind of event; a fixed, small set

@@ -91,8 +91,9 @@ class PoseSubscriber {
   /// @throw dds::DdsError
   PoseSubscriber(const dds::Participant& participant, Channels& channels, const StepConfig& config,
                  const Address& address)
-      : intake_(channels, config, address),
-        reader_(participant, &PoseSubscriber::onPoses, &intake_, &PoseSubscriber::admits,
+      : channels_(channels),
+        intake_(channels, config, address),
+        reader_(participant, &PoseSubscriber::onPoses, this, &PoseSubscriber::admits,
                 &PoseSubscriber::onGone) {}
 
   /// Lets the watch compare others' endpoints with ours.
@@ -105,8 +106,11 @@ class PoseSubscriber {
   static void onGone(dds::WriterId writer, void* context) noexcept;
   static bool admits(const dds::ToolPose& pose, void* context) noexcept;
 
+  void noteDelay(const dds::ToolPose& pose, std::int64_t sent_ns) noexcept;
+
+  Channels& channels_;
   PoseIntake intake_;
-  dds::Reader<dds::ToolPose> reader_;  // last: its callback uses the intake
+  dds::Reader<dds::ToolPose> reader_;  // last: its callback uses the rest
 };
 
 }  // namespace palpate::server

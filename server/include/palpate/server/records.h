@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/tick/step.h"
+#include "palpate/rt/late_cause.h"
 
 namespace palpate::server {
 
@@ -54,6 +55,7 @@ struct ForceRecord {
   std::uint64_t overruns{0};
   std::uint64_t superseded{0};   ///< of this tool
   std::int64_t pose_wait_ns{0};  ///< from the pose's arrival to the wake-up; below 0: it came after that
+  std::int64_t handed_ns{0};     ///< our monotonic clock when the tick handed it over
   ToolResult result;             ///< force on the tool
 };
 
@@ -86,7 +88,16 @@ struct TickRecord {
   std::array<std::uint32_t, kMaxTools> flags{};
 };
 
-static_assert(std::is_trivially_copyable_v<PoseSample> && std::is_trivially_copyable_v<Strangers> &&
-              std::is_trivially_copyable_v<ForceRecord> && std::is_trivially_copyable_v<TickRecord>);
+/// Late-watch to events: a late tick, and why.
+struct LateTick {
+  std::int64_t late_ns{0};  ///< from when it was due until it ended
+  std::uint64_t missed{0};  ///< periods
+  rt::LateCause cause{rt::LateCause::kUnknown};
+  std::array<char, 96> by{};  ///< who had the processor; empty: nobody, or not known
+};
+
+static_assert(std::is_trivially_copyable_v<LateTick> && std::is_trivially_copyable_v<PoseSample> &&
+              std::is_trivially_copyable_v<Strangers> && std::is_trivially_copyable_v<ForceRecord> &&
+              std::is_trivially_copyable_v<TickRecord>);
 
 }  // namespace palpate::server

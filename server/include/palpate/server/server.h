@@ -15,6 +15,7 @@
 #include "palpate/server/events.h"
 #include "palpate/server/facts.h"
 #include "palpate/server/force_publisher.h"
+#include "palpate/server/late_watch.h"
 #include "palpate/server/parameter_service.h"
 #include "palpate/server/pose_subscriber.h"
 #include "palpate/server/recorder.h"
@@ -67,6 +68,7 @@ class Server {
   Tick tick_;
   PoseSubscriber poses_in_;
   dds::EndpointWatch endpoints_;
+  dds::ProcessBook processes_;
 
   double ramp_time_;
   std::unique_ptr<rt::Thread> force_thread_;
@@ -74,6 +76,8 @@ class Server {
   std::unique_ptr<rt::Thread> events_thread_;
   std::unique_ptr<rt::Thread> recorder_thread_;
   std::unique_ptr<rt::PeriodicThread> tick_thread_;
+  std::optional<LateWatch> late_watch_;
+  std::unique_ptr<rt::Thread> late_thread_;
 };
 
 }  // namespace palpate::server

@@ -42,6 +42,9 @@ class Tick {
     return static_cast<Tick*>(context)->run(cycle);
   }
 
+  /// For a PeriodicThread's LateListener; context is the Channels.
+  static void onLate(void* channels, const rt::LateCycle& cycle) noexcept PALPATE_NONBLOCKING;
+
  private:
   // What the tick counts and keeps for one tool.
   struct Ledger {

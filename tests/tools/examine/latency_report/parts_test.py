@@ -71,9 +71,11 @@ class Numbers(unittest.TestCase):
     def test_periods_missed_are_added_up_and_compared(self):
         times_us = {"p50": 10.0, "p99": 20.0}
         def run(missed):
-            return {"ticks": 100, "missed": missed, "tick_us": times_us, "wakeup_us": times_us}
+            return {"ticks": 100, "missed": missed, "tick_us": times_us, "wakeup_us": times_us,
+                    "late_ticks": {"preempted": missed, "unknown": 1, "preempted_by": "hog"}}
         text = lost.as_text({"cyclictest": [run(2), run(1)], "server": [run(0), run(3)]}, 4000.0, 1.0)
         self.assertIn("3 of       200   (0 + 3)", text)
+        self.assertIn("its late ticks: 3 preempted, 2 unknown\n", text)
         self.assertIn("no more than cyclictest: held", text)
         self.assertIn("missed", lost.as_text({"cyclictest": [run(2)], "server": [run(3)]}, 4000.0, 1.0).splitlines()[-1])
 

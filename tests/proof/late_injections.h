@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace palpate::proof {
+
+/// What the library late_injector does to a server: the environment names it.
+inline constexpr const char* kLateCauseVariable = "PALPATE_LATE_CAUSE";
+inline constexpr std::string_view kWork = "work";    ///< the tick computes for 5 ms
+inline constexpr std::string_view kFault = "fault";  ///< the tick touches 4000 fresh pages
+inline constexpr std::string_view kLeap = "leap";    ///< CLOCK_MONOTONIC leaps ahead by 5 ms
+inline constexpr std::string_view kWall = "wall";    ///< CLOCK_REALTIME is set 2 s ahead, once
+
+inline constexpr int kInjections = 60;
+
+}  // namespace palpate::proof
