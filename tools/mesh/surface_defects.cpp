@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include "tools/mesh/manifold.h"
 #include "tools/mesh/mesh_error.h"
@@ -36,7 +35,7 @@ class Finder {
     const Edges edges = edgesOf();
     findHoles(edges);
     findEdges(edges);
-    if (found_.empty()) findFans();  // other defects part the fans, too
+    findFans();
     findCrossings();
     return std::move(found_);
   }
@@ -148,19 +147,12 @@ class Finder {
         "edges are passed in the same direction by both triangles: parts are turned over");
   }
 
+  // Triangles without area and twins belong to the fans, which would part without them.
   void findFans() {
-    std::optional<std::int32_t> vertex;
-    std::string name;
-    const auto defect = manifoldDefect(
-        surface_.triangles, surface_.vertices.size(),
-        [&](std::int32_t v) {
-          vertex = v;
-          return "vertex " + std::to_string(surface_.vertex_tags[static_cast<std::size_t>(v)]);
-        },
-        [&](std::int32_t t) {
-          return "triangle " + std::to_string(surface_.triangle_tags[static_cast<std::size_t>(t)]);
-        });
-    if (defect) found_.push_back({1, *defect, {{at(vertex.value_or(0)), {}}}});
+    std::vector<SurfaceDefect::Example> joined;
+    for (const JoinedFans& fans : joinedFans(surface_.triangles, surface_.vertices.size()))
+      joined.push_back(example(at(fans.vertex), {fans.triangles.begin(), fans.triangles.end()}));
+    add(joined, "vertex joins several fans of triangles", "vertices join several fans of triangles");
   }
 
   void findCrossings() {

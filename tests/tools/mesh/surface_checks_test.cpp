@@ -102,7 +102,30 @@ TEST(CheckSurface, RefusesTwoConesJoinedAtTheirTips) {
   for (auto& t : surface.triangles) {
     for (auto& v : t) v = v == 8 ? 7 : v;  // the second cube's first corner is the first one's last
   }
-  EXPECT_REFUSED(checkSurface(surface), "vertex 8 joins several fans", "at (1 1 1) m");
+  EXPECT_REFUSED(checkSurface(surface),
+                 "1 vertex joins several fans of triangles, at (1 1 1) m (triangles 3 and ");
+}
+
+TEST(CheckSurface, ListsAllVerticesOfSeveralFansBesideOtherDefects) {
+  TriangleSurface surface = cube();
+  for (int i = 1; i < 6; ++i) add(surface, cube(), {1.0 * i, 1.0 * i, 1.0 * i}, 1);
+  for (auto& t : surface.triangles)  // each cube's first corner is the last of the one before
+    for (auto& v : t) v = v % 8 == 0 && v > 0 ? v - 1 : v;
+  EXPECT_REFUSED(checkSurface(surface), "5 vertices join several fans of triangles, at (1 1 1) m",
+                 ", at (2 2 2) m", "(3 3 3) m", ", ...");
+  surface.triangles.pop_back();
+  EXPECT_REFUSED(checkSurface(surface), "1 hole", "5 vertices join several fans of triangles");
+}
+
+TEST(CheckSurface, AHoleATwinAndAFlatTriangleMakeNoFans) {
+  TriangleSurface surface = cube();
+  surface.triangles.pop_back();
+  surface.triangles.push_back(surface.triangles.front());
+  surface.vertices[7] = surface.vertices[6];
+  surface.triangle_tags.push_back(13);
+  const auto defects = surfaceDefects(surface);
+  EXPECT_GE(defects.size(), 3U);
+  EXPECT_EQ(inWords(defects).find("fans"), std::string::npos) << inWords(defects);
 }
 
 TEST(CheckSurface, RefusesACornerPushedThroughTheOppositeFace) {

@@ -54,7 +54,8 @@ void describe(program::Options line, Options& options) {
   program::Options what = line.atMostOneOf("what");
   what.add("--displacement", &options.displacement, "displacement dx,dy,dz of the contact patch");
   what.add("--force", &options.force, "force fx,fy,fz of the tool, N (models driven by force)");
-  what.add("--load-level", &options.level, "part of the model's load, 0 to 1 (models driven by level)")
+  what.add("--load-level", &options.level,
+           "share of the model's load (models driven by level; leave out for others)")
       .range(0.0, 1.0);
   line.add("--tool2", &options.more_tools,
            "another tool at the same time: NODE:dx,dy,dz; goes with --displacement, may be repeated")
@@ -87,10 +88,10 @@ query::Anchor anchorOf(const MetaModel& model, const Options& options) {
 
 query::Question questionOf(const Options& options) {
   if (options.level && std::isnan(*options.level))
-    throw query::QueryError("--load-level is nan, expected 0 to 1");
+    throw program::UsageError("--load-level is nan, expected 0 to 1");
   if (options.level) return {Parameters::kLevel, {*options.level, 0.0, 0.0}};
   if (options.force) return {Parameters::kForce, vectorOf("--force", *options.force)};
-  if (!options.displacement) throw query::QueryError("--displacement or --force is empty, expected x,y,z");
+  if (!options.displacement) throw program::UsageError("--displacement or --force is empty, expected x,y,z");
   return {Parameters::kDisplacement, vectorOf("--displacement", *options.displacement)};
 }
 
@@ -123,12 +124,14 @@ std::vector<query::Touch> touchesOf(const MetaModel& model, const Options& optio
                                     const query::Anchor& anchor, const query::Question& question) {
   if (options.more_tools.empty()) return {};
   if (question.prescribed != Parameters::kDisplacement)
-    throw query::QueryError(
+    throw program::UsageError(
         "--tool2 moves tools by displacements, expected --displacement for the first one too");
-  if (!options.deck.empty()) throw query::QueryError("--ccx writes a deck of one tool, expected no --tool2");
+  if (!options.deck.empty())
+    throw program::UsageError("--ccx writes a deck of one tool, expected no --tool2");
   std::vector<query::Touch> touches{{anchor, question.value}};
   for (const std::string& text : options.more_tools) {
-    query::Touch touch = query::parseTouch(model, "--tool2", text);
+    query::Touch touch;
+    program::orUsageError([&] { touch = query::parseTouch(model, "--tool2", text); });
     touch.d = query::displacementOf(model, asked("--tool2", {touch.d[0], touch.d[1], touch.d[2]}, options));
     touches.push_back(touch);
   }

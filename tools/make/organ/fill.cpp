@@ -4,8 +4,9 @@
 #include <cstdio>
 
 #include "tools/make/organ/fill_file.h"
+#include "tools/make/organ/odd_length.h"
+#include "tools/make/organ/repair/remesh_surface.h"
 #include "tools/make/organ/size_estimate.h"
-#include "tools/make/organ/unit.h"
 #include "tools/mesh/fill_surface.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/statistics.h"
@@ -52,13 +53,14 @@ std::string sizeSuspected(double size, double side) {
   return "";
 }
 
-void checkNotTooCoarse(double size, double side, std::vector<std::string>& notes) {
+/// @param odd  what is odd about the body's length, or empty
+void checkNotTooCoarse(double size, double side, const std::string& odd, std::vector<std::string>& notes) {
   if (size > side)
     throw MeshError(
         format("--element-size: elements of %.4g m are longer than the body's shortest side, %.4g m; "
                "at most %.3g m resolves it",
                size, side, kCoarse * side) +
-        sizeSuspected(size, side));
+        (odd.empty() ? sizeSuspected(size, side) : "; " + odd));
   if (size > kCoarse * side)
     notes.push_back(
         format("--element-size: the body's shortest side, %.4g m, is %.1f elements of %.4g m long; at "
@@ -107,9 +109,18 @@ void noteBadElements(const mesh::TetMesh& mesh, std::vector<std::string>& notes)
                bad, mesh.tetrahedra.size(), kBadQuality, worst));
 }
 
-mesh::TetMesh filled(const Solid& solid, const mesh::ElementSizes& sizes) {
+// Gmsh remeshes sound surfaces, and keeps their sharp edges; a repaired one is given its triangles before.
+mesh::TetMesh filledBy(const Solid& solid, const ImportOptions& options) {
+  if (!options.repair || options.sizes.surface == 0) return mesh::fillSurface(solid.surface, options.sizes);
+  mesh::ElementSizes kept = options.sizes;
+  kept.surface = 0;
+  return mesh::fillSurface(remeshed(solid.surface, options.sizes.surface), kept);
+}
+
+mesh::TetMesh filled(const Solid& solid, const ImportOptions& options) {
+  const mesh::ElementSizes& sizes = options.sizes;
   try {
-    return mesh::fillSurface(solid.surface, sizes);
+    return filledBy(solid, options);
   } catch (const MeshError& error) {
     const double own = meanEdge(solid.surface);
     const std::string advice = sizes.surface > 0
@@ -118,7 +129,7 @@ mesh::TetMesh filled(const Solid& solid, const mesh::ElementSizes& sizes) {
                                          "edges, or none, which keeps "
                                          "its triangles",
                                          sizes.surface < own ? own : std::max(own, sizes.surface / 2))
-                                   : format("; try --element-size %.3g, which makes triangles anew", own);
+                                   : format("; try --element-size %.3g, which remeshes it", own);
     throw MeshError(error.what() + advice);
   }
 }
@@ -131,7 +142,7 @@ void checkSizes(const Solid& solid, const ImportOptions& options, std::vector<st
   const Body body{solid.volume, mesh::areaOf(solid.surface), sides.minCoeff()};
   mesh::ElementSizes sizes = options.sizes;
   if (sizes.surface > 0)
-    checkNotTooCoarse(sizes.surface, body.shortest_side, notes);
+    checkNotTooCoarse(sizes.surface, body.shortest_side, odd, notes);
   else
     sizes.surface = meanEdge(solid.surface);
   const SizeEstimate expected = estimate(body, sizes, options.order.value_or(1));
@@ -142,7 +153,7 @@ void checkSizes(const Solid& solid, const ImportOptions& options, std::vector<st
 
 mesh::TetMesh fill(const Solid& solid, const ImportOptions& options, std::vector<std::string>& notes) {
   checkSizes(solid, options, notes);
-  mesh::TetMesh mesh = filled(solid, options.sizes);
+  mesh::TetMesh mesh = filled(solid, options);
   noteVolume(solid, mesh, notes);
   noteBadElements(mesh, notes);
   return mesh;

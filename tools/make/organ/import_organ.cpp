@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "tools/make/organ/fill_file.h"
-#include "tools/make/organ/unit.h"
+#include "tools/make/organ/odd_length.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/midsides.h"

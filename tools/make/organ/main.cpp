@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-organ makes and imports organ meshes. See README.md.
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/make/organ/import_organ.h"
@@ -12,11 +14,12 @@
 #include "tools/make/organ/paper_liver.h"
 #include "tools/make/organ/preview.h"
 #include "tools/make/organ/report.h"
-#include "tools/make/organ/unit.h"
 #include "tools/mesh/box_mesh.h"
+#include "tools/mesh/mesh_error.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
 #include "tools/program/command_line.h"
+#include "tools/program/length_unit.h"
 #include "tools/program/run.h"
 #include "tools/program/write_file.h"
 
@@ -42,23 +45,30 @@ program::Options addCommand(program::Options line, const char* name, const char*
   program::Options command = line.subcommand(name, help);
   command.add(
       "-o,--output", &arguments.output,
-      "The file to write: .msh (Gmsh 4.1), or .vtk to look at, without groups [needed, but for --dry-run]");
+      "The file to write: .msh (Gmsh 4.1), or .vtk to look at, without groups (needed, but for --dry-run)");
   command.flag("--json", &arguments.json, "Print one JSON object on standard output");
   return command;
 }
 
-void addSizes(program::Options& command, Arguments& arguments, const std::string& element_size,
-              const std::string& inner_size) {
-  command.add("--element-size", &arguments.element_size,
-              "Edge length at the surface, m [" + element_size + "]");
-  command.add("--inner-size", &arguments.inner_size, "Largest edge length inside, m [" + inner_size + "]");
-  command.add("--growth", &arguments.growth, "Edge length per distance to the surface [0.5]");
+void addSizes(program::Options& command, Arguments& arguments, double smallest, double largest,
+              const std::string& element_size, const std::string& inner_size) {
+  command
+      .add("--element-size", &arguments.element_size,
+           "Edge length at the surface (default: " + element_size + ")")
+      .range(smallest, largest, "m");
+  command
+      .add("--inner-size", &arguments.inner_size, "Largest edge length inside (default: " + inner_size + ")")
+      .unit("m");
+  command
+      .add("--growth", &arguments.growth,
+           "Edge length inside over the distance to the surface, relative (default: 0.5)")
+      .range(0.01, 2.0);
 }
 
 void addOrder(program::Options& command, Arguments& arguments, const std::string& order) {
   command
       .add("--element-order", &arguments.element_order,
-           "Order of the elements: 1, four nodes; 2, ten nodes [" + order + "]")
+           "Order of the elements: 1, four nodes; 2, ten nodes (default: " + order + ")")
       .range(1, 2);
 }
 
@@ -73,17 +83,23 @@ Commands addCommands(program::Options line, Arguments& arguments) {
                  "Import a mesh (.msh 1, 2, 4; .vtk; .mesh) or fill a closed surface (.stl, .obj). Nodes are "
                  "numbered from 1 in the file's order.",
                  arguments)};
-  addSizes(commands.liver, arguments, "0.008", "0.02");
+  addSizes(commands.liver, arguments, 0.003, 0.02, "0.008", "0.02");
   addOrder(commands.liver, arguments, "2");
   commands.liver.add("--case", &arguments.case_file,
                      "Also write a case file for palpate-solve: soft liver, a stiff nodule");
-  commands.paper_liver.add("--element-size", &arguments.element_size,
-                           "Edge length of the tetrahedra, m [0.0067]");
+  commands.liver.example("palpate-organ liver -o liver.msh --case liver.toml");
+  commands.paper_liver
+      .add("--element-size", &arguments.element_size, "Edge length of the tetrahedra (default: 0.0067)")
+      .range(0.003, 0.02, "m");
   addOrder(commands.paper_liver, arguments, "1");
+  commands.paper_liver.example("palpate-organ paper-liver --element-size 0.01 -o paper.msh");
+  commands.beam.example("palpate-organ beam -o beam.msh");
   commands.import.add("file", &arguments.input, "The mesh or surface to import").required();
-  commands.import.add("--unit", &arguments.unit, "Unit of the file's lengths: mm, cm or m [m]")
-      .oneOf({"mm", "cm", "m"});
-  commands.import.add("--scale", &arguments.scale, "Metres per unit of the file, in the place of --unit [1]");
+  commands.import.add("--unit", &arguments.unit, "Unit of the file's lengths (default: m)")
+      .oneOf(program::lengthUnitWords());
+  commands.import
+      .add("--scale", &arguments.scale, "Size of a unit of the file, in the place of --unit (default: 1)")
+      .range(1e-12, 1e12, "m");
   commands.import.flag(
       "--repair", &arguments.repair,
       "Repair a surface: turn parts over, merge vertices, leave out twins and flat triangles, mend where "
@@ -93,21 +109,24 @@ Commands addCommands(program::Options line, Arguments& arguments) {
   commands.import
       .add("--fixed", &arguments.fixed,
            "What is held: group:NAME of the file, a side (-x, +z, ...), normal:x,y,z[,degrees] within which "
-           "triangles face [30], box:x0,y0,z0,x1,y1,z1 in m after scaling, or lowest-z:FRACTION of the "
+           "triangles face (default: 30), box:x0,y0,z0,x1,y1,z1 in m after scaling, or lowest-z:FRACTION of "
+           "the "
            "surface "
-           "nodes. Several unite [the file's group 'fixed']")
+           "nodes. Several unite (default: the file's group 'fixed')")
       .oneWordEach();
   commands.import
       .add("--max-nodes", &arguments.max_nodes, "Refuse to fill a surface with more nodes than this")
-      .range(100.0, 1e8);
+      .range(100.0, 1e8, "nodes");
   commands.import.flag("--dry-run", &arguments.dry_run,
                        "Fill nothing: say what would be held and what can be touched");
   commands.import.add("--picture", &arguments.picture,
                       "With --dry-run: draw what would be held and touched into this .svg");
-  addSizes(commands.import, arguments, "a surface keeps its triangles", "as at the surface");
+  addSizes(commands.import, arguments, 1e-6, 1e3, "a surface keeps its triangles", "as at the surface");
   addOrder(commands.import, arguments, "that of the file");
-  line.example(
-      "palpate-organ import scan.stl --unit mm --repair --element-size 0.008 --fixed -z -o organ.msh");
+  const char* const scan =
+      "palpate-organ import scan.stl --unit mm --repair --element-size 0.008 --fixed -z -o organ.msh";
+  commands.import.example(scan);
+  line.example(scan);
   return commands;
 }
 
@@ -137,7 +156,7 @@ ImportedOrgan withBoundary(mesh::TetMesh tets) {
 double scaleOf(const Arguments& arguments) {
   if (arguments.scale && arguments.unit)
     throw program::UsageError("--unit and --scale say the same: give one of them");
-  return arguments.unit ? metresOf(*arguments.unit) : arguments.scale.value_or(1);
+  return arguments.unit ? program::lengthUnit(*arguments.unit).metres : arguments.scale.value_or(1);
 }
 
 ImportOptions importOptions(const Arguments& arguments) {
@@ -145,13 +164,13 @@ ImportOptions importOptions(const Arguments& arguments) {
   options.scale = scaleOf(arguments);
   options.sizes = sizesOf(arguments, options.sizes);
   options.order = arguments.element_order;
-  for (const auto& rule : arguments.fixed) options.fixed.push_back(parseFixedRule(rule));
   options.repair = arguments.repair;
   options.part = arguments.part;
   options.max_nodes = arguments.max_nodes;
   options.say = [&](const std::string& line) {
     (arguments.json ? std::cerr : std::cout) << line << std::endl;
   };
+  for (const auto& rule : arguments.fixed) options.fixed.push_back(parseFixedRule(rule));
   return options;
 }
 
@@ -180,6 +199,16 @@ void preview(const Arguments& arguments) {
       << arguments.picture.value_or("none, --picture FILE.svg draws it") << '\n';
 }
 
+/// An error that begins with an option's name is the command line's fault, though only the file shows it.
+void naming(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const mesh::MeshError& error) {
+    if (std::string_view(error.what()).starts_with("--")) throw program::UsageError(error.what());
+    throw;
+  }
+}
+
 int body(int argc, char** argv) {
   // 1. What to make.
   program::CommandLine line(
@@ -190,21 +219,24 @@ int body(int argc, char** argv) {
   if (!line.read(argc, argv)) return program::kDone;
   checkOutputs(arguments);
   if (arguments.dry_run) {
-    preview(arguments);
-    return 0;
+    naming([&] { preview(arguments); });
+    return program::kDone;
   }
   // 2. The organ.
-  ImportedOrgan organ = commands.liver.chosen()         ? withBoundary(liver(arguments))
-                        : commands.paper_liver.chosen() ? withBoundary(paperLiver(arguments))
-                        : commands.beam.chosen()        ? withBoundary(mesh::makeBeam())
-                                                        : importFile(arguments);
+  ImportedOrgan organ;
+  naming([&] {
+    organ = commands.liver.chosen()         ? withBoundary(liver(arguments))
+            : commands.paper_liver.chosen() ? withBoundary(paperLiver(arguments))
+            : commands.beam.chosen()        ? withBoundary(mesh::makeBeam())
+                                            : importFile(arguments);
+  });
   // 3. Its file, and what is in it.
   writeOrgan(arguments.output, organ.mesh, organ.boundary, organ.notes);
   if (arguments.case_file) writeLiverCase(*arguments.case_file, arguments.output);
   const Report report = makeReport(arguments.output, organ.mesh, organ.boundary, organ.notes);
   if (arguments.json) program::printJson(toJson(report));
   print(arguments.json ? std::cerr : std::cout, report);
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

@@ -72,7 +72,8 @@ Solid readSolid(const std::filesystem::path& path, const ImportOptions& options,
   if (options.repair) {
     surface = repaired(surface, options);
   } else if (const auto defects = mesh::surfaceDefects(surface); !defects.empty()) {
-    throw MeshError("the surface bounds no solid; --repair mends it and says how. " + mesh::inWords(defects));
+    throw MeshError("the surface bounds no solid; --repair repairs it and says how. " +
+                    mesh::inWords(defects));
   }
   return onePart(mesh::solidsOf(surface), options, notes);
 }

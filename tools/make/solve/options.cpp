@@ -118,7 +118,8 @@ void describe(program::Options line, Options& options) {
            "series-displacement: asked error of the force within the domain, relative (default: 0.01)")
       .range(1e-9, 0.999);
   line.add("--field-error", &options.field_error,
-           "series-displacement: asked largest error of the field, of abs(d); chooses modes, near fields and "
+           "series-displacement: asked largest error of the field, relative to abs(d); chooses modes, near "
+           "fields and "
            "edges "
            "(default: 0.01)")
       .range(1e-9, 0.999);
@@ -131,7 +132,9 @@ void describe(program::Options line, Options& options) {
           "handheld: of the file, bytes (default: 8e6 at order 3, 20e6 above); chooses modes and near fields")
       .range(1e5, 1e12);
   line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
-  line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
+  line.add("--load", &options.load,
+           "PGD methods: magnitude of the load (default: what moves the contact by 2 mm)")
+      .range(1e-300, 1e6, "N");
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);
   line.add("--scratch", &options.scratch, "folder of the scratch file (default: beside the output)");
   line.add("--threads", &options.threads, "worker threads").range(1, 1024);
@@ -139,16 +142,19 @@ void describe(program::Options line, Options& options) {
             "series-displacement: measure a few positions, say what the whole takes, and stop");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.flag("-q,--quiet", &options.quiet, "no progress");
+  line.example("palpate-solve liver.msh -o liver.h5");
 }
 
 solver::Case readCase(const Options& options) {
-  solver::Case c = options.input.extension() == ".toml" ? solver::readCase(options.input)
-                                                        : solver::defaultCase(options.input);
-  override(options, c);
+  const bool is_file = options.input.extension() == ".toml";
+  solver::Case c = is_file ? solver::readCase(options.input) : solver::defaultCase(options.input);
+  program::orUsageError([&] { override(options, c); });
   try {
     solver::checkCase(c);
   } catch (const solver::CaseError& error) {
-    throw solver::CaseError(options.input.string() + ": " + error.what());
+    const std::string words = options.input.string() + ": " + error.what();
+    if (is_file) throw solver::CaseError(words);
+    throw program::UsageError(words);  // of a mesh, all that is not a default
   }
   return c;
 }

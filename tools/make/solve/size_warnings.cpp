@@ -17,7 +17,6 @@ using program::printed;
 
 // What organs are, widely: brain and fat have some kPa, cartilage and tendon some MPa to 1 GPa.
 constexpr double kSoftest = 500.0, kStiffest = 1e9;  // Pa
-constexpr double kSmallest = 0.01, kLargest = 2.0;   // m, longest side
 constexpr double kWide = 0.35;  // of the smallest side: radius of a patch that is most of the organ
 
 void judgeModulus(const std::string& key, double E, std::vector<std::string>& warnings) {
@@ -30,18 +29,18 @@ void judgeModulus(const std::string& key, double E, std::vector<std::string>& wa
 
 /// Whether an organ is that long.
 bool isUsual(double length) {
-  return length >= kSmallest && length <= kLargest;
+  return length >= program::kShortestOrgan && length <= program::kLongestOrgan;
 }
 
 void judgeLength(double longest, std::vector<std::string>& warnings) {
   if (isUsual(longest)) return;
   std::string text =
-      "the organ is " + lengthText(longest) + " long, expected 10 mm to 2 m; a mesh is in metres";
+      "the organ is " + lengthText(longest) + " long, expected 5 mm to 1 m; a mesh is in metres";
   for (const program::LengthUnit& unit : program::kLengthUnits)
     if (unit.metres < 1.0 && isUsual(unit.metres * longest))
       text +=
-          printed("; in %s it would be %s: palpate-organ import --scale %g", std::string(unit.plural).c_str(),
-                  lengthText(unit.metres * longest).c_str(), unit.metres);
+          printed("; in %s it would be %s: palpate-organ import --unit %s", std::string(unit.plural).c_str(),
+                  lengthText(unit.metres * longest).c_str(), std::string(unit.word).c_str());
   for (const double twice : {1e3, 1e2})
     if (isUsual(twice * longest)) {
       text += printed("; was it scaled twice? times %g it would be %s", twice,
