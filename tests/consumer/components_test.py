@@ -18,7 +18,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ["PALPATE_BUILD"])
 PACKAGES = {"programs": "palpate", "solver": "palpate-solver", "library": "libpalpate-haptic0.1", "haptic": "libpalpate-haptic-dev"}
 
-UNIT = r"\b(m|mm|s|N|Hz|kg|Pa|N/m|N s/m|N/s|m/s|relative|bytes|nodes|coefficient|share|interval|per second)\b"
+UNIT = r"m|mm|s|N|Hz|kg|Pa|N/m|N s/m|N/s|m/s|bytes|nodes"
+# In brackets, "[0.1 - 5 s]", or behind a comma, "how long to wait, s"; what has no unit says that it is a ratio.
+WITH_UNIT = rf"\[([^]]* )?({UNIT})\]|, ({UNIT})(?![\w/'])|\b(relative|coefficient|share|interval|per second)\b"
 
 
 def run(*command):
@@ -132,7 +134,7 @@ class Components(unittest.TestCase):
                 if " FLOAT" not in option:
                     continue
                 with self.subTest(program=program.name, words=words, option=option):
-                    self.assertRegex(option, UNIT)
+                    self.assertRegex(option, WITH_UNIT)
                     self.assertRegex(option, r"=\S|default|leave out|what a client|writes no certificate|new value")
 
     def test_completion_lists_every_option(self):

@@ -3,12 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <numeric>
 
 #include "tools/mesh/manifold.h"
-#include "tools/mesh/mesh_error.h"
+#include "tools/program/printed.h"
 
 namespace palpate::mesh {
 namespace {
@@ -157,11 +156,13 @@ class Finder {
 
   void findCrossings() {
     std::vector<SurfaceDefect::Example> crossings;
-    for (const auto& [a, b] : selfIntersections(surface_))
+    const auto pairs = selfIntersections(surface_);
+    for (const auto& [a, b] : pairs)
       if (!is_left_out_[a] && !is_left_out_[b])
         crossings.push_back(example((centre(a) + centre(b)) / 2, {a, b}));
     add(crossings, "pair of triangles intersects: the surface cuts itself",
         "pairs of triangles intersect: the surface cuts itself");
+    if (!crossings.empty() && pairs.size() >= kMostCrossings) found_.back().what.insert(0, "at least ");
   }
 
   const TriangleSurface& surface_;
@@ -170,10 +171,8 @@ class Finder {
 };
 
 std::string inWords(const SurfaceDefect::Example& example) {
-  char text[100];
-  std::snprintf(text, sizeof text, "(%.4g %.4g %.4g) m", example.place.x(), example.place.y(),
-                example.place.z());
-  std::string words = text;
+  std::string words =
+      program::printed("(%.4g %.4g %.4g) m", example.place.x(), example.place.y(), example.place.z());
   for (std::size_t i = 0; i < example.triangles.size(); ++i) {
     words += i > 0 ? " and " : example.triangles.size() > 1 ? " (triangles " : " (triangle ";
     words += std::to_string(example.triangles[i]);
@@ -196,12 +195,6 @@ std::string inWords(const std::vector<SurfaceDefect>& defects) {
     if (defect.count > defect.examples.size()) words += ", ...";
   }
   return words;
-}
-
-void checkSurface(const TriangleSurface& surface) {
-  if (surface.triangles.empty()) throw MeshError("the surface holds no triangles");
-  const auto defects = surfaceDefects(surface);
-  if (!defects.empty()) throw MeshError("the surface bounds no solid: " + inWords(defects));
 }
 
 }  // namespace palpate::mesh

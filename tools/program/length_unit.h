@@ -20,6 +20,9 @@ inline constexpr std::array<LengthUnit, 3> kLengthUnits{
 
 /// The longest side of an organ: other lengths are told, with the unit suspected, m.
 inline constexpr double kShortestOrgan = 0.005, kLongestOrgan = 1.0;
+[[nodiscard]] constexpr bool isOrganLength(double metres) noexcept {
+  return metres >= kShortestOrgan && metres <= kLongestOrgan;
+}
 
 /// What --unit takes.
 [[nodiscard]] std::vector<std::string> lengthUnitWords();

@@ -207,5 +207,23 @@ TEST(SegmentMeetsTriangle, AlsoInItsPlane) {
   EXPECT_TRUE(segmentMeetsTriangle({0.2, 0.2, -1}, {0.2, 0.2, 1}, triangle, 1e-9));
 }
 
+// Each triangle of a fan crosses each of another that lies across it.
+TEST(SelfIntersections, AreSoughtUpToANumber) {
+  TriangleSurface surface;
+  for (const bool across : {false, true})
+    for (int i = 0; i < 40; ++i) {
+      const double at = 0.01 * i;
+      const auto first = static_cast<std::int32_t>(surface.vertices.size());
+      for (const Eigen::Vector3d& x :
+           {Eigen::Vector3d(-1, at, -1), Eigen::Vector3d(2, at, -1), Eigen::Vector3d(0.5, at, 3)})
+        surface.vertices.push_back(across ? Eigen::Vector3d(x.y(), x.x(), x.z()) : x);
+      surface.triangles.push_back({first, first + 1, first + 2});
+    }
+  EXPECT_EQ(selfIntersections(surface).size(), 1600U);
+  const auto some = selfIntersections(surface, 100);
+  EXPECT_GE(some.size(), 100U);
+  EXPECT_LE(some.size(), 140U);
+}
+
 }  // namespace
 }  // namespace palpate::mesh::test

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-organ makes and imports organ meshes. See README.md.
-#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/make/organ/import_organ.h"
@@ -13,9 +11,9 @@
 #include "tools/make/organ/output_file.h"
 #include "tools/make/organ/paper_liver.h"
 #include "tools/make/organ/preview.h"
+#include "tools/make/organ/progress.h"
 #include "tools/make/organ/report.h"
 #include "tools/mesh/box_mesh.h"
-#include "tools/mesh/mesh_error.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
 #include "tools/program/command_line.h"
@@ -102,15 +100,16 @@ Commands addCommands(program::Options line, Arguments& arguments) {
       .range(1e-12, 1e12, "m");
   commands.import.flag(
       "--repair", &arguments.repair,
-      "Repair a surface: turn parts over, merge vertices, leave out twins and flat triangles, mend where "
+      "Repair a surface: turn parts over, merge vertices, leave out twins and flat triangles, repair where "
       "triangles cross, fill holes of up to a quarter of the body's diagonal; says what changed");
   commands.import.add("--part", &arguments.part,
                       "Which part of a surface of several: largest, or its number by size, from 1");
   commands.import
       .add("--fixed", &arguments.fixed,
-           "What is held: group:NAME of the file, a side (-x, +z, ...), normal:x,y,z[,degrees] within which "
-           "triangles face (default: 30), box:x0,y0,z0,x1,y1,z1 in m after scaling, or lowest-z:FRACTION of "
-           "the "
+           "What is held: group:NAME of the file (.obj: a group or material), a side (-x, +z, ...), "
+           "normal:x,y,z[,degrees] within which triangles face (default: 30), box:x0,y0,z0,x1,y1,z1 in m "
+           "after "
+           "scaling, or lowest-z:FRACTION of the "
            "surface "
            "nodes. Several unite (default: the file's group 'fixed')")
       .oneWordEach();
@@ -135,7 +134,12 @@ mesh::ElementSizes sizesOf(const Arguments& arguments, const mesh::ElementSizes&
           arguments.growth.value_or(defaults.growth)};
 }
 
+void tellProgress(const std::string& line) {
+  std::cerr << "progress         " << line << std::endl;
+}
+
 mesh::TetMesh liver(const Arguments& arguments) {
+  const Progress progress(tellProgress);
   LiverOptions options;
   options.sizes = sizesOf(arguments, options.sizes);
   options.order = arguments.element_order.value_or(options.order);
@@ -143,6 +147,7 @@ mesh::TetMesh liver(const Arguments& arguments) {
 }
 
 mesh::TetMesh paperLiver(const Arguments& arguments) {
+  const Progress progress(tellProgress);
   const mesh::TetMesh mesh = makePaperLiver(arguments.element_size.value_or(kPaperLiverElementSize));
   return arguments.element_order == 2 ? mesh::quadraticOf(mesh) : mesh;
 }
@@ -170,6 +175,7 @@ ImportOptions importOptions(const Arguments& arguments) {
   options.say = [&](const std::string& line) {
     (arguments.json ? std::cerr : std::cout) << line << std::endl;
   };
+  options.progress = tellProgress;
   for (const auto& rule : arguments.fixed) options.fixed.push_back(parseFixedRule(rule));
   return options;
 }
@@ -199,16 +205,6 @@ void preview(const Arguments& arguments) {
       << arguments.picture.value_or("none, --picture FILE.svg draws it") << '\n';
 }
 
-/// An error that begins with an option's name is the command line's fault, though only the file shows it.
-void naming(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const mesh::MeshError& error) {
-    if (std::string_view(error.what()).starts_with("--")) throw program::UsageError(error.what());
-    throw;
-  }
-}
-
 int body(int argc, char** argv) {
   // 1. What to make.
   program::CommandLine line(
@@ -219,17 +215,14 @@ int body(int argc, char** argv) {
   if (!line.read(argc, argv)) return program::kDone;
   checkOutputs(arguments);
   if (arguments.dry_run) {
-    naming([&] { preview(arguments); });
+    preview(arguments);
     return program::kDone;
   }
   // 2. The organ.
-  ImportedOrgan organ;
-  naming([&] {
-    organ = commands.liver.chosen()         ? withBoundary(liver(arguments))
-            : commands.paper_liver.chosen() ? withBoundary(paperLiver(arguments))
-            : commands.beam.chosen()        ? withBoundary(mesh::makeBeam())
-                                            : importFile(arguments);
-  });
+  ImportedOrgan organ = commands.liver.chosen()         ? withBoundary(liver(arguments))
+                        : commands.paper_liver.chosen() ? withBoundary(paperLiver(arguments))
+                        : commands.beam.chosen()        ? withBoundary(mesh::makeBeam())
+                                                        : importFile(arguments);
   // 3. Its file, and what is in it.
   writeOrgan(arguments.output, organ.mesh, organ.boundary, organ.notes);
   if (arguments.case_file) writeLiverCase(*arguments.case_file, arguments.output);

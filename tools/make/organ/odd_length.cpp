@@ -32,7 +32,7 @@ const LengthUnit* suspected(double length_in_file) {
 }  // namespace
 
 std::optional<std::string> oddLength(double length, double scale) {
-  if (length >= program::kShortestOrgan && length <= program::kLongestOrgan) return std::nullopt;
+  if (program::isOrganLength(length)) return std::nullopt;
   const std::string words = printed("the body is %.4g m long, implausible for an organ", length);
   const LengthUnit* const unit = suspected(length / scale);
   if (unit == nullptr) return words + ": is --unit or --scale right?";

@@ -40,8 +40,8 @@ double rounded(double value) {
 }  // namespace
 
 std::string SizeEstimate::inWords() const {
-  return program::printed("about %.0f nodes, %.0f tetrahedra; %.2g s and %.0f MB of memory to fill",
-                          rounded(nodes), rounded(tetrahedra), seconds, rounded(bytes / 1e6));
+  return program::printed("about %.0f nodes, %.0f tetrahedra; %.10g s and %.0f MB of memory to fill",
+                          rounded(nodes), rounded(tetrahedra), rounded(seconds), rounded(bytes / 1e6));
 }
 
 SizeEstimate estimate(const Body& body, const mesh::ElementSizes& sizes, int order) {

@@ -78,6 +78,7 @@ void tell(const solve_program::Options& options, const solver::Case& c, const me
 }
 
 /// A case file to begin with.
+/// @throw program::UsageError
 void writeTemplate(const solve_program::Options& options) {
   program::checkOutput("--output", options.output);
   if (!options.output.empty() && program::isSameFile(options.output, options.input))
@@ -107,6 +108,7 @@ void run(solve_program::Options options) {
   solver::Case c = solve_program::readCase(options);
   if (options.dry_run && c.method != solver::Method::kSeriesDisplacement)
     throw program::UsageError("--dry-run is for method series-displacement, not " + toString(c.method));
+  if (!options.scratch.empty()) program::checkOutput("--scratch", options.scratch / "series");
   // 2. The organ.
   const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
   adoptGroups(c, organ);
@@ -138,13 +140,13 @@ int body(int argc, char** argv) {
       "Computes the meta-model of an organ: its answer to a tool at any position and in any direction.");
   solve_program::Options options;
   solve_program::describe(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   try {
     run(options);
   } catch (const std::bad_alloc&) {
     throw std::runtime_error("out of memory; fewer modes, a smaller near_radius or a lower order need less");
   }
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "tools/make/solve/options.h"
 
 #include <sstream>
-#include <stdexcept>
 
 namespace palpate::solve_program {
 
@@ -19,15 +18,15 @@ void setDirection(const std::string& text, solver::LoadCase& load) {
   in >> x[0] >> first >> x[1] >> second >> x[2];
   const bool read = !in.fail() && first == ',' && second == ',' && (in >> std::ws).eof();
   if (!read || !x.allFinite() || !(x.norm() > 0.0))
-    throw solver::CaseError("--load-direction " + text +
-                            " is neither three numbers x,y,z, not all zero, nor any");
+    throw program::UsageError("--load-direction " + text +
+                              " is neither three numbers x,y,z, not all zero, nor any");
   load.direction = x.stableNormalized();
 }
 
 /// In the place of what a case for another target says of size and exactness.
 void setTarget(const std::string& name, solver::Case& c) {
   if (name != "server" && name != "handheld")
-    throw solver::CaseError("--target " + name + " is not known (known: server, handheld)");
+    throw program::UsageError("--target " + name + " is not known (known: server, handheld)");
   const solver::Target target = name == "handheld" ? solver::Target::kHandheld : solver::Target::kServer;
   if (target == c.target) return;
   c.target = target;
@@ -37,20 +36,12 @@ void setTarget(const std::string& name, solver::Case& c) {
   for (std::optional<int>* key : {&c.order, &c.force_order, &c.modes}) key->reset();
 }
 
+/// @throw program::UsageError
 void override(const Options& options, solver::Case& c) {
-  if (options.method) {
-    try {
-      c.method = solver::methodOf(*options.method);
-    } catch (const solver::CaseError& error) {
-      throw solver::CaseError(std::string("--method ") + error.what());
-    }
-  }
+  if (options.method)
+    program::orUsageError([&] { c.method = solver::methodOf(*options.method); }, "--method ");
   if (options.law) {
-    try {
-      (void)solver::lawOf(*options.law);
-    } catch (const std::invalid_argument& error) {
-      throw solver::CaseError(std::string("--law ") + error.what());
-    }
+    program::orUsageError([&] { (void)solver::lawOf(*options.law); }, "--law ");
     c.law = *options.law;
   }
   c.mesh_error = c.mesh_error || options.mesh_error;
@@ -67,7 +58,7 @@ void override(const Options& options, solver::Case& c) {
     c.travel.reset();
   }
   if (options.travel) {
-    if (options.order) throw solver::CaseError("--travel does not go with --order: it chooses it");
+    if (options.order) throw program::UsageError("--travel does not go with --order: it chooses it");
     c.travel = options.travel;
     c.order.reset();
     c.force_order.reset();
@@ -75,13 +66,22 @@ void override(const Options& options, solver::Case& c) {
   if (options.force_error) c.force_error = options.force_error;
   if (options.field_error) {
     if (options.modes)
-      throw solver::CaseError("--field-error does not go with --modes: it chooses their number");
+      throw program::UsageError("--field-error does not go with --modes: it chooses their number");
     c.field_error = options.field_error;
     c.modes.reset();
   }
   if (options.steps) c.load.steps = options.steps;
   if (options.load) c.load.magnitude = options.load;
   if (options.direction) setDirection(*options.direction, c.load);
+}
+
+bool holds(const solver::Case& c) {
+  try {
+    solver::checkCase(c);
+    return true;
+  } catch (const solver::CaseError&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -146,15 +146,16 @@ void describe(program::Options line, Options& options) {
 }
 
 solver::Case readCase(const Options& options) {
-  const bool is_file = options.input.extension() == ".toml";
-  solver::Case c = is_file ? solver::readCase(options.input) : solver::defaultCase(options.input);
-  program::orUsageError([&] { override(options, c); });
+  const solver::Case own = options.input.extension() == ".toml" ? solver::readCase(options.input)
+                                                                : solver::defaultCase(options.input);
+  solver::Case c = own;
+  override(options, c);
   try {
     solver::checkCase(c);
   } catch (const solver::CaseError& error) {
     const std::string words = options.input.string() + ": " + error.what();
-    if (is_file) throw solver::CaseError(words);
-    throw program::UsageError(words);  // of a mesh, all that is not a default
+    if (holds(own)) throw program::UsageError(words);
+    throw solver::CaseError(words);
   }
   return c;
 }

@@ -121,10 +121,11 @@ TEST(Batch, NamesFileLineAndColumnOfWhatItCannotRead) {
     return errorOf([&] { (void)touchesIn("t.csv", text, kMetres); });
   };
   EXPECT_EQ(error(titles + "0,0,0,0,0,0\n0,x,0,0,0,0\n"),
-            "t.csv, line 3, column at_y: 'x' is no finite number");
+            "t.csv, line 3, column at_y: 'x' is not a finite number");
   EXPECT_EQ(error(titles + "0,0,0,0,0,inf\n"),
-            "t.csv, line 2, column displacement_z: 'inf' is no finite number");
-  EXPECT_EQ(error(titles + "0,0,0,0,0,\n"), "t.csv, line 2, column displacement_z: '' is no finite number");
+            "t.csv, line 2, column displacement_z: 'inf' is not a finite number");
+  EXPECT_EQ(error(titles + "0,0,0,0,0,\n"),
+            "t.csv, line 2, column displacement_z: '' is not a finite number");
   EXPECT_EQ(error(titles + "0,0,0,0,0\n"), "t.csv, line 2 has 5 values, expected 6");
   EXPECT_EQ(error(titles), "t.csv has no line below that of its columns");
   EXPECT_EQ(error(""), "t.csv is empty, expected a line of columns: " + titles.substr(0, titles.size() - 1));

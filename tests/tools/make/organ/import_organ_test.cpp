@@ -165,7 +165,7 @@ TEST(ImportOrgan, ListsAllDefectsOfASurfaceAndOffersTheRepair) {
   const TemporaryFolder folder;
   writeStl((folder / "scan.stl").string(), spoiledSphere(0.05, 4));
   EXPECT_REFUSED(importOrgan(folder / "scan.stl", {}), "scan.stl: the surface bounds no solid",
-                 "--repair mends it", "1 triangle has no area", "3 triangles are there twice",
+                 "--repair repairs it", "1 triangle has no area", "3 triangles are there twice",
                  "holes: the surface is not closed", "parts are turned over", "pairs of triangles intersect",
                  ") m (triangles ");
 }
@@ -245,6 +245,15 @@ TEST(ImportOrgan, RefusesSizesThatDoNotSuitTheBodyBeforeItIsFilled) {
   options.sizes.surface = 8;
   EXPECT_REFUSED(importOrgan(folder / "ball.stl", options), "--element-size: elements of 8 m are longer than",
                  "shortest side, 0.1 m", "meant in mm? --element-size 0.008");
+  options.scale = 1e-3;  // of a file in metres: the size is right, the unit is not
+  options.sizes.surface = 0.01;
+  const std::string words = mesh::test::errorOf([&] { (void)importOrgan(folder / "ball.stl", options); });
+  EXPECT_NE(words.find("shortest side, 0.0001 m; the body is 0.0001 m long, implausible for an organ: is the "
+                       "file in m? --unit m makes it 0.1 m long"),
+            std::string::npos)
+      << words;
+  EXPECT_EQ(words.find("resolves it"), std::string::npos) << words;
+  options.scale = 1;
   options.sizes.surface = 0.008;
   options.scale = 1000;
   EXPECT_REFUSED(importOrgan(folder / "ball.stl", options), "the body is 100 m long",
@@ -281,7 +290,7 @@ TEST(ImportOrgan, RefusesWhatIsForTheOtherKindOfFile) {
   options.part.reset();
   options.fixed = {parseFixedRule("group:vessel")};
   EXPECT_REFUSED(importOrgan(folder / "ball.stl", options), "--fixed group:vessel: there is no such group",
-                 "surfaces (.stl, .obj)", "have none");
+                 "the file has none");
 }
 
 TEST(ImportOrgan, RefusesOptionsOutOfRange) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-organ as its user sees it: exit code, standard output, standard error.
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "helpers.h"
 #include "palpate/testing/paths.h"
@@ -53,7 +54,8 @@ TEST(Program, WritesALiverWithoutNoise) {
   const ProgramResult result =
       run({"paper-liver", "--element-size", "0.015", "-o", (folder / "liver.msh").string()});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_TRUE(result.err.empty()) << result.err;
+  std::istringstream err(result.err);  // on a slow machine it tells how far it is
+  for (std::string line; std::getline(err, line);) EXPECT_TRUE(line.starts_with("progress  ")) << result.err;
   EXPECT_EQ(result.out.find("Info"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("worst quality"), std::string::npos) << result.out;
 }

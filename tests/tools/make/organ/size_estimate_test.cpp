@@ -39,25 +39,5 @@ TEST(SizeEstimate, TheSmallestSizeHasAsManyNodesAsAllowed) {
   }
 }
 
-TEST(SizeEstimate, IsToldInWholeNumbersOfTwoDigits) {
-  EXPECT_EQ((SizeEstimate{12345, 61234, 1.53e8, 1.83}).inWords(),
-            "about 12000 nodes, 61000 tetrahedra; 1.8 s and 150 MB of memory to fill");
-  EXPECT_EQ((SizeEstimate{1.26e7, 6e7, 5.44e10, 1500}).inWords(),
-            "about 13000000 nodes, 60000000 tetrahedra; 1.5e+03 s and 54000 MB of memory to fill");
-}
-
-// Those at the surface become four times as many, those inside eight times.
-TEST(SizeEstimate, HalfTheSizeIsEightTimesTheElementsTheFinerTheMoreNearly) {
-  const Body body{1e-3, 0.06, 0.1};
-  double before = 4;
-  for (const double size : {0.016, 0.008, 0.004, 0.002, 0.001}) {
-    const double ratio = estimate(body, {size / 2}, 1).tetrahedra / estimate(body, {size}, 1).tetrahedra;
-    EXPECT_GT(ratio, before) << size;
-    EXPECT_LT(ratio, 8) << size;
-    before = ratio;
-  }
-  EXPECT_GT(before, 7.9);
-}
-
 }  // namespace
 }  // namespace palpate::organ::test

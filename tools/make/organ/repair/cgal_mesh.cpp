@@ -41,9 +41,13 @@ TriangleSurface surfaceOf(Mesh& mesh) {
   return surfaceOf(soup);
 }
 
+std::array<double, 3> middleOf(const CGAL::Bbox_3& box) {
+  return {(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2};
+}
+
 std::string placeInWords(const CGAL::Bbox_3& box) {
-  return program::printed("(%.4g %.4g %.4g) m", (box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2,
-                          (box.zmin() + box.zmax()) / 2);
+  const std::array<double, 3> x = middleOf(box);
+  return program::printed("(%.4g %.4g %.4g) m", x[0], x[1], x[2]);
 }
 
 double diagonalOf(const CGAL::Bbox_3& box) {

@@ -4,6 +4,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct Soup {
 /// The same, without what was taken away.
 [[nodiscard]] mesh::TriangleSurface surfaceOf(Mesh& mesh);
 
+[[nodiscard]] std::array<double, 3> middleOf(const CGAL::Bbox_3& box);
 /// "(0.1 0 0) m", its middle.
 [[nodiscard]] std::string placeInWords(const CGAL::Bbox_3& box);
 [[nodiscard]] double diagonalOf(const CGAL::Bbox_3& box);

@@ -110,30 +110,34 @@ std::size_t fillHoles(Mesh& mesh, double diagonal, double largest, std::size_t& 
   return fillHolesBy(Patch::kSmooth, mesh, diagonal, largest, fills);
 }
 
-std::size_t leaveOutLoosePieces(Mesh& mesh) {
+std::vector<LoosePiece> leaveOutLoosePieces(Mesh& mesh) {
   auto part = mesh.add_property_map<Face, std::size_t>("f:part").first;
   const std::size_t parts = pmp::connected_components(mesh, part);
   std::vector<double> area(parts, 0);
-  std::vector<std::size_t> faces(parts, 0);
+  std::vector<std::vector<Face>> faces(parts);
   std::vector<bool> is_open(parts, false);
   double whole = 0;
   for (const Face f : mesh.faces()) {
     area[part[f]] += pmp::face_area(f, mesh);
-    ++faces[part[f]];
+    faces[part[f]].push_back(f);
     for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
       if (mesh.is_border(mesh.opposite(h))) is_open[part[f]] = true;
   }
   for (const double a : area) whole += a;
   std::vector<std::size_t> loose;
-  std::size_t count = 0;
+  std::vector<LoosePiece> pieces;
   for (std::size_t p = 0; p < parts; ++p) {
     if (!is_open[p] || area[p] > kLoosePiece * whole) continue;
     loose.push_back(p);
-    count += faces[p];
+    CGAL::Bbox_3 box;
+    for (const Face f : faces[p]) box += pmp::face_bbox(f, mesh);
+    pieces.push_back({faces[p].size(), area[p], middleOf(box)});
   }
   pmp::remove_connected_components(mesh, loose, part);
   mesh.remove_property_map(part);
-  return count;
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const LoosePiece& a, const LoosePiece& b) { return a.area > b.area; });
+  return pieces;
 }
 
 std::size_t mendFlatTriangles(Mesh& mesh) {
@@ -156,7 +160,7 @@ Mended mendCrossings(Mesh& mesh, double diagonal, double least_fold) {
     for (int ring = 0; ring <= round / 4; ++ring) addRing(mesh, faces);
     mended.removed += faces.size();
     takeAway(mesh, faces);
-    mended.removed += leaveOutLoosePieces(mesh);
+    for (const LoosePiece& piece : leaveOutLoosePieces(mesh)) mended.removed += piece.triangles;
     fillHolesBy(round < 2 ? Patch::kSmooth : Patch::kTaut, mesh, diagonal, kLargestWound, mended.fills);
     (void)mendFlatTriangles(mesh);
   }

@@ -8,7 +8,6 @@
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "tools/make/organ/repair/mend_crossings.h"
 #include "tools/make/organ/repair/soup.h"
