@@ -106,19 +106,29 @@ void noteBadElements(const mesh::TetMesh& mesh, std::vector<std::string>& notes)
                 bad, mesh.tetrahedra.size(), kBadQuality, worst));
 }
 
-// Gmsh remeshes sound surfaces, and keeps their sharp edges; a repaired one is given its triangles before.
-mesh::TetMesh filledBy(const Solid& solid, const ImportOptions& options) {
-  if (!options.repair || options.sizes.surface == 0) return mesh::fillSurface(solid.surface, options.sizes);
+// Gmsh remeshes sound surfaces, and keeps their sharp edges. One that was repaired, or that Gmsh cannot flatten, is given
+// its triangles before.
+mesh::TetMesh filledBy(const Solid& solid, const ImportOptions& options, std::vector<std::string>& notes) {
+  if (options.sizes.surface == 0) return mesh::fillSurface(solid.surface, options.sizes);
+  if (!options.repair) {
+    try {
+      return mesh::fillSurface(solid.surface, options.sizes);
+    } catch (const MeshError& error) {
+      notes.push_back("the surface was remeshed by CGAL, which rounds sharp edges, as Gmsh could not: " +
+                      std::string(error.what()));
+    }
+  }
   mesh::ElementSizes kept = options.sizes;
   kept.surface = 0;
   return mesh::fillSurface(remeshed(solid.surface, options.sizes.surface), kept);
 }
 
-mesh::TetMesh filled(const Solid& solid, const ImportOptions& options, double expected_s) {
+mesh::TetMesh filled(const Solid& solid, const ImportOptions& options, double expected_s,
+                     std::vector<std::string>& notes) {
   const mesh::ElementSizes& sizes = options.sizes;
   const Progress progress(options.progress, expected_s);
   try {
-    return filledBy(solid, options);
+    return filledBy(solid, options, notes);
   } catch (const MeshError& error) {
     const double own = meanEdge(solid.surface);
     const std::string advice = sizes.surface > 0
@@ -152,7 +162,7 @@ SizeEstimate checkSizes(const Solid& solid, const ImportOptions& options, std::v
 
 mesh::TetMesh fill(const Solid& solid, const ImportOptions& options, std::vector<std::string>& notes) {
   const SizeEstimate expected = checkSizes(solid, options, notes);
-  mesh::TetMesh mesh = filled(solid, options, expected.seconds);
+  mesh::TetMesh mesh = filled(solid, options, expected.seconds, notes);
   noteVolume(solid, mesh, notes);
   noteBadElements(mesh, notes);
   return mesh;
