@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws a surface that palpate-query wrote (--field touch.vtu) as a PNG, coloured by displacement.
 
-    palpate-query build/demo/liver.h5 --at 0.0593,-0.0164,0.0536 --displacement 0,0.004,-0.007 --field touch.vtu
+    palpate-organ paper-liver -o liver.msh && palpate-solve liver.msh --element-order 1 --order 3 -o liver.h5
+    palpate-query liver.h5 --at 0.0593,-0.0164,0.0536 --displacement 0,0.004,-0.007 --field touch.vtu
     docs/render_press.py touch.vtu docs/press.png
 
 Python's standard library only: the picture can be made again on any machine.

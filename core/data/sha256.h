@@ -10,7 +10,7 @@
 
 namespace palpate {
 
-/// A SHA-256: whoever does not know two contents with the same one cannot make them.
+/// A SHA-256: nobody can make two contents with the same one.
 struct Digest {
   std::array<std::uint8_t, 32> bytes{};
 

@@ -45,6 +45,8 @@ struct Given {
   LiveOverrides live;
   std::optional<std::string> parameters;
   std::vector<std::string> limits;
+  bool check_realtime{false};
+  bool json{false};
 };
 
 // What holds where neither the file nor the command line names a value.
@@ -110,6 +112,11 @@ void declare(program::Options line, Given& given) {
       .valueName("HZ");
   line.flag("--phase-lock,!--no-phase-lock", &given.phase_lock,
             "Ticks follow the poses' arrival, so that a pose waits little for its tick");
+  line.flag("--check-realtime", &given.check_realtime,
+            "Say how kernel, CPUs, interrupts, limits and sleep states suit a punctual tick, and how to "
+            "better it; then "
+            "end, with 3 where --realtime require would be refused");
+  line.flag("--json", &given.json, "With --check-realtime: print one JSON object on standard output");
   line.add("--tick-cpu", &given.tick_cpu,
            "CPU that the tick runs on, default -1: where the scheduler puts it");
   line.flag("--tick-cpu-alone,!--no-tick-cpu-alone", &given.tick_cpu_alone,
@@ -268,7 +275,11 @@ ServerConfig combine(const Given& given) {
   if (const auto complaint = limitsComplaint(config)) refuse(*complaint);
   if (config.tick_cpu_alone && config.tick_cpu == kAnyCpu)
     throw ConfigError("--tick-cpu-alone without --tick-cpu: which CPU is it?");
-  if (config.model.empty()) throw ConfigError("--model is missing: name a model file here or in --config");
+  config.check_realtime = given.check_realtime;
+  config.json = given.json;
+  if (config.json && !config.check_realtime) throw ConfigError("--json is for --check-realtime");
+  if (config.model.empty() && !config.check_realtime)
+    throw ConfigError("--model is missing: name a model file here or in --config");
   return config;
 }
 

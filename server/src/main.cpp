@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <iostream>
 #include <memory>
 
 #include "command_line.h"
 #include "core/data/model_view.h"
 #include "log_sink.h"
+#include "palpate/rt/spin_guard.h"
+#include "palpate/server/machine_check.h"
 #include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
 #include "tools/program/certificate_line.h"
 #include "tools/program/exit_code.h"
+#include "tools/program/json.h"
 #include "tools/program/run.h"
 
 namespace palpate::server {
@@ -21,7 +27,7 @@ namespace {
 sigset_t stopSignals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) sigaddset(&signals, signal);
   return signals;
 }
 
@@ -32,12 +38,51 @@ void prepareProcess() {
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("palpate-server", std::make_shared<LogSink>()));
 }
 
+// A real-time thread has computed for kLongestComputation without a sleep. @return whether it is one of ours
+bool judgeSpinning() {
+  bool ours = false;
+  for (const rt::ThreadFacts& thread : rt::spinningThreads(std::chrono::milliseconds(50))) {
+    const bool receives = wantedPriority(thread.name) == kReceivePriority;
+    spdlog::critical(
+        "thread {} computes at real-time priority {} without a sleep for {} ms: {}", thread.name,
+        thread.fifo_priority, kLongestComputation.count(),
+        receives ? "it goes on as an ordinary thread" : "the server ends, so that the machine stays usable");
+    if (receives) (void)rt::lowerThread(thread.id);
+    ours = ours || !receives;
+  }
+  (void)rt::limitRealtimeWithoutSleep(kLongestComputation, kLastComputation);  // the kernel has raised it
+  return ours;
+}
+
+// @return the signal; SIGXCPU when a thread of ours spins
 int waitForSignal() {
   const sigset_t signals = stopSignals();
-  int signal = 0;
-  while (sigwait(&signals, &signal) != 0) {
+  for (;;) {
+    int signal = 0;
+    if (sigwait(&signals, &signal) != 0) continue;
+    if (signal != SIGXCPU || judgeSpinning()) return signal;
   }
-  return signal;
+}
+
+program::Json jsonOf(const std::vector<MachineCheck>& checks) {
+  program::Json list = program::Json::array();
+  for (const MachineCheck& check : checks)
+    list.push_back({{"key", check.key},
+                    {"state", wordOf(check.suits)},
+                    {"found", check.found},
+                    {"remedy", check.remedy}});
+  return {{"checks", list}, {"grants_realtime", grantsRealtime(checks)}};
+}
+
+// A verdict only where one was asked for.
+int tellMachine(const ServerConfig& config) {
+  const std::vector<MachineCheck> checks = checkMachine("/", config.tick_cpu);
+  if (config.json)
+    program::printJson(jsonOf(checks));
+  else
+    std::cout << textOf(checks);
+  const bool required = config.realtime == rt::RealtimePolicy::kRequire;
+  return required && !grantsRealtime(checks) ? program::kNotHeld : program::kDone;
 }
 
 void logModel(const MetaModel& model, const ServerConfig& config) {
@@ -60,6 +105,7 @@ int serve(int argc, char** argv) {
   std::optional<ServerConfig> config;
   program::orUsageError([&] { config = parseCommandLine(argc, argv); });
   if (!config) return program::kDone;
+  if (config->check_realtime) return tellMachine(*config);
   // 2. Signals wait for us, before any thread exists.
   prepareProcess();
   // before any thread exists too: what is made from here on stays off the tick's CPU.
@@ -73,6 +119,10 @@ int serve(int argc, char** argv) {
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
   // 5. Until a signal says stop,
   const int signal = waitForSignal();
+  if (signal == SIGXCPU) {  // a tick that spins joins nobody
+    spdlog::shutdown();
+    std::_Exit(program::kFailed);
+  }
   // 6. zero force first, then everything else, the log too.
   server.stop();
   spdlog::info("signal {}: stopped", signal);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "palpate/rt/memory.h"
+#include "palpate/rt/spin_guard.h"
 #include "palpate/server/startup.h"
 
 namespace palpate::server {
@@ -120,6 +121,9 @@ void Server::settleRealtime(rt::RealtimePolicy policy) {
   }
   if (!facts_.realtime) return;
   events_.raiseReceiveThreads();
+  if (const int error = rt::limitRealtimeWithoutSleep(kLongestComputation, kLastComputation); error != 0)
+    spdlog::warn("real time: RLIMIT_RTTIME is refused ({}): a thread that spins would take the machine",
+                 std::strerror(error));
   awake_.emplace();
   if (!awake_->held()) spdlog::warn("real time: /dev/cpu_dma_latency cannot be held, wake-ups may be late");
   if (rt::raiseThreadsNamed(kReceiveThreads, kReceivePriority) == 0) {

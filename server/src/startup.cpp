@@ -72,19 +72,10 @@ std::vector<std::string> remedies(const Startup& startup) {
   const bool raised = std::all_of(
       startup.threads.begin(), startup.threads.end(),
       [&](const rt::ThreadFacts& thread) { return thread.fifo_priority >= wanted(startup, thread); });
-  if (!raised)
-    lines.emplace_back(
-        "for priorities: rtprio 90 in /etc/security/limits.d (palpate-limits.conf), LimitRTPRIO=90 in a unit "
-        "(palpate-server.service), or CAP_SYS_NICE");
+  if (!raised) lines.push_back(std::string("for priorities: ") + kPriorityRemedy);
   if (!startup.memory.present || !startup.memory.future || !startup.model_locked)
-    lines.emplace_back(
-        "for locked memory: memlock unlimited in /etc/security/limits.d (palpate-limits.conf), "
-        "LimitMEMLOCK=infinity in a unit (palpate-server.service), or CAP_IPC_LOCK");
-  if (asked && !startup.awake)
-    lines.emplace_back(
-        "for short wake-ups: write access to /dev/cpu_dma_latency (palpate-cpu-latency.rules), in a unit "
-        "also "
-        "DeviceAllow=/dev/cpu_dma_latency rw");
+    lines.push_back(std::string("for locked memory: ") + kMemoryRemedy);
+  if (asked && !startup.awake) lines.push_back(std::string("for short wake-ups: ") + kAwakeRemedy);
   return lines;
 }
 

@@ -59,6 +59,44 @@ TEST(Assertion, AFailureNamesTheFigureFound) {
   EXPECT_EQ(failureLine(outcome), "assertion failed: pose_to_force_us.p99<500: it is 812.5");
 }
 
+TEST(Assertion, OfSeveralToolsEachIsJudgedAndTheFirstThatFailsNamed) {
+  Json first = report(), second = report();
+  first["tool_id"] = 1;
+  second["tool_id"] = 2;
+  second["lost"] = 7;
+  const auto judged = [&](const std::string& text) {
+    return judgeEach(parseAssertion(text, shape()), {first, second});
+  };
+  EXPECT_TRUE(judged("pose_to_force_us.p99<900").held);
+  EXPECT_TRUE(judged("lost<8").held);
+  EXPECT_EQ(failureLine(judged("lost==0")), "assertion failed: lost==0: it is 7 of tool 2");
+  EXPECT_FALSE(judged("lost>=1").held) << "for tool 1 it does not hold";
+}
+
+TEST(LatencyReport, OfSeveralToolsTheWorstFiguresCount) {
+  Json first{{"tool_id", 0},
+             {"tick_us", {{"p99", 3.0}, {"count", 9}}},
+             {"lost", 1},
+             {"sent", 10},
+             {"client_realtime", true},
+             {"model_id", "m"}};
+  Json second{{"tool_id", 1},
+              {"tick_us", {{"p99", 5.0}, {"count", 7}}},
+              {"lost", 0},
+              {"sent", 11},
+              {"client_realtime", false},
+              {"model_id", "m"}};
+  const Json worst = worstOf({first, second});
+  EXPECT_EQ(worst["tick_us"], (Json{{"p99", 5.0}, {"count", 7}}));
+  EXPECT_EQ(worst["lost"], Json(1));
+  EXPECT_EQ(worst["sent"], Json(10));
+  EXPECT_EQ(worst["client_realtime"], Json(false));
+  EXPECT_EQ(worst["model_id"], Json("m"));
+  EXPECT_FALSE(worst.contains("tool_id"));
+  ASSERT_EQ(worst["tools"].size(), 2U);
+  EXPECT_EQ(worst["tools"][1], second);
+}
+
 TEST(Assertion, WhatDoesNotReadIsRefusedWithWhatWould) {
   EXPECT_NE(refusal("lost").find("< <= == != >= >"), std::string::npos);
   EXPECT_NE(refusal("lost=0").find("< <= == != >= >"), std::string::npos);

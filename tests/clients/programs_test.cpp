@@ -343,6 +343,12 @@ TEST(Latency, AnAssertionThatDoesNotReadIsRefusedBeforeAServerIsLookedFor) {
   EXPECT_NE(result.err.find("no figure 'pose_to_force.p99'"), std::string::npos) << result.err;
 }
 
+TEST(Latency, MoreToolsThanThereAreIdsAreRefused) {
+  const auto result = runProgram("palpate-latency", onDomain({"--tool", "2", "--tools", "3"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--tools 3 with --tool 2: ids end at 3"), std::string::npos) << result.err;
+}
+
 TEST(Latency, ReportsWhatTheServerSaysAndWhatIsLost) {
   const FakeServer server(exclusiveDomain(), {.drop_every = 100, .overrun_every = 50});
   const TemporaryFile svg("latency.svg");

@@ -55,6 +55,22 @@ TEST(RealServer, PressIsPushedBackAlongTheNormal) {
   EXPECT_FALSE(report["summary"]["server_left"].get<bool>());
 }
 
+TEST(RealServer, FourToolsAreMeasuredAtOnce) {
+  const Running server;
+  const json report = server.run("palpate-latency", {"--seconds", "1.5", "--tools", "4"});
+  ASSERT_FALSE(report.is_null());
+  ASSERT_EQ(report["tools"].size(), 4U);
+  double worst = 0.0;
+  for (int id = 0; id < 4; ++id) {
+    const json& tool = report["tools"][static_cast<std::size_t>(id)];
+    EXPECT_EQ(tool["tool_id"], id);
+    EXPECT_GT(tool["received"], 1000);
+    EXPECT_GT(tool["answered_pose_to_force_us"]["count"], 500);
+    worst = std::max(worst, tool["pose_to_force_us"]["p99"].get<double>());
+  }
+  EXPECT_EQ(report["pose_to_force_us"]["p99"].get<double>(), worst);
+}
+
 // Who drives which tool, and for which device each is set.
 TEST(RealServer, IsListedWithItsOrganItsToolsAndWhoDrivesThem) {
   const Running server({"--device", "touch", "--tool", "1:device=omni", "--server-id", "3"});

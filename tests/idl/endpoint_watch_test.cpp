@@ -8,6 +8,7 @@
 
 #include "link.h"
 #include "palpate/idl/reader.h"
+#include "palpate/idl/tap.h"
 #include "palpate/idl/writer.h"
 
 namespace palpate::dds {
@@ -72,6 +73,15 @@ TEST_F(EndpointWatchTest, SaysNothingOfThoseThatMatch) {
   EXPECT_TRUE(watch_.poll().empty());
   std::this_thread::sleep_for(30ms);
   EXPECT_TRUE(watch_.poll().empty());
+}
+
+TEST_F(EndpointWatchTest, SaysNothingOfItsOwnParticipantsReaderThatHearsOthersOnly) {
+  const Tap<ToolPose> deaf(
+      participant_, [](const ToolPose&, WriterId, void*) noexcept {}, nullptr, Hears::kOthers);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_TRUE(watch_.poll().empty());
+    std::this_thread::sleep_for(20ms);
+  }
 }
 
 TEST_F(EndpointWatchTest, NamesEveryPolicyOfAReaderThatAsksForMore) {

@@ -57,6 +57,8 @@ void makeMistake() noexcept {
   if (mistake == "lock") lock();
   if (mistake == "fault") touchFreshPage();
   if (mistake == "sleep") sleep();
+  for (volatile bool spins = mistake == "spin"; spins;) {
+  }
 }
 
 bool isTickThread() noexcept {

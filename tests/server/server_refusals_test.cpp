@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
+#include "palpate/testing/run_program.h"
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
@@ -35,6 +37,20 @@ class ServerRefuses : public ::testing::Test {
   const std::filesystem::path file_ = temporary_.path();
 };
 
+TEST(ServerProgram, SaysHowTheMachineSuitsWithoutAModel) {
+  const auto text = palpate::testing::runProgram("palpate-server", {"--check-realtime", "--tick-cpu", "0"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  for (const char* part :
+       {"kernel  ", "isolated CPUs  ", "interrupts  ", "real-time throttling  ", "frequency governor  ",
+        "locked memory  ", "real-time priority  ", "sleep states  "})
+    EXPECT_NE(text.out.find(part), std::string::npos) << text.out;
+  const auto told =
+      palpate::testing::runProgram("palpate-server", {"--check-realtime", "--json", "--realtime", "require"});
+  const auto report = nlohmann::json::parse(told.out);
+  EXPECT_EQ(report["checks"].size(), 8U);
+  EXPECT_EQ(told.exit_code, report["grants_realtime"].get<bool>() ? 0 : 3);
+}
+
 TEST_F(ServerRefuses, ATruncatedModel) {
   palpate::testing::writeSyntheticModel(file_);
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
@@ -56,6 +72,7 @@ TEST_F(ServerRefuses, AFileThatIsNoModel) {
 
 TEST_F(ServerRefuses, AMissingModel) {
   EXPECT_NE(refusal({"--model", "/nonexistent.h5"}, 1).find("/nonexistent.h5"), std::string::npos);
+  EXPECT_EQ(refusal({"--json", "--model", "a.h5"}), "--json is for --check-realtime");
   EXPECT_EQ(refusal({}), "--model is missing: name a model file here or in --config");
 }
 

@@ -2,6 +2,7 @@
 #include "tools/mesh/manifold.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace palpate::mesh {
 namespace {
@@ -53,44 +54,61 @@ std::optional<std::string> edgeDefect(const std::vector<HalfEdge>& edges, const 
   return std::nullopt;
 }
 
-// With every edge in two triangles, the triangles around a vertex form closed fans. Walk one fan; if it
-// misses a triangle there is a second fan.
-std::optional<std::string> fanDefect(const std::vector<Triangle>& triangles, std::size_t vertex_count,
-                                     const Namer& vertexName, const Namer& triangleName) {
-  struct Spoke {
-    std::int32_t next, previous, triangle;
-  };
-  std::vector<std::vector<Spoke>> around(vertex_count);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      around[static_cast<std::size_t>(triangles[t][i])].push_back(
-          {triangles[t][(i + 1) % 3], triangles[t][(i + 2) % 3], static_cast<std::int32_t>(t)});
+// A triangle as a vertex sees it.
+struct Spoke {
+  std::int32_t next, previous, triangle;
+
+  [[nodiscard]] bool sharesAnEdgeWith(const Spoke& other) const {
+    return next == other.next || next == other.previous || previous == other.next ||
+           previous == other.previous;
+  }
+};
+
+// One triangle of each fan. `spokes` ascend by triangle.
+std::vector<std::int32_t> fansOf(const std::vector<Spoke>& spokes) {
+  std::vector<std::int32_t> fans;
+  std::vector<bool> met(spokes.size(), false);
+  for (std::size_t first = 0; first < spokes.size(); ++first) {
+    if (met[first]) continue;
+    fans.push_back(spokes[first].triangle);
+    met[first] = true;
+    for (std::vector<std::size_t> open{first}; !open.empty();) {
+      const Spoke& at = spokes[open.back()];
+      open.pop_back();
+      for (std::size_t i = first + 1; i < spokes.size(); ++i) {
+        if (met[i] || !at.sharesAnEdgeWith(spokes[i])) continue;
+        met[i] = true;
+        open.push_back(i);
+      }
     }
   }
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    const auto& spokes = around[v];
-    if (spokes.empty()) continue;
-    std::size_t met = 0;
-    auto at = spokes.begin();
-    do {
-      ++met;
-      const auto wanted = at->previous;
-      at = std::find_if(spokes.begin(), spokes.end(), [wanted](const Spoke& s) { return s.next == wanted; });
-    } while (at != spokes.begin() && at != spokes.end() && met < spokes.size());
-    if (met != spokes.size()) {
-      return vertexName(static_cast<std::int32_t>(v)) + " joins several fans of triangles, one of them at " +
-             triangleName(spokes.front().triangle);
-    }
-  }
-  return std::nullopt;
+  return fans;
 }
 
 }  // namespace
 
+std::vector<JoinedFans> joinedFans(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
+  std::vector<std::vector<Spoke>> around(vertex_count);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      around[static_cast<std::size_t>(triangles[t][i])].push_back(
+          {triangles[t][(i + 1) % 3], triangles[t][(i + 2) % 3], static_cast<std::int32_t>(t)});
+  std::vector<JoinedFans> joined;
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    std::vector<std::int32_t> fans = fansOf(around[v]);
+    if (fans.size() > 1) joined.push_back({static_cast<std::int32_t>(v), std::move(fans)});
+  }
+  return joined;
+}
+
 std::optional<std::string> manifoldDefect(const std::vector<Triangle>& triangles, std::size_t vertex_count,
                                           const Namer& vertexName, const Namer& triangleName) {
   auto defect = edgeDefect(sortedHalfEdges(triangles), vertexName, triangleName);
-  return defect ? defect : fanDefect(triangles, vertex_count, vertexName, triangleName);
+  if (defect) return defect;
+  const std::vector<JoinedFans> joined = joinedFans(triangles, vertex_count);
+  if (joined.empty()) return std::nullopt;
+  return vertexName(joined.front().vertex) + " joins several fans of triangles, one of them at " +
+         triangleName(joined.front().triangles.front());
 }
 
 }  // namespace palpate::mesh

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/mesh/byte_reader.h"
 
@@ -30,9 +33,12 @@ class ObjFile {
       const std::string_view keyword = nextWord(line);
       if (keyword == "v") readVertex(line);
       if (keyword == "f") readFace(line);
+      if (keyword == "g") changeNames(group_names_, namesIn(line));
+      if (keyword == "usemtl") changeNames(material_names_, {std::string(nextWord(line))});
       checkKeyword(keyword);
     }
     dropUnused();
+    std::erase_if(surface_.groups, [](const auto& group) { return group.second.empty(); });
     return std::move(surface_);
   }
 
@@ -72,6 +78,25 @@ class ObjFile {
     return static_cast<std::int32_t>(index);
   }
 
+  std::vector<std::string> namesIn(std::string_view line) const {
+    constexpr std::size_t kMost = 16;  // as many groups as no file gives one face
+    std::vector<std::string> names;
+    for (auto word = nextWord(line); !word.empty(); word = nextWord(line)) names.emplace_back(word);
+    if (names.size() > kMost)
+      in_.fail("face " + std::to_string(faces_ + 1) + " is in " + std::to_string(names.size()) +
+               " groups, expected at most " + std::to_string(kMost));
+    return names;
+  }
+
+  // The groups of the faces that follow: those of the last `g` and of the last `usemtl`.
+  void changeNames(std::vector<std::string>& changed, std::vector<std::string> names) {
+    changed = std::move(names);
+    painted_.clear();
+    for (const auto* all : {&group_names_, &material_names_})
+      for (const std::string& name : *all)
+        if (!name.empty()) painted_.insert(&surface_.groups[name]);
+  }
+
   void readFace(std::string_view line) {
     ++faces_;
     std::vector<std::int32_t> corners;
@@ -79,6 +104,7 @@ class ObjFile {
     if (corners.size() < 3)
       in_.fail("face " + std::to_string(faces_) + " has " + std::to_string(corners.size()) + " corners");
     for (std::size_t i = 2; i < corners.size(); ++i) {
+      for (auto* group : painted_) group->push_back(static_cast<std::int32_t>(surface_.triangles.size()));
       surface_.triangles.push_back({corners[0], corners[i - 1], corners[i]});
       surface_.triangle_tags.push_back(faces_);
     }
@@ -104,6 +130,8 @@ class ObjFile {
 
   ByteReader in_;
   TriangleSurface surface_;
+  std::vector<std::string> group_names_, material_names_;
+  std::set<std::vector<std::int32_t>*> painted_;  // the groups of the next face
   std::int64_t faces_{0};
 };
 

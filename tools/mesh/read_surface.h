@@ -11,7 +11,8 @@ namespace palpate::mesh {
 [[nodiscard]] bool isSurfaceFile(const std::filesystem::path& path);
 
 /// Reads the triangles of an .stl (text or binary; corners at the same place become one vertex) or .obj file
-/// (polygons are fanned; normals, textures, groups and materials are skipped; unused vertices dropped).
+/// (polygons are fanned; groups (`g`) and materials (`usemtl`) are kept as groups; normals and textures are skipped, unused
+/// vertices dropped).
 /// @throw MeshError, one line with the file and the entity
 [[nodiscard]] TriangleSurface readSurface(const std::filesystem::path& path);
 

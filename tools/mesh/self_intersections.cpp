@@ -55,7 +55,8 @@ bool canCross(const TriangleSurface& surface, const Triangle& t) {
 
 }  // namespace
 
-std::vector<std::pair<std::size_t, std::size_t>> selfIntersections(const TriangleSurface& surface) {
+std::vector<std::pair<std::size_t, std::size_t>> selfIntersections(const TriangleSurface& surface,
+                                                                   std::size_t most) {
   std::vector<Eigen::AlignedBox3d> boxes(surface.triangles.size());
   std::vector<std::size_t> order;
   Eigen::AlignedBox3d all;
@@ -71,6 +72,7 @@ std::vector<std::pair<std::size_t, std::size_t>> selfIntersections(const Triangl
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   std::vector<std::size_t> active;  // triangles whose x range reaches the current one
   for (const std::size_t t : order) {
+    if (pairs.size() >= most) break;
     std::erase_if(active, [&](std::size_t a) { return boxes[a].max().x() < boxes[t].min().x() - tolerance; });
     for (const std::size_t a : active) {
       const bool apart = (boxes[a].min().array() > boxes[t].max().array() + tolerance).any() ||

@@ -3,13 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include "tools/mesh/manifold.h"
-#include "tools/mesh/mesh_error.h"
+#include "tools/program/printed.h"
 
 namespace palpate::mesh {
 namespace {
@@ -36,7 +34,7 @@ class Finder {
     const Edges edges = edgesOf();
     findHoles(edges);
     findEdges(edges);
-    if (found_.empty()) findFans();  // other defects part the fans, too
+    findFans();
     findCrossings();
     return std::move(found_);
   }
@@ -148,28 +146,23 @@ class Finder {
         "edges are passed in the same direction by both triangles: parts are turned over");
   }
 
+  // Triangles without area and twins belong to the fans, which would part without them.
   void findFans() {
-    std::optional<std::int32_t> vertex;
-    std::string name;
-    const auto defect = manifoldDefect(
-        surface_.triangles, surface_.vertices.size(),
-        [&](std::int32_t v) {
-          vertex = v;
-          return "vertex " + std::to_string(surface_.vertex_tags[static_cast<std::size_t>(v)]);
-        },
-        [&](std::int32_t t) {
-          return "triangle " + std::to_string(surface_.triangle_tags[static_cast<std::size_t>(t)]);
-        });
-    if (defect) found_.push_back({1, *defect, {{at(vertex.value_or(0)), {}}}});
+    std::vector<SurfaceDefect::Example> joined;
+    for (const JoinedFans& fans : joinedFans(surface_.triangles, surface_.vertices.size()))
+      joined.push_back(example(at(fans.vertex), {fans.triangles.begin(), fans.triangles.end()}));
+    add(joined, "vertex joins several fans of triangles", "vertices join several fans of triangles");
   }
 
   void findCrossings() {
     std::vector<SurfaceDefect::Example> crossings;
-    for (const auto& [a, b] : selfIntersections(surface_))
+    const auto pairs = selfIntersections(surface_);
+    for (const auto& [a, b] : pairs)
       if (!is_left_out_[a] && !is_left_out_[b])
         crossings.push_back(example((centre(a) + centre(b)) / 2, {a, b}));
     add(crossings, "pair of triangles intersects: the surface cuts itself",
         "pairs of triangles intersect: the surface cuts itself");
+    if (!crossings.empty() && pairs.size() >= kMostCrossings) found_.back().what.insert(0, "at least ");
   }
 
   const TriangleSurface& surface_;
@@ -178,10 +171,8 @@ class Finder {
 };
 
 std::string inWords(const SurfaceDefect::Example& example) {
-  char text[100];
-  std::snprintf(text, sizeof text, "(%.4g %.4g %.4g) m", example.place.x(), example.place.y(),
-                example.place.z());
-  std::string words = text;
+  std::string words =
+      program::printed("(%.4g %.4g %.4g) m", example.place.x(), example.place.y(), example.place.z());
   for (std::size_t i = 0; i < example.triangles.size(); ++i) {
     words += i > 0 ? " and " : example.triangles.size() > 1 ? " (triangles " : " (triangle ";
     words += std::to_string(example.triangles[i]);
@@ -204,12 +195,6 @@ std::string inWords(const std::vector<SurfaceDefect>& defects) {
     if (defect.count > defect.examples.size()) words += ", ...";
   }
   return words;
-}
-
-void checkSurface(const TriangleSurface& surface) {
-  if (surface.triangles.empty()) throw MeshError("the surface holds no triangles");
-  const auto defects = surfaceDefects(surface);
-  if (!defects.empty()) throw MeshError("the surface bounds no solid: " + inWords(defects));
 }
 
 }  // namespace palpate::mesh

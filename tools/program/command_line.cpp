@@ -115,6 +115,9 @@ template <class Number>
 CLI::Validator inRange(Number low, Number high, const std::string& unit) {
   const auto refusal = [=](std::string& word) -> std::string {
     Number value{};
+    double any = 0.0;
+    if (!CLI::detail::lexical_cast(word, any))
+      return word + " is not a number, expected " + describeRange(low, high, unit, " to ");
     if (CLI::detail::lexical_cast(word, value) && value >= low && value <= high) return {};
     return word + " is out of range, expected " + describeRange(low, high, unit, " to ");
   };

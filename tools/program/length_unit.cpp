@@ -16,15 +16,14 @@ std::string awayText(double distance) {
                         : lengthText(distance) + " from the organ's surface";
 }
 
-/// In which other unit the place would be on the organ, or in it; empty where in none.
+/// In which other unit the place would be on the organ; empty where in none.
 std::string suspicion(const AskedPlace& place, double radius, const SurfaceDistance& distance) {
   for (const LengthUnit& unit : kLengthUnits) {
     if (unit.word == place.unit.word) continue;
     const double away = distance(place.inMetres(unit));
-    if (!(away <= radius)) continue;
-    const std::string text = "; in " + std::string(unit.plural) + " it would lie " + awayText(away);
-    if (std::abs(away) > radius) return text;
-    return text + (place.has_option ? ": --unit " + std::string(unit.word) : ": give metres");
+    if (!(std::abs(away) <= radius)) continue;
+    return "; in " + std::string(unit.plural) + " it would lie " + awayText(away) +
+           (place.has_option ? ": --unit " + std::string(unit.word) : ": give metres");
   }
   return {};
 }

@@ -18,6 +18,12 @@ struct LengthUnit {
 inline constexpr std::array<LengthUnit, 3> kLengthUnits{
     {{"m", "metres", 1.0}, {"cm", "centimetres", 1e-2}, {"mm", "millimetres", 1e-3}}};
 
+/// The longest side of an organ: other lengths are told, with the unit suspected, m.
+inline constexpr double kShortestOrgan = 0.005, kLongestOrgan = 1.0;
+[[nodiscard]] constexpr bool isOrganLength(double metres) noexcept {
+  return metres >= kShortestOrgan && metres <= kLongestOrgan;
+}
+
 /// What --unit takes.
 [[nodiscard]] std::vector<std::string> lengthUnitWords();
 /// @throw ValueError naming the word and those that are known

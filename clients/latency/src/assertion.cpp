@@ -132,6 +132,17 @@ Outcome judge(const Assertion& assertion, const program::Json& report) {
   return {assertion, holds(found, assertion.relation, assertion.bound), value->dump()};
 }
 
+Outcome judgeEach(const Assertion& assertion, const std::vector<program::Json>& tools) {
+  Outcome outcome;
+  for (const program::Json& report : tools) {
+    outcome = judge(assertion, report);
+    if (tools.size() > 1) outcome.found += " of tool " + report["tool_id"].dump();
+    if (!outcome.held) return outcome;
+  }
+  if (tools.size() > 1) outcome.found = "held by each of " + std::to_string(tools.size()) + " tools";
+  return outcome;
+}
+
 std::string failureLine(const Outcome& outcome) {
   return "assertion failed: " + outcome.assertion.text + ": it is " + outcome.found;
 }

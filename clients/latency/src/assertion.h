@@ -32,6 +32,10 @@ struct Outcome {
 /// A figure that was not measured (null, or a quantile of no values) holds no assertion.
 [[nodiscard]] Outcome judge(const Assertion& assertion, const program::Json& report);
 
+/// The same of several tools: it holds where it holds for each. Else the first for which it does not is named.
+/// @param[in] tools  reports with their `tool_id`, at least one
+[[nodiscard]] Outcome judgeEach(const Assertion& assertion, const std::vector<program::Json>& tools);
+
 /// "assertion failed: pose_to_force_us.p99<500: it is 812.3"
 [[nodiscard]] std::string failureLine(const Outcome& outcome);
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "latency_report.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "palpate/client/time_summary.h"
 #include "palpate/report/late_ticks.h"
 #include "palpate/report/program.h"
@@ -33,7 +37,26 @@ const char* phaseName(const dds::ServerStatus& server) {
   }
 }
 
-program::Series barsOf(const char* name, const rt::CycleStats& histogram) {
+// Where few are worse than many.
+bool isWorstAtLeast(std::string_view key) {
+  constexpr std::array kKeys{"count", "sent", "received", "seconds", "server_rate_hz"};
+  return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
+}
+
+program::Json worse(std::string_view key, const program::Json& a, const program::Json& b) {
+  if (a.isObject()) {
+    program::Json all = program::Json::object();
+    for (const auto& [name, value] : a.members()) all[name] = worse(name, value, b[name]);
+    return all;
+  }
+  if (a.isNull() || b.isNull()) return {};
+  if (a.isBool()) return a.get<bool>() && b.get<bool>();
+  if (!a.isNumber()) return a;
+  const bool a_is_less = a.get<double>() < b.get<double>();
+  return a_is_less == isWorstAtLeast(key) ? a : b;
+}
+
+program::Series barsOf(const std::string& name, const rt::CycleStats& histogram) {
   program::Series series{name, {}, {}, {}};
   for (const auto& bar : client::barsOf(histogram, 10)) {
     series.x.push_back(bar.from_ns * 1e-3);
@@ -101,23 +124,38 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"model_id", server.model_id}};
 }
 
-std::vector<TaggedTimes> taggedTimesOf(const LatencyLog& log) {
-  return {{"pose_to_force", &log.poseToForce()},
-          {"answered_pose_to_force", &log.answeredPoseToForce()},
-          {"pose_to_field", &log.poseToField()},
-          {"wakeup", &log.wakeup()},
-          {"tick", &log.tick()}};
+program::Json worstOf(const std::vector<program::Json>& tools) {
+  program::Json worst = tools.front();
+  for (const program::Json& tool : tools) worst = worse({}, worst, tool);
+  program::Json all = program::Json::object();
+  for (const auto& [key, value] : worst.members())
+    if (key != "tool_id") all[key] = value;  // no figure
+  all["tools"] = tools;
+  return all;
 }
 
-std::string plotOf(const LatencyLog& log) {
+std::vector<TaggedTimes> taggedTimesOf(const LatencyLog& log, const std::string& suffix) {
+  return {{"pose_to_force" + suffix, &log.poseToForce()},
+          {"answered_pose_to_force" + suffix, &log.answeredPoseToForce()},
+          {"pose_to_field" + suffix, &log.poseToField()},
+          {"wakeup" + suffix, &log.wakeup()},
+          {"tick" + suffix, &log.tick()}};
+}
+
+std::string plotOf(const std::vector<std::pair<std::uint32_t, const LatencyLog*>>& logs) {
   program::SvgPlot plot;
-  plot.title = "palpate-latency: " + std::to_string(log.received()) + " ticks";
+  plot.title = "palpate-latency: " + std::to_string(logs.front().second->received()) + " ticks";
   plot.x_label = "time / us";
   plot.y_label = "samples";
   plot.log_x = true;
   plot.log_y = true;
-  plot.series = {barsOf("pose to force", log.poseToForce()), barsOf("tick, late by", log.wakeup()),
-                 barsOf("tick, compute", log.tick())};
+  for (const auto& [tool, log] : logs) {
+    const std::string whose = logs.size() > 1 ? ", tool " + std::to_string(tool) : "";
+    plot.series.push_back(barsOf("pose to force" + whose, log->poseToForce()));
+    if (plot.series.size() > 1) continue;  // the tick is the same for all
+    plot.series.push_back(barsOf("tick, late by", log->wakeup()));
+    plot.series.push_back(barsOf("tick, compute", log->tick()));
+  }
   return plot.render();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hdr_log.h"
@@ -22,10 +23,16 @@ namespace palpate::latency {
 [[nodiscard]] program::Json jsonOf(const LatencyLog& log, const SenderStats& sender,
                                    const dds::ServerStatus& server);
 
-/// What --hdr writes. The log must outlive the result.
-[[nodiscard]] std::vector<TaggedTimes> taggedTimesOf(const LatencyLog& log);
+/// Of several tools' reports each figure at its worst: the longest time, the fewest sent, received and counted, the most of
+/// all else; false where one of them is. Under `tools` the reports themselves.
+[[nodiscard]] program::Json worstOf(const std::vector<program::Json>& tools);
 
-/// The three histograms on logarithmic axes, as SVG.
-[[nodiscard]] std::string plotOf(const LatencyLog& log);
+/// What --hdr writes. The log must outlive the result.
+/// @param[in] suffix  of the tags
+[[nodiscard]] std::vector<TaggedTimes> taggedTimesOf(const LatencyLog& log, const std::string& suffix = {});
+
+/// The three histograms of each tool on logarithmic axes, as SVG.
+/// @param[in] logs  with the tools' ids; at least one
+[[nodiscard]] std::string plotOf(const std::vector<std::pair<std::uint32_t, const LatencyLog*>>& logs);
 
 }  // namespace palpate::latency

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "palpate/idl/reader.h"
 #include "palpate/report/asked_place.h"
 #include "palpate/report/late_ticks.h"
+#include "tools.h"
 #include "tools/program/command_line.h"
 #include "tools/program/json.h"
 #include "tools/program/numbers.h"
@@ -27,6 +29,7 @@ namespace {
 
 struct Options {
   MeasureOptions measure;
+  int tools{1};
   std::string at;
   std::uint32_t domain{0};
   std::uint32_t server_id{dds::kServerAny};
@@ -41,7 +44,12 @@ void addOptions(program::Options line, Options& options) {
   line.add("--rate", &options.measure.rate_hz, "poses a second").range(10.0, 4000.0, "Hz");
   line.add("--at", &options.at,
            "press the accessible node nearest to x,y,z, m; refused off the organ; default: the highest one");
-  line.add("--tool", &options.measure.tool_id, "tool id, 0 to 3").range(0, 3);
+  line.add("--tool", &options.measure.tool_id, "tool id, 0 to 3; with --tools the lowest").range(0, 3);
+  line.add("--tools", &options.tools,
+           "tools at once, far from each other; --assert holds where it holds for each, --json has the worst "
+           "and "
+           "each")
+      .range(1, 4);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
   line.add("--wait", &options.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
@@ -67,15 +75,38 @@ std::vector<Assertion> readAssertions(const Options& options) {
 }
 
 // One line for each assertion that fails. Returns the program's exit code.
-int judgeAll(const std::vector<Assertion>& assertions, const program::Json& report,
+int judgeAll(const std::vector<Assertion>& assertions, const std::vector<program::Json>& tools,
              const std::string& junit) {
   std::vector<Outcome> outcomes;
-  for (const Assertion& assertion : assertions) outcomes.push_back(judge(assertion, report));
-  if (!junit.empty()) program::writeFile(junit, junitOf(outcomes, report["seconds"].get<double>()));
+  for (const Assertion& assertion : assertions) outcomes.push_back(judgeEach(assertion, tools));
+  if (!junit.empty()) program::writeFile(junit, junitOf(outcomes, tools.front()["seconds"].get<double>()));
   for (const Outcome& outcome : outcomes)
     if (!outcome.held) std::cerr << "palpate-latency: " << failureLine(outcome) << '\n';
   const bool all = std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& one) { return one.held; });
   return all ? 0 : program::kNotHeld;
+}
+
+struct Told {
+  std::string text;
+  std::vector<program::Json> reports;
+  std::vector<TaggedTimes> times;
+  std::vector<std::pair<std::uint32_t, const LatencyLog*>> logs;
+};
+
+Told toldOf(const std::vector<std::unique_ptr<ToolMeasurement>>& tools, const dds::ServerStatus& server) {
+  Told told;
+  for (const auto& tool : tools) {
+    const std::string id = std::to_string(tool->tool_id);
+    if (tools.size() > 1) told.text += (told.text.empty() ? "tool " : "\ntool ") + id + '\n';
+    told.text += textOf(tool->log, tool->sender, server);
+    program::Json report{{"tool_id", tool->tool_id}};
+    for (const auto& [key, value] : jsonOf(tool->log, tool->sender, server).members()) report[key] = value;
+    told.reports.push_back(std::move(report));
+    for (const auto& times : taggedTimesOf(tool->log, tools.size() > 1 ? "_tool" + id : ""))
+      told.times.push_back(times);
+    told.logs.emplace_back(tool->tool_id, &tool->log);
+  }
+  return told;
 }
 
 int body(int argc, char** argv) {
@@ -91,6 +122,9 @@ int body(int argc, char** argv) {
       "latency.xml");
   if (!line.read(argc, argv)) return program::kDone;
   const std::vector<Assertion> assertions = readAssertions(options);
+  if (options.measure.tool_id + static_cast<std::uint32_t>(options.tools) > 4)
+    throw program::UsageError("--tools " + std::to_string(options.tools) + " with --tool " +
+                              std::to_string(options.measure.tool_id) + ": ids end at 3");
   program::checkOutput("--plot", options.plot);
   program::checkOutput("--hdr", options.hdr);
   program::checkOutput("--junit", options.junit);
@@ -101,33 +135,31 @@ int body(int argc, char** argv) {
   const dds::Participant participant(options.domain);
   client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
   const client::StatusBoard statuses(participant);
-  const client::Spot spot =
-      client::chooseSpot(server.surface, report::askedPlace(server.surface, "--at", options.at));
-  options.measure.server = runOf(server);
-  options.measure.tip_radius = server.status.tip_radius[options.measure.tool_id];
+  const std::vector<client::Spot> spots =
+      spotsApart(server.surface,
+                 client::chooseSpot(server.surface, report::askedPlace(server.surface, "--at", options.at)),
+                 static_cast<std::size_t>(options.tools));
 
   // 3. Measure.
   const Interval interval{std::chrono::duration_cast<std::chrono::milliseconds>(
                               std::chrono::system_clock::now().time_since_epoch())
                               .count(),
                           options.measure.seconds};
-  LatencyLog log(static_cast<std::int64_t>(1e9 / options.measure.rate_hz));
-  const SenderStats sender = measure(participant, spot, options.measure, log);
-  if (!sender.realtime) std::cerr << client::kNotRealtime;
-  if (log.received() == 0)
-    throw client::ClientError("no force came back for " + std::to_string(sender.sent) + " poses");
-
   const dds::LateTicks late_before = server.status.late;
+  const auto tools = measureTogether(participant, server, spots, options.measure);
+  const bool realtime =
+      std::all_of(tools.begin(), tools.end(), [](const auto& tool) { return tool->sender.realtime; });
+  if (!realtime) std::cerr << client::kNotRealtime;
   server.status = statuses.find(runOf(server)).value_or(server.status);
   server.status.late = report::lateSince(late_before, server.status.late);
 
   // 4. Tell.
-  (options.json ? std::cerr : std::cout) << textOf(log, sender, server.status) << std::flush;
-  const program::Json report = jsonOf(log, sender, server.status);
-  if (options.json) program::printJson(report);
-  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(log));
-  if (!options.hdr.empty()) program::writeFile(options.hdr, hdrLogOf(taggedTimesOf(log), interval));
-  return judgeAll(assertions, report, options.junit);
+  const Told told = toldOf(tools, server.status);
+  (options.json ? std::cerr : std::cout) << told.text << std::flush;
+  if (options.json) program::printJson(worstOf(told.reports));
+  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(told.logs));
+  if (!options.hdr.empty()) program::writeFile(options.hdr, hdrLogOf(told.times, interval));
+  return judgeAll(assertions, told.reports, options.junit);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct SenderStats {
 /// Presses the organ gently at `spot` and slides there, because a tick has less to do without contact, and fills `log`. The
 /// approach before and the retreat after, about one second each, are not measured.
 /// @throw client::ClientError  no server takes poses
+/// Threads: one for each tool.
 [[nodiscard]] SenderStats measure(const dds::Participant& participant, const client::Spot& spot,
                                   const MeasureOptions& options, LatencyLog& log);
 

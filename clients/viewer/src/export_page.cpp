@@ -109,14 +109,19 @@ void copyAll(const fs::path& page, const fs::path& folder, const fs::path& model
 
 }  // namespace
 
-Exported exportPage(const fs::path& page, const fs::path& folder, const fs::path& model) {
+void checkFolders(const fs::path& page, const fs::path& folder) {
   const fs::path from = PageFiles(page).folder();
   checkCore(from);
-  if (!model.empty()) checkModel(model, from);
   if (folder.empty()) throw client::ClientError("--export names no folder");
   if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder)))
     throw client::ClientError("--export " + folder.string() + " is not an empty folder");
   checkOutside(from, folder);
+}
+
+Exported exportPage(const fs::path& page, const fs::path& folder, const fs::path& model) {
+  checkFolders(page, folder);
+  const fs::path from = PageFiles(page).folder();
+  if (!model.empty()) checkModel(model, from);
   const fs::path made = outermostNew(folder);
   try {
     copyAll(from, folder, model);

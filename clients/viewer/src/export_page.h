@@ -13,6 +13,9 @@ struct Exported {
   std::uintmax_t bytes{0};
 };
 
+/// Before anything is written. @throw client::ClientError  the page is not there or not whole, or `folder` is in use or inside it
+void checkFolders(const std::filesystem::path& page, const std::filesystem::path& folder);
+
 /// Writes the page as files that any web server can serve: the page, core as WebAssembly, and a model, which index.html
 /// names. The page itself checks the model; here only its signature is.
 /// @param[in] page    folder of the built page

@@ -71,7 +71,7 @@ void addOptions(program::Options line, Options& options) {
 std::string tokenFrom(const std::string& path) {
   std::ifstream file(path);
   std::string token;
-  if (!std::getline(file, token)) throw client::ClientError("cannot read a token from " + path);
+  if (!std::getline(file, token)) throw program::UsageError("--token-file: cannot read a token from " + path);
   return token;
 }
 
@@ -123,13 +123,15 @@ int body(int argc, char** argv) {
   if (!line.read(argc, argv)) return program::kDone;
   if (!options.export_folder && !options.model.empty())
     throw program::UsageError("--model is for --export: a server has its own model");
-  if (options.export_folder) program::checkOutputFolder("--export", *options.export_folder);
   options.web.page = options.page.empty() ? defaultPageFolder() : std::filesystem::path(options.page);
   if (options.export_folder) {
+    program::checkOutputFolder("--export", *options.export_folder);
+    program::orUsageError([&] { checkFolders(options.web.page, *options.export_folder); });
     writePage(options);
     return 0;
   }
   if (!options.token_file.empty()) options.web.access.token = tokenFrom(options.token_file);
+  program::orUsageError([&] { check(options.web); });
   spdlog::set_default_logger(spdlog::stderr_color_mt("palpate-viewer"));
   client::catchStopSignals();
   std::signal(SIGPIPE, SIG_IGN);

@@ -50,14 +50,18 @@ void useTls(const TlsFiles& files, lws_context_creation_info& info) {
 
 }  // namespace
 
+void check(const WebOptions& options) {
+  (void)PageFiles(options.page);
+  check(options.access);
+  check(options.tls);
+}
+
 struct WebServer::Connection {  // lws gives zeroed memory
   Page* page;
 };
 
 WebServer::WebServer(const WebOptions& options) : options_(options), files_(options.page) {
   options_.access.tls = options_.tls.given();
-  check(options_.access);
-  check(options_.tls);
   lws_set_log_level(LLL_ERR, &logLine);
   listen();
 }

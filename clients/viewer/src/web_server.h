@@ -29,10 +29,15 @@ struct WebOptions {
   double rate_hz{60.0};        ///< most frames per second to a page
 };
 
+/// Whether a server can begin with them, but for the address, which only binding tries.
+/// @throw client::ClientError  the page is missing, who may connect is not said right, or TLS' files cannot be used
+void check(const WebOptions& options);
+
 /// Serves the page's files, /login and its WebSocket at /ws, on the thread that calls run(). Door judges requests; pages
 /// beyond max_pages get 503.
 class WebServer {
  public:
+  /// @param[in] options  that check() takes
   /// @throw client::ClientError  the page is missing, or the address cannot be bound
   explicit WebServer(const WebOptions& options);
   ~WebServer();

@@ -105,7 +105,7 @@ int body(int argc, char** argv) {
   Options options;
   addOptions(line.options(), options);
   if (!line.read(argc, argv)) return program::kDone;
-  if (!options.vtk.empty()) program::orUsageError([&] { report::checkSurfacePath(options.vtk); });
+  if (!options.vtk.empty()) program::orUsageError([&] { report::checkSurfacePath(options.vtk); }, "--vtk: ");
   program::checkOutput("--vtk", options.vtk);
   client::catchStopSignals();
 

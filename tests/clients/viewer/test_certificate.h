@@ -20,7 +20,7 @@ class TestCertificate {
   TemporaryFolder folder_;
 };
 
-/// Sends a request over TLS to this machine, whoever signed its certificate.
+/// Sends a request over TLS to this machine, no matter who signed its certificate.
 /// @param[in] newest  TLS version, e.g. 0x0303 for 1.2; 0: any
 /// @return what comes within a second, until `enough` characters; empty when there is no handshake
 [[nodiscard]] std::string tlsExchange(std::uint16_t port, const std::string& request, int newest = 0,

@@ -150,14 +150,42 @@ TEST_F(ViewerEndToEnd, EndsWithCodeZeroWhenAsked) {
 TEST(ViewerProgram, SaysWhyItDoesNotStart) {
   const auto open =
       runProgram("palpate-viewer", {"--listen", "0.0.0.0", "--port", "0", "--page", "/nowhere"});
-  EXPECT_EQ(open.exit_code, 1);
+  EXPECT_EQ(open.exit_code, 2);
   EXPECT_NE(open.err.find("index.html"), std::string::npos) << open.err;
   const TemporaryFolder page;
   page.write("index.html", "x");
   const auto without =
       runProgram("palpate-viewer", {"--listen", "0.0.0.0", "--port", "0", "--page", page.path().string()});
-  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_EQ(without.exit_code, 2);
   EXPECT_NE(without.err.find("--token-file"), std::string::npos) << without.err;
+}
+
+TEST(ViewerProgram, ASettingThatCannotBeUsedIsTheCommandLinesFault) {
+  const TemporaryFolder page;
+  page.write("index.html", "x");
+  const std::string short_token = page.write("token", "short").string();
+  const auto expect = [&](const std::vector<std::string>& words, const std::string& part) {
+    std::vector<std::string> arguments{"--port", "0", "--page", page.path().string()};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    const auto result = runProgram("palpate-viewer", arguments);
+    EXPECT_EQ(result.exit_code, 2) << part;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+  };
+  expect({"--token-file", "/nowhere/token"}, "--token-file: cannot read a token from /nowhere/token");
+  expect({"--token-file", short_token}, "the token has 5 characters");
+  expect({"--origin", "viewer"}, "--origin is 'viewer'");
+  expect({"--listen", "localhost"}, "--listen is 'localhost'");
+  expect({"--export", page.path().string()}, "core/palpate_core.mjs");
+}
+
+TEST_F(ViewerEndToEnd, APortThatIsTakenIsAFailure) {
+  startViewer();
+  const TemporaryFolder page;
+  page.write("index.html", "x");
+  const auto second = runProgram("palpate-viewer",
+                                 {"--port", std::to_string(viewer_->port()), "--page", page.path().string()});
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_NE(second.err.find("is the port in use"), std::string::npos) << second.err;
 }
 
 }  // namespace

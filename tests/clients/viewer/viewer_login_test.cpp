@@ -161,7 +161,7 @@ TEST(ViewerProgram, NamesTheTlsFileThatIsWrong) {
   const auto result =
       runProgram("palpate-viewer", {"--port", "0", "--page", page.path().string(), "--tls-cert",
                                     "/nowhere/cert.pem", "--tls-key", "/nowhere/key.pem"});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("/nowhere/cert.pem"), std::string::npos) << result.err;
 }
 

@@ -46,7 +46,7 @@ TEST(FillSurface, MakesAFineSurfaceCoarser) {
 }
 
 // Interior elements of a large cube grow; its surface is the same.
-TEST(FillSurface, GrowsInsideWhetherTheSurfaceIsKeptOrMadeAnew) {
+TEST(FillSurface, GrowsInsideWhetherTheSurfaceIsKeptOrRemeshed) {
   const TetMesh box = makeBox({1, 1, 1}, {11, 11, 11});
   const BoundarySurface boundary = boundaryOf(box);
   TriangleSurface surface;
@@ -68,7 +68,7 @@ TEST(FillSurface, GrowsInsideWhetherTheSurfaceIsKeptOrMadeAnew) {
   }
 }
 
-// Whether the surface is kept or made anew.
+// Whether the surface is kept or remeshed.
 TEST(FillSurface, LeavesCavitiesEmpty) {
   TriangleSurface hollow = cube();
   for (const double shift : {0.1, 0.6}) {

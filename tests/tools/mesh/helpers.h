@@ -9,22 +9,31 @@
 
 #include "palpate/testing/files.h"
 #include "tools/mesh/mesh_error.h"
+#include "tools/mesh/surface_defects.h"
 #include "tools/mesh/tet_mesh.h"
 #include "tools/mesh/triangle_surface.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::mesh::test {
 
 using palpate::testing::contentOf;
 using palpate::testing::TemporaryFolder;
 
-/// The message of the MeshError that `work` throws; empty if it throws none.
+/// The message of the MeshError or UsageError that `work` throws; empty if it throws none.
 inline std::string errorOf(const std::function<void()>& work) {
   try {
     work();
   } catch (const MeshError& error) {
     return error.what();
+  } catch (const program::UsageError& error) {
+    return error.what();
   }
   return {};
+}
+
+/// @throw MeshError naming what keeps a surface from bounding solids
+inline void checkSurface(const TriangleSurface& surface) {
+  if (const auto defects = surfaceDefects(surface); !defects.empty()) throw MeshError(inWords(defects));
 }
 
 /// Appends a number byte by byte, in big-endian order if asked.

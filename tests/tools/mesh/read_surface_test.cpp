@@ -98,6 +98,24 @@ TEST(ReadObj, FansPolygonsAndSkipsTheRest) {
   EXPECT_NO_THROW(checkSurface(surface));
 }
 
+TEST(ReadObj, KeepsGroupsAndMaterialsOfTrianglesAsGroups) {
+  const TriangleSurface surface = readText("a.obj",
+                                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\n"
+                                           "f 1 2 3\n"
+                                           "g left rim\nusemtl skin\nf 1 2 3 4\n"
+                                           "usemtl rim\r\nf 2 3 4\n"
+                                           "g\nf 3 4 5\n"
+                                           "g nothing\n");
+  using Triangles = std::vector<std::int32_t>;
+  const std::map<std::string, Triangles> expected{
+      {"left", {1, 2, 3}}, {"rim", {1, 2, 3, 4}}, {"skin", {1, 2}}};
+  EXPECT_EQ(surface.groups, expected);
+  EXPECT_EQ(readText("a.obj", kObjCube).groups.at("sides").size(), 12U);
+  std::string many = "v 0 0 0\ng";
+  for (int i = 0; i < 17; ++i) many += " g" + std::to_string(i);
+  EXPECT_REFUSED(readText("a.obj", many + "\n"), "line 2", "face 1 is in 17 groups, expected at most 16");
+}
+
 TEST(ReadObj, RefusesDamage) {
   EXPECT_REFUSED(readText("a.obj", "v 0 0\n"), "line 1", "vertex 1");
   EXPECT_REFUSED(readText("a.obj", "v 0 0 0\nf 1 1 2\n"), "line 2", "face 1 refers to vertex 2");

@@ -102,7 +102,30 @@ TEST(CheckSurface, RefusesTwoConesJoinedAtTheirTips) {
   for (auto& t : surface.triangles) {
     for (auto& v : t) v = v == 8 ? 7 : v;  // the second cube's first corner is the first one's last
   }
-  EXPECT_REFUSED(checkSurface(surface), "vertex 8 joins several fans", "at (1 1 1) m");
+  EXPECT_REFUSED(checkSurface(surface),
+                 "1 vertex joins several fans of triangles, at (1 1 1) m (triangles 3 and ");
+}
+
+TEST(CheckSurface, ListsAllVerticesOfSeveralFansBesideOtherDefects) {
+  TriangleSurface surface = cube();
+  for (int i = 1; i < 6; ++i) add(surface, cube(), {1.0 * i, 1.0 * i, 1.0 * i}, 1);
+  for (auto& t : surface.triangles)  // each cube's first corner is the last of the one before
+    for (auto& v : t) v = v % 8 == 0 && v > 0 ? v - 1 : v;
+  EXPECT_REFUSED(checkSurface(surface), "5 vertices join several fans of triangles, at (1 1 1) m",
+                 ", at (2 2 2) m", "(3 3 3) m", ", ...");
+  surface.triangles.pop_back();
+  EXPECT_REFUSED(checkSurface(surface), "1 hole", "5 vertices join several fans of triangles");
+}
+
+TEST(CheckSurface, AHoleATwinAndAFlatTriangleMakeNoFans) {
+  TriangleSurface surface = cube();
+  surface.triangles.pop_back();
+  surface.triangles.push_back(surface.triangles.front());
+  surface.vertices[7] = surface.vertices[6];
+  surface.triangle_tags.push_back(13);
+  const auto defects = surfaceDefects(surface);
+  EXPECT_GE(defects.size(), 3U);
+  EXPECT_EQ(inWords(defects).find("fans"), std::string::npos) << inWords(defects);
 }
 
 TEST(CheckSurface, RefusesACornerPushedThroughTheOppositeFace) {
@@ -182,6 +205,24 @@ TEST(SegmentMeetsTriangle, AlsoInItsPlane) {
   EXPECT_FALSE(segmentMeetsTriangle({-1, 1.2, 0}, {2, 1.2, 0}, triangle, 1e-9));
   EXPECT_FALSE(segmentMeetsTriangle({0.2, 0.2, 0.1}, {0.2, 0.2, 1}, triangle, 1e-9));
   EXPECT_TRUE(segmentMeetsTriangle({0.2, 0.2, -1}, {0.2, 0.2, 1}, triangle, 1e-9));
+}
+
+// Each triangle of a fan crosses each of another that lies across it.
+TEST(SelfIntersections, AreSoughtUpToANumber) {
+  TriangleSurface surface;
+  for (const bool across : {false, true})
+    for (int i = 0; i < 40; ++i) {
+      const double at = 0.01 * i;
+      const auto first = static_cast<std::int32_t>(surface.vertices.size());
+      for (const Eigen::Vector3d& x :
+           {Eigen::Vector3d(-1, at, -1), Eigen::Vector3d(2, at, -1), Eigen::Vector3d(0.5, at, 3)})
+        surface.vertices.push_back(across ? Eigen::Vector3d(x.y(), x.x(), x.z()) : x);
+      surface.triangles.push_back({first, first + 1, first + 2});
+    }
+  EXPECT_EQ(selfIntersections(surface).size(), 1600U);
+  const auto some = selfIntersections(surface, 100);
+  EXPECT_GE(some.size(), 100U);
+  EXPECT_LE(some.size(), 140U);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(LengthUnit, SuspectsNoUnitOfAPlaceThatIsOffInAll) {
   EXPECT_EQ(
       refusal({"--at", {0.0, 0.0, 0.2}, lengthUnit("m"), true}),
       "--at 0,0,0.2 m lies 150 mm from the organ's surface, expected at most 6 mm, the radius of the contact "
-      "patch; in centimetres it would lie inside the organ, 48 mm from its surface");
+      "patch");
   EXPECT_EQ(refusal({"--at", {0.0, 0.0, 900.0}, lengthUnit("m"), true}).find("; in"), std::string::npos);
 }
 

@@ -76,7 +76,7 @@ int run(const Options& options, double seconds) {
   }
   // 3. Measure.
   benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return program::kDone;
 }
 
 int body(int argc, char** argv) {
@@ -99,7 +99,7 @@ int body(int argc, char** argv) {
   add.example("palpate-bench liver.h5 --benchmark_filter=step");
   const double seconds = leastSeconds(argc, argv);
   benchmark::Initialize(&argc, argv);  // takes its own options out
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   return run(options, seconds);
 }
 

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tools/program/exit_code.h"
+
 namespace palpate::bench {
 
 int pinTo(int cpu) {
@@ -22,12 +24,12 @@ int pinTo(int cpu) {
     CPU_ZERO(&set);
   }
   if (cpu >= CPU_SETSIZE)
-    throw std::runtime_error("--cpu is " + std::to_string(cpu) + ", expected at most " +
-                             std::to_string(CPU_SETSIZE - 1));
+    throw program::UsageError("--cpu is " + std::to_string(cpu) + ", expected at most " +
+                              std::to_string(CPU_SETSIZE - 1));
   CPU_SET(cpu, &set);
   if (sched_setaffinity(0, sizeof set, &set) != 0)
-    throw std::runtime_error("--cpu is " + std::to_string(cpu) + ", where this process may not run (" +
-                             std::strerror(errno) + ")");
+    throw program::UsageError("--cpu is " + std::to_string(cpu) + ", where this process may not run (" +
+                              std::strerror(errno) + ")");
   return cpu;
 }
 

@@ -80,19 +80,20 @@ void checkKind(const MetaModel& model, const std::string& path) {
 }
 
 Drawing drawingOf(const MetaModel& model, const Options& options) {
-  if (options.seed && *options.seed < 0)
-    throw program::UsageError("--seed is " + std::to_string(*options.seed) + ", expected 0 or more");
   const Travel travel = travelOf(model.attributes(), options.travel);
   return {travel,
           {travel.length, options.length, options.inward},
           options.seed ? static_cast<std::uint64_t>(*options.seed) : seedOf(model)};
 }
 
-/// Before the hours that an examination may take. @throw program::UsageError, program::WriteError
-void checkFiles(const Options& options) {
+/// Before the hours that an examination may take. @throw program::UsageError
+void checkOptions(const Options& options) {
+  if (options.seed && *options.seed < 0)
+    throw program::UsageError("--seed is " + std::to_string(*options.seed) + ", expected 0 or more");
+  if (options.modulus_error && options.report.empty())
+    throw program::UsageError("--youngs-modulus-error goes with --report: it is a band on its force curves");
   if (!options.plot.empty() && program::isSameFile(options.plot, options.model))
     throw program::UsageError("--plot is the model itself, " + options.plot + ": expected another file");
-  if (options.mayWrite()) program::checkWritable(std::filesystem::canonical(options.model));
   program::checkOutput("--plot", options.plot);
 }
 
@@ -125,8 +126,6 @@ std::string writtenText(const Options& options, const std::string& reason) {
 
 /// Nothing where none is asked for. @throw program::WriteError, CertifyError
 std::optional<ReportFolder> reportFolderOf(const Options& options) {
-  if (options.modulus_error && options.report.empty())
-    throw program::UsageError("--youngs-modulus-error goes with --report: it is a band on its force curves");
   if (options.report.empty()) return {};
   return ReportFolder(options.report);
 }
@@ -155,10 +154,11 @@ program::Json answerOf(program::Json answer, const Options& options, const MetaM
 void examineModel(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   // 1. The model, and the organ that it was made from.
+  checkOptions(options);
   const MetaModel model = MetaModel::load(options.model);
   checkKind(model, options.model);
   const query::Organ organ = query::organOf(model, modelfile::readVolumeMesh(options.model));
-  checkFiles(options);
+  if (options.mayWrite()) program::checkWritable(std::filesystem::canonical(options.model));
   const std::optional<ReportFolder> report = reportFolderOf(options);
   // 2. Touches that no fit has seen, each beside its full solution.
   const Drawing drawing = drawingOf(model, options);

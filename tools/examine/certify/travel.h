@@ -18,7 +18,7 @@ struct Travel {
 inline constexpr double kShortestTravel = 1e-9, kLongestTravel = 0.1;
 
 /// @param asked  of the command line, m; else the travel of the model's provenance, else 7 mm where E < 50 kPa and 5 mm elsewhere
-/// @throw CertifyError  the provenance has a travel that is no number in that range
+/// @throw CertifyError  the provenance has a travel that is not a number in that range
 [[nodiscard]] Travel travelOf(const ModelAttributes& attributes, std::optional<double> asked);
 
 }  // namespace palpate::certify

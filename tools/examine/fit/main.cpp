@@ -129,8 +129,10 @@ void report(const Findings& found, const Options& options, const std::string& wr
   std::cout << json.dump(2, program::Keys::kAsWritten) << '\n';
 }
 
-/// @throw FitError
+/// @throw FitError, program::ValueError
 void checkNumbers(const Options& options) {
+  if (!options.node) (void)program::parseVector("--at", options.at);
+  if (!options.direction.empty()) (void)program::parseVector("--direction", options.direction);
   if (options.deepest && !std::isfinite(*options.deepest))
     throw FitError("--deepest is " + std::to_string(*options.deepest) + ", expected a finite depth in m");
 }

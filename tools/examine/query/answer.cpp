@@ -8,7 +8,7 @@
 
 #include "core/response/patch_response.h"
 #include "core/surface/surface_mesh.h"
-#include "tools/examine/query/query_error.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::query {
 
@@ -30,7 +30,7 @@ int nearestNode(const MetaModel& model, const Vec3& x) {
   return nearest;
 }
 
-/// The surface node of that number. @throw QueryError
+/// The surface node of that number. @throw program::UsageError
 int surfaceNode(const MetaModel& model, std::int64_t number) {
   const ModelView& view = model.view();
   const auto& tags = view.surface_mesh_tag;
@@ -38,7 +38,7 @@ int surfaceNode(const MetaModel& model, std::int64_t number) {
   if (found != tags.end()) return static_cast<int>(found - tags.begin());
   const bool inside =
       std::find(view.mesh_node_tag.begin(), view.mesh_node_tag.end(), number) != view.mesh_node_tag.end();
-  throw QueryError(
+  throw program::UsageError(
       "node " + std::to_string(number) +
       (inside ? " lies inside the organ, expected one on its surface"
               : " is not in the mesh, which has " + std::to_string(view.mesh_node_tag.size()) + " nodes"));
@@ -74,8 +74,8 @@ const char* optionOf(Parameters parameters) {
 Anchor anchorAtNode(const MetaModel& model, std::int64_t number) {
   const int node = surfaceNode(model, number);
   if (model.view().position_of_node[static_cast<std::size_t>(node)] < 0)
-    throw QueryError("node " + std::to_string(number) +
-                     " has no contact position: it is clamped or not accessible");
+    throw program::UsageError("node " + std::to_string(number) +
+                              " has no contact position: it is clamped or not accessible");
   return {touchableAt(model, node), nodePosition(model, node), node, {}};
 }
 
@@ -88,9 +88,9 @@ void checkQuestion(const MetaModel& model, const Question& question) {
   const Parameters kind = model.attributes().parameters;
   if (question.prescribed == Parameters::kDisplacement || question.prescribed == kind) return;
   const std::string asked = optionOf(question.prescribed), own = optionOf(kind);
-  throw QueryError(asked + " asks a model driven by " + std::string(toString(question.prescribed)) +
-                   ", this one is driven by " + std::string(toString(kind)) + ": use " +
-                   (kind == Parameters::kDisplacement ? own : own + " or --displacement"));
+  throw program::UsageError(asked + " asks a model driven by " + std::string(toString(question.prescribed)) +
+                            ", this one is driven by " + std::string(toString(kind)) + ": use " +
+                            (kind == Parameters::kDisplacement ? own : own + " or --displacement"));
 }
 
 Vec3 forceOf(const MetaModel& model, const Question& question) {

@@ -35,14 +35,14 @@ struct Answer {
 };
 
 /// s on a node. @param number  the node's number in the mesh file
-/// @throw QueryError naming the node, when it is not on the surface or has no contact position
+/// @throw program::UsageError naming the node, when it is not on the surface or has no contact position
 [[nodiscard]] Anchor anchorAtNode(const MetaModel& model, std::int64_t number);
 
 /// s as the nearest point of the rest surface. @param c  m, finite
 [[nodiscard]] Anchor anchorNear(const MetaModel& model, const Vec3& c);
 
 /// Whether this kind of model has an answer: to a displacement every kind, to a force and to a load level only
-/// the model that is driven by it. @throw QueryError naming the option, the kind and what to use instead
+/// the model that is driven by it. @throw program::UsageError naming the option, the kind and what to use instead
 void checkQuestion(const MetaModel& model, const Question& question);
 
 /// The force of the tool that a prescribed load stands for, N, not clamped. @param question  no displacement

@@ -3,7 +3,6 @@
 
 #include <charconv>
 
-#include "tools/examine/query/query_error.h"
 #include "tools/program/numbers.h"
 
 namespace palpate::query {
@@ -15,8 +14,8 @@ NodeAndVector parseNodeAndVector(const std::string& option, const std::string& t
   const bool node = failure == std::errc() && colon != end && *colon == ':';
   const auto vector = node ? program::readVector({colon + 1, end}) : std::nullopt;
   if (!vector)
-    throw QueryError(option + " is '" + text +
-                     "', expected a node's number and three finite numbers, NODE:x,y,z");
+    throw program::ValueError(option + " is '" + text +
+                              "', expected a node's number and three finite numbers, NODE:x,y,z");
   parsed.vector = Vec3((*vector)[0], (*vector)[1], (*vector)[2]);
   return parsed;
 }

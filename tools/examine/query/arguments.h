@@ -14,7 +14,7 @@ struct NodeAndVector {
   Vec3 vector = Vec3::Zero();
 };
 
-/// "1204:x,y,z" as that and nothing else. @param option  for the message  @throw QueryError naming option and text
+/// "1204:x,y,z" as that and nothing else. @param option  for the message  @throw program::ValueError naming option and text
 [[nodiscard]] NodeAndVector parseNodeAndVector(const std::string& option, const std::string& text);
 
 }  // namespace palpate::query

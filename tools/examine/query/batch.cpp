@@ -6,6 +6,8 @@
 
 #include "core/base/length.h"
 #include "tools/examine/query/place.h"
+#include "tools/examine/query/query_error.h"
+#include "tools/program/numbers.h"
 
 namespace palpate::query {
 
@@ -43,6 +45,16 @@ std::string lineOf(const BatchAnswer& one) {
   return line.ended();
 }
 
+BatchAnswer answerTo(const MetaModel& model, const TouchRow& touch) {
+  try {
+    const Anchor anchor = anchorOf(model, touch.at);
+    const Vec3 d = displacementOf(model, touch.displacement);
+    return {touch, anchor, d, askForce(model, anchor.s, {Parameters::kDisplacement, d})};
+  } catch (const program::ValueError& error) {  // the fault of a file, not of the command line
+    throw QueryError(error.what());
+  }
+}
+
 }  // namespace
 
 bool BatchAnswer::clamped() const {
@@ -53,11 +65,7 @@ bool BatchAnswer::clamped() const {
 
 std::vector<BatchAnswer> answersTo(const MetaModel& model, std::span<const TouchRow> touches) {
   std::vector<BatchAnswer> answers;
-  for (const TouchRow& touch : touches) {
-    const Anchor anchor = anchorOf(model, touch.at);
-    const Vec3 d = displacementOf(model, touch.displacement);
-    answers.push_back({touch, anchor, d, askForce(model, anchor.s, {Parameters::kDisplacement, d})});
-  }
+  for (const TouchRow& touch : touches) answers.push_back(answerTo(model, touch));
   return answers;
 }
 

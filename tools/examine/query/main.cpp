@@ -14,11 +14,11 @@
 #include <span>
 
 #include "core/data/model_view.h"
+#include "tools/examine/query/arguments.h"
 #include "tools/examine/query/batch.h"
 #include "tools/examine/query/ccx_deck.h"
 #include "tools/examine/query/field_file.h"
 #include "tools/examine/query/place.h"
-#include "tools/examine/query/query_error.h"
 #include "tools/examine/query/report.h"
 #include "tools/examine/query/report_together.h"
 #include "tools/program/command_line.h"
@@ -54,7 +54,8 @@ void describe(program::Options line, Options& options) {
   program::Options what = line.atMostOneOf("what");
   what.add("--displacement", &options.displacement, "displacement dx,dy,dz of the contact patch");
   what.add("--force", &options.force, "force fx,fy,fz of the tool, N (models driven by force)");
-  what.add("--load-level", &options.level, "part of the model's load, 0 to 1 (models driven by level)")
+  what.add("--load-level", &options.level,
+           "share of the model's load (models driven by level; leave out for others)")
       .range(0.0, 1.0);
   line.add("--tool2", &options.more_tools,
            "another tool at the same time: NODE:dx,dy,dz; goes with --displacement, may be repeated")
@@ -87,10 +88,10 @@ query::Anchor anchorOf(const MetaModel& model, const Options& options) {
 
 query::Question questionOf(const Options& options) {
   if (options.level && std::isnan(*options.level))
-    throw query::QueryError("--load-level is nan, expected 0 to 1");
+    throw program::ValueError("--load-level is nan, expected 0 to 1");
   if (options.level) return {Parameters::kLevel, {*options.level, 0.0, 0.0}};
   if (options.force) return {Parameters::kForce, vectorOf("--force", *options.force)};
-  if (!options.displacement) throw query::QueryError("--displacement or --force is empty, expected x,y,z");
+  if (!options.displacement) throw program::ValueError("--displacement or --force is empty, expected x,y,z");
   return {Parameters::kDisplacement, vectorOf("--displacement", *options.displacement)};
 }
 
@@ -122,13 +123,10 @@ std::string about(const Options& options) {
 std::vector<query::Touch> touchesOf(const MetaModel& model, const Options& options,
                                     const query::Anchor& anchor, const query::Question& question) {
   if (options.more_tools.empty()) return {};
-  if (question.prescribed != Parameters::kDisplacement)
-    throw query::QueryError(
-        "--tool2 moves tools by displacements, expected --displacement for the first one too");
-  if (!options.deck.empty()) throw query::QueryError("--ccx writes a deck of one tool, expected no --tool2");
   std::vector<query::Touch> touches{{anchor, question.value}};
   for (const std::string& text : options.more_tools) {
-    query::Touch touch = query::parseTouch(model, "--tool2", text);
+    query::Touch touch;
+    program::orUsageError([&] { touch = query::parseTouch(model, "--tool2", text); });
     touch.d = query::displacementOf(model, asked("--tool2", {touch.d[0], touch.d[1], touch.d[2]}, options));
     touches.push_back(touch);
   }
@@ -178,6 +176,17 @@ void reportTogether(const Options& options, const query::Findings& first,
   std::cout << json.dump(2, program::Keys::kAsWritten) << '\n';
 }
 
+/// @throw program::UsageError where --tool2 does not read, or does not go with the other options
+void checkMoreTools(const Options& options) {
+  if (options.more_tools.empty()) return;
+  for (const std::string& text : options.more_tools) (void)query::parseNodeAndVector("--tool2", text);
+  if (!options.displacement)
+    throw program::UsageError(
+        "--tool2 moves tools by displacements, expected --displacement for the first one too");
+  if (!options.deck.empty())
+    throw program::UsageError("--ccx writes a deck of one tool, expected no --tool2");
+}
+
 /// @throw program::UsageError where options do not go together
 void checkOptions(const Options& options) {
   program::checkOutput("--field", options.field);
@@ -187,7 +196,8 @@ void checkOptions(const Options& options) {
     if (!what)
       throw program::UsageError("one of --displacement,--force,--load-level is required, or --batch");
     if (!options.output.empty()) throw program::UsageError("-o goes with --batch");
-    return;
+    if (!options.node) (void)program::parseVector("--at", options.at);
+    return checkMoreTools(options);
   }
   if (what || options.newton || options.json || !options.more_tools.empty() || !options.deck.empty() ||
       !options.field.empty())
@@ -252,9 +262,9 @@ int body(int argc, char** argv) {
       "displacement that the answer belongs to; clamped says whether it is shorter than what was asked for.\n"
       "A line that cannot be read or lies off the organ is named, and nothing is written.\n\n"
       "Example: palpate-query liver.h5 --at 20,0,60 --displacement 0,0,-2 --unit mm --newton");
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   run(options);
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

@@ -51,10 +51,12 @@ std::string suspicion(const MetaModel& model, const program::AskedPlace& asked) 
 }  // namespace
 
 Anchor anchorOf(const MetaModel& model, const program::AskedPlace& place) {
+  const program::Point asked = place.inMetres();
+  const Anchor anchor = anchorNear(model, vectorOf(asked));
   program::checkNear(place, contactRadius(model), [&](const program::Point& x) {
-    return model.surface().closestPoint(vectorOf(x)).signed_distance;
+    return x == asked ? *anchor.distance : model.surface().closestPoint(vectorOf(x)).signed_distance;
   });
-  return anchorNear(model, vectorOf(place.inMetres()));
+  return anchor;
 }
 
 double longestDisplacement(const MetaModel& model) {

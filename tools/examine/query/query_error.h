@@ -5,7 +5,7 @@
 
 namespace palpate::query {
 
-/// A question that has no answer, or a file that cannot be written. what() is one line that names it.
+/// A question that has no answer, a table that cannot be read, or a file that cannot be written. what() is one line that names it.
 class QueryError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -7,7 +7,7 @@
 #include "core/response/tool_coupling.h"
 #include "core/tick/workspace.h"
 #include "tools/examine/query/arguments.h"
-#include "tools/examine/query/query_error.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::query {
 
@@ -63,17 +63,18 @@ Touch parseTouch(const MetaModel& model, const std::string& option, const std::s
 
 void checkTouches(const MetaModel& model, std::span<const Touch> touches) {
   if (touches.size() > kMaxTools)
-    throw QueryError("--tool2 is given " + std::to_string(touches.size() - 1) + " times, expected at most " +
-                     std::to_string(kMaxTools - 1));
+    throw program::UsageError("--tool2 is given " + std::to_string(touches.size() - 1) +
+                              " times, expected at most " + std::to_string(kMaxTools - 1));
   for (std::size_t a = 0; a < touches.size(); ++a) {
     const Vec3& X = touches[a].anchor.position;
     if (!model.surface().accessible(touches[a].anchor.s.triangle))
-      throw QueryError("tool " + std::to_string(a + 1) + " near node " + nodeOf(model, touches[a]) +
-                       " is not at an accessible point: --tool2 needs an answer at each");
+      throw program::UsageError("tool " + std::to_string(a + 1) + " near node " + nodeOf(model, touches[a]) +
+                                " is not at an accessible point: --tool2 needs an answer at each");
     for (std::size_t b = 0; b < a; ++b)
       if (touches[b].anchor.position == X)
-        throw QueryError("tools " + std::to_string(b + 1) + " and " + std::to_string(a + 1) +
-                         " both touch node " + nodeOf(model, touches[a]) + ", expected different places");
+        throw program::UsageError("tools " + std::to_string(b + 1) + " and " + std::to_string(a + 1) +
+                                  " both touch node " + nodeOf(model, touches[a]) +
+                                  ", expected different places");
   }
 }
 

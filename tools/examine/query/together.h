@@ -25,10 +25,10 @@ struct JointAnswer {
 };
 
 /// The tool that --tool2 asks for. @param text  "NODE:dx,dy,dz", the node's number in the mesh file, d in m
-/// @throw QueryError naming option and text, or the node as in anchorAtNode()
+/// @throw program::UsageError naming option and text, or the node as in anchorAtNode()
 [[nodiscard]] Touch parseTouch(const MetaModel& model, const std::string& option, const std::string& text);
 
-/// @throw QueryError naming what is wrong: more than kMaxTools tools, two at one place, one that is not accessible
+/// @throw program::UsageError naming what is wrong: more than kMaxTools tools, two at one place, one that is not accessible
 void checkTouches(const MetaModel& model, std::span<const Touch> touches);
 
 /// f and u of tools that press together, coupled by ownDisplacements(), and superposed without.   docs/design.md, Contact

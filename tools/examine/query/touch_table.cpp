@@ -112,7 +112,7 @@ class TouchReader {
     const auto [end, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (failure != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
       throw QueryError(place() + ", column " + std::string(kTouchColumns[column]) + ": '" +
-                       std::string(cell) + "' is no finite number");
+                       std::string(cell) + "' is not a finite number");
     return value;
   }
 

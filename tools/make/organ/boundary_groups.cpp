@@ -12,11 +12,13 @@
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/surface_solids.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::organ {
 namespace {
 
 using mesh::MeshError;
+using program::UsageError;
 using Nodes = std::vector<std::int32_t>;
 
 std::vector<double> numbers(std::string_view list, const std::string& text) {
@@ -25,7 +27,7 @@ std::vector<double> numbers(std::string_view list, const std::string& text) {
     const char* const end = std::find(at, list.data() + list.size(), ',');
     const auto [stop, error] = std::from_chars(at, end, values.emplace_back());
     if (error != std::errc{} || stop != end || !std::isfinite(values.back())) {
-      throw MeshError("--fixed " + text + ": '" + std::string(at, end) + "' is not a number");
+      throw UsageError("--fixed " + text + ": '" + std::string(at, end) + "' is not a number");
     }
     at = end + 1;
   }
@@ -35,7 +37,7 @@ std::vector<double> numbers(std::string_view list, const std::string& text) {
 FixedRule lowestRule(std::string_view list, const std::string& text) {
   const std::vector<double> values = numbers(list, text);
   if (values.size() != 1 || !(values[0] > 0 && values[0] < 1)) {
-    throw MeshError("--fixed " + text + ": the fraction must be one number between 0 and 1");
+    throw UsageError("--fixed " + text + ": the fraction must be one number between 0 and 1");
   }
   FixedRule rule;
   rule.kind = FixedRule::Kind::kLowestZ;
@@ -46,12 +48,12 @@ FixedRule lowestRule(std::string_view list, const std::string& text) {
 FixedRule boxRule(std::string_view list, const std::string& text) {
   const std::vector<double> v = numbers(list, text);
   if (v.size() != 6)
-    throw MeshError("--fixed " + text + ": a box takes six numbers, not " + std::to_string(v.size()));
+    throw UsageError("--fixed " + text + ": a box takes six numbers, not " + std::to_string(v.size()));
   FixedRule rule;
   rule.kind = FixedRule::Kind::kBox;
   rule.box = Eigen::AlignedBox3d(Eigen::Vector3d(v[0], v[1], v[2]), Eigen::Vector3d(v[3], v[4], v[5]));
   if (rule.box.isEmpty())
-    throw MeshError("--fixed " + text + ": the box's second corner must not be below its first");
+    throw UsageError("--fixed " + text + ": the box's second corner must not be below its first");
   return rule;
 }
 
@@ -67,15 +69,15 @@ FixedRule normalRule(std::string_view list, const std::string& text) {
   constexpr double kDegrees = 30;
   const std::vector<double> v = numbers(list, text);
   if (v.size() != 3 && v.size() != 4)
-    throw MeshError("--fixed " + text + ": a normal takes three numbers, and degrees if wanted, not " +
-                    std::to_string(v.size()));
+    throw UsageError("--fixed " + text + ": a normal takes three numbers, and degrees if wanted, not " +
+                     std::to_string(v.size()));
   const double degrees = v.size() == 4 ? v[3] : kDegrees;
   if (!(degrees > 0 && degrees <= 90))
-    throw MeshError("--fixed " + text + ": the angle must be above 0 and at most 90 degrees");
+    throw UsageError("--fixed " + text + ": the angle must be above 0 and at most 90 degrees");
   FixedRule rule;
   rule.kind = FixedRule::Kind::kNormal;
   rule.normal = Eigen::Vector3d(v[0], v[1], v[2]);
-  if (!(rule.normal.norm() > 0)) throw MeshError("--fixed " + text + ": the normal has no length");
+  if (!(rule.normal.norm() > 0)) throw UsageError("--fixed " + text + ": the normal has no length");
   rule.normal.normalize();
   rule.angle = degrees * std::numbers::pi / 180;
   return rule;
@@ -88,10 +90,7 @@ bool isSide(const std::string& text) {
 Nodes groupNodes(const mesh::TetMesh& mesh, const std::string& name) {
   const auto found = mesh.groups.find(name);
   if (found != mesh.groups.end()) return found->second;
-  std::string known;
-  for (const auto& [group, nodes] : mesh.groups) known += (known.empty() ? "" : ", ") + group;
-  throw MeshError("--fixed group:" + name + ": there is no such group; " +
-                  (known.empty() ? "the file has none" : "the file has " + known));
+  refuseUnknownGroup(name, mesh.groups);
 }
 
 // The outer part of a boundary; the others bound cavities.
@@ -181,7 +180,8 @@ Nodes nodesOf(const mesh::TetMesh& mesh, const OuterSurface& outer, const FixedR
 Nodes accessibleNodes(const mesh::TetMesh& mesh, const Nodes& outer, const Nodes& fixed) {
   Nodes accessible;
   std::set_difference(outer.begin(), outer.end(), fixed.begin(), fixed.end(), std::back_inserter(accessible));
-  if (accessible.empty()) throw MeshError("all " + std::to_string(outer.size()) + " surface nodes are fixed");
+  if (accessible.empty())
+    throw UsageError("--fixed: all " + std::to_string(outer.size()) + " surface nodes are fixed");
   const auto own = mesh.groups.find("accessible");
   if (own == mesh.groups.end()) return accessible;
   Nodes both;
@@ -193,6 +193,14 @@ Nodes accessibleNodes(const mesh::TetMesh& mesh, const Nodes& outer, const Nodes
 }
 
 }  // namespace
+
+void refuseUnknownGroup(const std::string& name,
+                        const std::map<std::string, std::vector<std::int32_t>>& known) {
+  std::string names;
+  for (const auto& [group, members] : known) names += (names.empty() ? "" : ", ") + group;
+  throw UsageError("--fixed group:" + name + ": there is no such group; " +
+                   (names.empty() ? "the file has none" : "the file has " + names));
+}
 
 FixedRule parseFixedRule(const std::string& text) {
   const auto colon = text.find(':');
@@ -211,9 +219,9 @@ FixedRule parseFixedRule(const std::string& text) {
   } else if (kind == "group" && !rest.empty()) {
     rule.group = rest;
   } else {
-    throw MeshError("--fixed " + text +
-                    ": expected group:NAME, lowest-z:FRACTION, box:x0,y0,z0,x1,y1,z1, a side such as -x, or "
-                    "normal:x,y,z[,degrees]");
+    throw UsageError("--fixed " + text +
+                     ": expected group:NAME, lowest-z:FRACTION, box:x0,y0,z0,x1,y1,z1, a side such as -x, or "
+                     "normal:x,y,z[,degrees]");
   }
   rule.text = text;
   return rule;
@@ -228,7 +236,7 @@ Nodes fixedNodes(const mesh::TetMesh& mesh, const mesh::BoundarySurface& boundar
   Nodes fixed;
   for (const FixedRule& rule : rules) {
     const Nodes nodes = nodesOf(mesh, outer, rule);
-    if (nodes.empty() && rules.size() > 1) throw MeshError("--fixed " + rule.text + " holds no node");
+    if (nodes.empty() && rules.size() > 1) throw UsageError("--fixed " + rule.text + " holds no node");
     fixed.insert(fixed.end(), nodes.begin(), nodes.end());
   }
   std::sort(fixed.begin(), fixed.end());
@@ -240,7 +248,8 @@ void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundar
   const Nodes fixed = fixedNodes(mesh, boundary, rules);
   if (!fixed.empty() || !rules.empty()) {
     mesh.groups["fixed"] = fixed;
-    mesh::checkHeld(mesh, "fixed");
+    const auto check = [&] { mesh::checkHeld(mesh, "fixed"); };
+    rules.empty() ? check() : program::orUsageError(check, "--fixed: ");
   }
   Nodes accessible = accessibleNodes(mesh, outerSurface(mesh, boundary).nodes, fixed);
   mesh.groups.clear();

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,17 @@ using FixedRules = std::vector<FixedRule>;
 /// Reads `group:NAME`, `lowest-z:FRACTION`, `box:x0,y0,z0,x1,y1,z1`, a side (`-x`, `+z`, ...: the triangles that face
 /// it more than any other side) or `normal:x,y,z[,degrees]` (the triangles that face this way within 30 degrees, or
 /// those given).
-/// @throw MeshError that quotes the text and says what is wrong with it
+/// @throw program::UsageError that quotes the text and says what is wrong with it
 [[nodiscard]] FixedRule parseFixedRule(const std::string& text);
+
+/// @param known  the groups that there are: nodes or triangles by name
+/// @throw program::UsageError always, naming them
+[[noreturn]] void refuseUnknownGroup(const std::string& name,
+                                     const std::map<std::string, std::vector<std::int32_t>>& known);
 
 /// The nodes that rules hold, ascending. Rules that speak of places take nodes of the outer surface, not those of
 /// cavities.
-/// @throw MeshError when a group is unknown: it names those there are
+/// @throw program::UsageError when a group is unknown: it names those there are
 [[nodiscard]] std::vector<std::int32_t> fixedNodes(const mesh::TetMesh& mesh,
                                                    const mesh::BoundarySurface& boundary,
                                                    const FixedRules& rules);
@@ -42,8 +48,8 @@ using FixedRules = std::vector<FixedRule>;
 /// Sets the groups `fixed` (by the rules) and `accessible`, and drops all others; regions stay. Accessible are the
 /// nodes of the outer surface that are not fixed, for no tool comes into a cavity; where the file has a group
 /// `accessible`, only those in it.
-/// @throw MeshError when a group is unknown, what would be fixed does not hold the organ (mesh::checkHeld()),
-///        or no node would be accessible
+/// @throw program::UsageError when a group is unknown, what the rules fix does not hold the organ (mesh::checkHeld()), or
+///        no node would be accessible; MeshError when the file's own groups are at fault
 void setBoundaryGroups(mesh::TetMesh& mesh, const mesh::BoundarySurface& boundary, const FixedRules& rules);
 
 /// The groups that setBoundaryGroups() will drop or replace: all but `accessible`, what the rules fix, regions

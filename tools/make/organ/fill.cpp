@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
 
 #include "tools/make/organ/fill_file.h"
+#include "tools/make/organ/odd_length.h"
+#include "tools/make/organ/progress.h"
+#include "tools/make/organ/repair/remesh_surface.h"
 #include "tools/make/organ/size_estimate.h"
-#include "tools/make/organ/unit.h"
 #include "tools/mesh/fill_surface.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/statistics.h"
 #include "tools/mesh/topology.h"
+#include "tools/program/exit_code.h"
+#include "tools/program/printed.h"
 
 namespace palpate::organ {
 namespace {
 
 using mesh::MeshError;
 using mesh::Solid;
+using program::printed;
+using program::UsageError;
 
 constexpr double kCoarse = 1.0 / 3;   // element size over the shortest side, above which it is told
 constexpr double kLostVolume = 0.02;  // share, above which it is told
 constexpr double kBadQuality = 0.1;   // of mesh::quality(), below which an element is told
-
-template <class... T>
-std::string format(const char* pattern, T... values) {
-  char text[300];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 Eigen::AlignedBox3d boxOf(const Solid& solid) {
   Eigen::AlignedBox3d box;
@@ -48,22 +46,23 @@ double meanEdge(const mesh::TriangleSurface& surface) {
 std::string sizeSuspected(double size, double side) {
   for (const double unit : {1e-3, 1e-2})
     if (size * unit < kCoarse * side && size * unit > side / 300)
-      return format("; was it meant in %s? --element-size %.4g", unit == 1e-3 ? "mm" : "cm", size * unit);
+      return printed("; was it meant in %s? --element-size %.4g", unit == 1e-3 ? "mm" : "cm", size * unit);
   return "";
 }
 
-void checkNotTooCoarse(double size, double side, std::vector<std::string>& notes) {
+/// @param odd  what makes the body's length odd: then advice on sizes would be about a wrong body
+void checkNotTooCoarse(double size, double side, const std::string& odd, std::vector<std::string>& notes) {
   if (size > side)
-    throw MeshError(
-        format("--element-size: elements of %.4g m are longer than the body's shortest side, %.4g m; "
-               "at most %.3g m resolves it",
-               size, side, kCoarse * side) +
-        sizeSuspected(size, side));
+    throw UsageError(
+        printed("--element-size: elements of %.4g m are longer than the body's shortest side, %.4g m; ", size,
+                side) +
+        (odd.empty() ? printed("at most %.3g m resolves it", kCoarse * side) + sizeSuspected(size, side)
+                     : odd));
   if (size > kCoarse * side)
     notes.push_back(
-        format("--element-size: the body's shortest side, %.4g m, is %.1f elements of %.4g m long; at "
-               "most %.3g m resolves it",
-               side, side / size, size, kCoarse * side));
+        printed("--element-size: the body's shortest side, %.4g m, is %.1f elements of %.4g m long; at "
+                "most %.3g m resolves it",
+                side, side / size, size, kCoarse * side));
 }
 
 /// @param sizes  with the size that the surface's triangles have, where they are kept
@@ -72,11 +71,11 @@ void checkNotTooFine(const Body& body, const mesh::ElementSizes& sizes, const Im
   if (expected.nodes <= options.max_nodes) return;
   const double fitting = smallestSize(body, sizes, options.order.value_or(1), options.max_nodes);
   const std::string asked = options.sizes.surface > 0
-                                ? format("--element-size %.4g", sizes.surface)
-                                : format("the surface's triangles of %.4g m", sizes.surface);
-  throw MeshError(
+                                ? printed("--element-size %.4g", sizes.surface)
+                                : printed("the surface's triangles of %.4g m", sizes.surface);
+  throw UsageError(
       "--max-nodes: with " + asked + " the body has " + expected.inWords() +
-      format(", more than the %.6g nodes allowed; --element-size %.3g fits", options.max_nodes, fitting) +
+      printed(", more than the %.6g nodes allowed; --element-size %.3g fits", options.max_nodes, fitting) +
       (odd.empty() ? "" : "; " + odd));
 }
 
@@ -86,9 +85,9 @@ void noteVolume(const Solid& solid, const mesh::TetMesh& mesh, std::vector<std::
   const double lost = 1 - volume / solid.volume;
   if (std::abs(lost) <= kLostVolume) return;
   notes.push_back(
-      format("the elements hold %.4g m^3, %.1f %% %s than the surface's %.4g m^3: smaller elements "
-             "follow it more closely",
-             volume, 100 * std::abs(lost), lost > 0 ? "less" : "more", solid.volume));
+      printed("the elements hold %.4g m^3, %.1f %% %s than the surface's %.4g m^3: smaller elements "
+              "follow it more closely",
+              volume, 100 * std::abs(lost), lost > 0 ? "less" : "more", solid.volume));
 }
 
 void noteBadElements(const mesh::TetMesh& mesh, std::vector<std::string>& notes) {
@@ -102,47 +101,68 @@ void noteBadElements(const mesh::TetMesh& mesh, std::vector<std::string>& notes)
   }
   if (bad > 0)
     notes.push_back(
-        format("%zu of %zu tetrahedra are nearly flat: their quality is below %.2g, the worst has %.2g "
-               "(1 is regular)",
-               bad, mesh.tetrahedra.size(), kBadQuality, worst));
+        printed("%zu of %zu tetrahedra are nearly flat: their quality is below %.2g, the worst has %.2g "
+                "(1 is regular)",
+                bad, mesh.tetrahedra.size(), kBadQuality, worst));
 }
 
-mesh::TetMesh filled(const Solid& solid, const mesh::ElementSizes& sizes) {
+// Gmsh remeshes sound surfaces, and keeps their sharp edges. One that was repaired, or that Gmsh cannot flatten, is given
+// its triangles before.
+mesh::TetMesh filledBy(const Solid& solid, const ImportOptions& options, std::vector<std::string>& notes) {
+  if (options.sizes.surface == 0) return mesh::fillSurface(solid.surface, options.sizes);
+  if (!options.repair) {
+    try {
+      return mesh::fillSurface(solid.surface, options.sizes);
+    } catch (const MeshError& error) {
+      notes.push_back("the surface was remeshed by CGAL, which rounds sharp edges, as Gmsh could not: " +
+                      std::string(error.what()));
+    }
+  }
+  mesh::ElementSizes kept = options.sizes;
+  kept.surface = 0;
+  return mesh::fillSurface(remeshed(solid.surface, options.sizes.surface), kept);
+}
+
+mesh::TetMesh filled(const Solid& solid, const ImportOptions& options, double expected_s,
+                     std::vector<std::string>& notes) {
+  const mesh::ElementSizes& sizes = options.sizes;
+  const Progress progress(options.progress, expected_s);
   try {
-    return mesh::fillSurface(solid.surface, sizes);
+    return filledBy(solid, options, notes);
   } catch (const MeshError& error) {
     const double own = meanEdge(solid.surface);
     const std::string advice = sizes.surface > 0
-                                   ? format(
+                                   ? printed(
                                          "; try --element-size %.3g, about the length of the surface's own "
                                          "edges, or none, which keeps "
                                          "its triangles",
                                          sizes.surface < own ? own : std::max(own, sizes.surface / 2))
-                                   : format("; try --element-size %.3g, which makes triangles anew", own);
+                                   : printed("; try --element-size %.3g, which remeshes the surface", own);
     throw MeshError(error.what() + advice);
   }
 }
 
 }  // namespace
 
-void checkSizes(const Solid& solid, const ImportOptions& options, std::vector<std::string>& notes) {
+SizeEstimate checkSizes(const Solid& solid, const ImportOptions& options, std::vector<std::string>& notes) {
   const Eigen::Vector3d sides = boxOf(solid).sizes();
   const std::string odd = oddLength(sides.maxCoeff(), options.scale).value_or("");
   const Body body{solid.volume, mesh::areaOf(solid.surface), sides.minCoeff()};
   mesh::ElementSizes sizes = options.sizes;
   if (sizes.surface > 0)
-    checkNotTooCoarse(sizes.surface, body.shortest_side, notes);
+    checkNotTooCoarse(sizes.surface, body.shortest_side, odd, notes);
   else
     sizes.surface = meanEdge(solid.surface);
   const SizeEstimate expected = estimate(body, sizes, options.order.value_or(1));
   checkNotTooFine(body, sizes, options, expected, odd);
   options.say("estimate         " + expected.inWords());
   if (!odd.empty()) notes.push_back(odd);
+  return expected;
 }
 
 mesh::TetMesh fill(const Solid& solid, const ImportOptions& options, std::vector<std::string>& notes) {
-  checkSizes(solid, options, notes);
-  mesh::TetMesh mesh = filled(solid, options.sizes);
+  const SizeEstimate expected = checkSizes(solid, options, notes);
+  mesh::TetMesh mesh = filled(solid, options, expected.seconds, notes);
   noteVolume(solid, mesh, notes);
   noteBadElements(mesh, notes);
   return mesh;

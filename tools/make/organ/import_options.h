@@ -23,6 +23,8 @@ struct ImportOptions {
   double max_nodes{kMaxNodes};        ///< a surface is not filled when more are to be expected
   /// Takes what is known before the organ is there, one line each.
   std::function<void(const std::string&)> say = [](const std::string&) {};
+  /// Takes how far a filling is, every few seconds, from another thread; empty: nobody wants to know.
+  std::function<void(const std::string&)> progress{};
 };
 
 }  // namespace palpate::organ

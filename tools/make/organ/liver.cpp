@@ -11,10 +11,10 @@
 #include "tools/make/organ/liver_shape.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/gmsh_session.h"
-#include "tools/mesh/mesh_error.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/mesh/size_field.h"
 #include "tools/mesh/topology.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::organ {
 namespace {
@@ -28,12 +28,12 @@ const Vec3 kInFrontOfNodule{-0.045, -0.090, 0.012};
 
 void checkOptions(const LiverOptions& options) {
   if (!(options.sizes.surface >= 0.003 && options.sizes.surface <= 0.02)) {
-    throw mesh::MeshError("--element-size must be between 0.003 and 0.02 m, not " +
-                          std::to_string(options.sizes.surface));
+    throw program::UsageError("--element-size must be between 0.003 and 0.02 m, not " +
+                              std::to_string(options.sizes.surface));
   }
-  mesh::checkElementSizes(options.sizes);
+  program::orUsageError([&] { mesh::checkElementSizes(options.sizes); });
   if (options.order != 1 && options.order != 2)
-    throw mesh::MeshError("--element-order must be 1 or 2, not " + std::to_string(options.order));
+    throw program::UsageError("--element-order must be 1 or 2, not " + std::to_string(options.order));
 }
 
 // A smooth solid through all sections. @return its number

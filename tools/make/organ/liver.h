@@ -31,7 +31,7 @@ struct Liver {
 ///   Groups: `fixed`, the bare area at the back, what of the surface lies within 45 mm of a point of the right lobe;
 ///   `accessible` (setClamp()). Regions: `nodule`, with elements of at most 5 mm, and `liver`, all others; their common
 ///   face is one of elements.
-/// @throw MeshError when a size or the order is out of range or Gmsh fails
+/// @throw program::UsageError when a size or the order is out of range, MeshError when Gmsh fails
 /// Cost seconds. Threads: one at a time (Gmsh is global state).
 [[nodiscard]] Liver makeLiver(const LiverOptions& options = {});
 

@@ -13,8 +13,8 @@
 #include "tools/make/organ/clamp.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/gmsh_session.h"
-#include "tools/mesh/mesh_error.h"
 #include "tools/mesh/topology.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::organ {
 namespace {
@@ -121,8 +121,8 @@ void addGroups(mesh::TetMesh& mesh) {
 
 mesh::TetMesh makePaperLiver(double element_size) {
   if (!(element_size >= 0.003 && element_size <= 0.02)) {
-    throw mesh::MeshError("--element-size must be between 0.003 and 0.02 m, not " +
-                          std::to_string(element_size));
+    throw program::UsageError("--element-size must be between 0.003 and 0.02 m, not " +
+                              std::to_string(element_size));
   }
   const mesh::GmshSession session;
   mesh::TetMesh mesh;

@@ -14,7 +14,7 @@ constexpr double kPaperLiverElementSize = 0.0067;  ///< m; gives about 2,200 sur
 ///   `accessible` (setClamp()).
 /// @param element_size  edge length of the tetrahedra, m, in [0.003, 0.02]
 /// @return linear elements
-/// @throw MeshError when the size is out of range or Gmsh fails
+/// @throw program::UsageError when the size is out of range, MeshError when Gmsh fails
 [[nodiscard]] mesh::TetMesh makePaperLiver(double element_size = kPaperLiverElementSize);
 
 }  // namespace palpate::organ

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
+
+#include "tools/make/organ/painted_groups.h"
+#include "tools/program/printed.h"
 
 namespace palpate::organ {
 namespace {
@@ -55,8 +57,9 @@ program::Json toJson(const SurfacePart& part) {
 Preview previewOrgan(const std::filesystem::path& path, const ImportOptions& options) {
   Preview preview;
   std::vector<std::string> notes;
-  if (const auto solid = solidOf(path, options, notes)) {
-    preview = ofSolid(*solid);
+  if (const auto read = solidOf(path, options, notes)) {
+    preview = ofSolid(read->solid);
+    addPaintedGroups(read->painted, preview.boundary, preview.mesh);
     setBoundaryGroups(preview.mesh, preview.boundary, options.fixed);
     preview.notes = std::move(notes);
   } else {
@@ -80,10 +83,8 @@ program::Json toJson(const Preview& preview) {
 void print(std::ostream& out, const Preview& preview) {
   const double whole = preview.held.area + preview.touchable.area + preview.neither.area;
   const auto tell = [&](const char* name, const SurfacePart& part) {
-    char line[160];
-    std::snprintf(line, sizeof line, "%-16s %.4g cm^2, %.1f %% of the surface: %zu triangles, %zu nodes\n",
-                  name, 1e4 * part.area, 100 * part.area / whole, part.triangles, part.nodes);
-    out << line;
+    out << program::printed("%-16s %.4g cm^2, %.1f %% of the surface: %zu triangles, %zu nodes\n", name,
+                            1e4 * part.area, 100 * part.area / whole, part.triangles, part.nodes);
   };
   tell("held", preview.held);
   tell("can be touched", preview.touchable);

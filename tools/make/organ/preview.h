@@ -31,7 +31,7 @@ struct Preview {
 
 /// Reads, scales and repairs as importOrgan() does, and groups the surface; fills nothing. Of a surface the nodes are
 /// its vertices.
-/// @throw MeshError as importOrgan()
+/// @throw MeshError, program::UsageError as importOrgan()
 [[nodiscard]] Preview previewOrgan(const std::filesystem::path& path, const ImportOptions& options);
 
 /// The surface from its six sides: what is held, what can be touched, and the rest, in three colours, with a legend

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
-#include <cstdio>
 
 #include "tools/make/organ/fill_file.h"
 #include "tools/make/organ/repair/repair_surface.h"
 #include "tools/mesh/mesh_error.h"
 #include "tools/mesh/read_surface.h"
 #include "tools/mesh/surface_defects.h"
+#include "tools/program/exit_code.h"
+#include "tools/program/printed.h"
 
 namespace palpate::organ {
 namespace {
@@ -15,10 +16,7 @@ using mesh::MeshError;
 using mesh::Solid;
 
 std::string inWords(double volume, const Eigen::Vector3d& middle) {
-  char text[120];
-  std::snprintf(text, sizeof text, "%.4g m^3 at (%.4g %.4g %.4g) m", volume, middle.x(), middle.y(),
-                middle.z());
-  return text;
+  return program::printed("%.4g m^3 at (%.4g %.4g %.4g) m", volume, middle.x(), middle.y(), middle.z());
 }
 
 std::string listed(const std::vector<Solid>& solids) {
@@ -36,8 +34,8 @@ std::size_t chosen(const std::string& part, const std::vector<Solid>& solids) {
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
   if (error == std::errc{} && end == part.data() + part.size() && number >= 1 && number <= solids.size())
     return number - 1;
-  throw MeshError("--part " + part + ": expected largest or a number from 1 to " +
-                  std::to_string(solids.size()) + ": " + listed(solids));
+  throw program::UsageError("--part " + part + ": expected largest or a number from 1 to " +
+                            std::to_string(solids.size()) + ": " + listed(solids));
 }
 
 Solid onePart(std::vector<Solid> solids, const ImportOptions& options, std::vector<std::string>& notes) {
@@ -63,18 +61,30 @@ mesh::TriangleSurface repaired(const mesh::TriangleSurface& surface, const Impor
   return whole;
 }
 
+// Before the minutes that filling takes.
+void checkGroups(const mesh::TriangleSurface& surface, const FixedRules& rules) {
+  for (const FixedRule& rule : rules)
+    if (rule.kind == FixedRule::Kind::kGroup && !surface.groups.contains(rule.group))
+      refuseUnknownGroup(rule.group, surface.groups);
+}
+
 }  // namespace
 
-Solid readSolid(const std::filesystem::path& path, const ImportOptions& options,
-                std::vector<std::string>& notes) {
+FileSolid readSolid(const std::filesystem::path& path, const ImportOptions& options,
+                    std::vector<std::string>& notes) {
   mesh::TriangleSurface surface = mesh::readSurface(path);
   for (auto& x : surface.vertices) x *= options.scale;
+  checkGroups(surface, options.fixed);
+  FileSolid read;
+  if (!surface.groups.empty()) read.painted = surface;
   if (options.repair) {
     surface = repaired(surface, options);
   } else if (const auto defects = mesh::surfaceDefects(surface); !defects.empty()) {
-    throw MeshError("the surface bounds no solid; --repair mends it and says how. " + mesh::inWords(defects));
+    throw MeshError("the surface bounds no solid; --repair repairs it and says how. " +
+                    mesh::inWords(defects));
   }
-  return onePart(mesh::solidsOf(surface), options, notes);
+  read.solid = onePart(mesh::solidsOf(surface), options, notes);
+  return read;
 }
 
 }  // namespace palpate::organ

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "tools/program/printed.h"
 
 namespace palpate::organ {
 namespace {
@@ -30,13 +31,17 @@ double tetrahedraIn(const Body& body, const mesh::ElementSizes& sizes) {
   return kPerCube * body.volume * count / whole + kPerSquare * body.area / (sizes.surface * sizes.surface);
 }
 
+/// To two digits: no more are known.
+double rounded(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(std::max(value, 1.0))) - 1);
+  return unit * std::round(value / unit);
+}
+
 }  // namespace
 
 std::string SizeEstimate::inWords() const {
-  char text[160];
-  std::snprintf(text, sizeof text, "about %.2g nodes, %.2g tetrahedra; %.2g s and %.2g GB of memory to fill",
-                nodes, tetrahedra, seconds, bytes / 1e9);
-  return text;
+  return program::printed("about %.0f nodes, %.0f tetrahedra; %.10g s and %.0f MB of memory to fill",
+                          rounded(nodes), rounded(tetrahedra), rounded(seconds), rounded(bytes / 1e6));
 }
 
 SizeEstimate estimate(const Body& body, const mesh::ElementSizes& sizes, int order) {

@@ -20,7 +20,7 @@ struct SizeEstimate {
   double bytes;              ///< of memory
   double seconds;
 
-  /// "about 12000 nodes, 60000 tetrahedra; 3 s, 150 MB of memory to fill"
+  /// "about 12000 nodes, 60000 tetrahedra; 1.8 s and 0.15 GB of memory to fill"
   [[nodiscard]] std::string inWords() const;
 };
 

@@ -6,8 +6,6 @@
 //               palpate-solve case.toml -o liver.h5 --dry-run
 //               palpate-solve liver.msh --template -o case.toml
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
-#include <unistd.h>
-
 #include <chrono>
 #include <iostream>
 
@@ -43,14 +41,10 @@ void adoptGroups(solver::Case& c, const mesh::TetMesh& organ) {
 
 /// What can be said of the output before minutes are spent on it.
 void checkOutput(const std::filesystem::path& output) {
-  const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
-  const auto refuse = [&](const std::string& why) {
-    throw std::runtime_error("--output " + output.string() + ": " + why);
-  };
-  if (output.extension() == ".xdmf") refuse("an .xdmf is written beside the model; name the model .h5");
-  if (std::filesystem::is_directory(output)) refuse("is a folder");
-  if (!std::filesystem::is_directory(folder)) refuse("there is no folder " + folder.string());
-  if (access(folder.c_str(), W_OK) != 0) refuse("the folder " + folder.string() + " cannot be written");
+  if (output.extension() == ".xdmf")
+    throw program::UsageError("--output " + output.string() +
+                              ": an .xdmf is written beside the model; name the model .h5");
+  program::checkOutput("--output", output);
 }
 
 mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fixed) {
@@ -84,7 +78,11 @@ void tell(const solve_program::Options& options, const solver::Case& c, const me
 }
 
 /// A case file to begin with.
+/// @throw program::UsageError
 void writeTemplate(const solve_program::Options& options) {
+  program::checkOutput("--output", options.output);
+  if (!options.output.empty() && program::isSameFile(options.output, options.input))
+    throw program::UsageError("--output " + options.output.string() + " would replace the input");
   const bool given = !options.input.empty();
   const bool accessible = given && mesh::readMesh(options.input).groups.count("accessible") != 0;
   // A path in a case starts at the case.
@@ -109,7 +107,8 @@ void run(solve_program::Options options) {
   checkOutput(options.output);
   solver::Case c = solve_program::readCase(options);
   if (options.dry_run && c.method != solver::Method::kSeriesDisplacement)
-    throw solver::CaseError("--dry-run is for method series-displacement, not " + toString(c.method));
+    throw program::UsageError("--dry-run is for method series-displacement, not " + toString(c.method));
+  if (!options.scratch.empty()) program::checkOutput("--scratch", options.scratch / "series");
   // 2. The organ.
   const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
   adoptGroups(c, organ);
@@ -141,13 +140,13 @@ int body(int argc, char** argv) {
       "Computes the meta-model of an organ: its answer to a tool at any position and in any direction.");
   solve_program::Options options;
   solve_program::describe(line.options(), options);
-  if (!line.read(argc, argv)) return 0;
+  if (!line.read(argc, argv)) return program::kDone;
   try {
     run(options);
   } catch (const std::bad_alloc&) {
     throw std::runtime_error("out of memory; fewer modes, a smaller near_radius or a lower order need less");
   }
-  return 0;
+  return program::kDone;
 }
 
 }  // namespace

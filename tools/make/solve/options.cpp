@@ -2,7 +2,6 @@
 #include "tools/make/solve/options.h"
 
 #include <sstream>
-#include <stdexcept>
 
 namespace palpate::solve_program {
 
@@ -19,15 +18,15 @@ void setDirection(const std::string& text, solver::LoadCase& load) {
   in >> x[0] >> first >> x[1] >> second >> x[2];
   const bool read = !in.fail() && first == ',' && second == ',' && (in >> std::ws).eof();
   if (!read || !x.allFinite() || !(x.norm() > 0.0))
-    throw solver::CaseError("--load-direction " + text +
-                            " is neither three numbers x,y,z, not all zero, nor any");
+    throw program::UsageError("--load-direction " + text +
+                              " is neither three numbers x,y,z, not all zero, nor any");
   load.direction = x.stableNormalized();
 }
 
 /// In the place of what a case for another target says of size and exactness.
 void setTarget(const std::string& name, solver::Case& c) {
   if (name != "server" && name != "handheld")
-    throw solver::CaseError("--target " + name + " is not known (known: server, handheld)");
+    throw program::UsageError("--target " + name + " is not known (known: server, handheld)");
   const solver::Target target = name == "handheld" ? solver::Target::kHandheld : solver::Target::kServer;
   if (target == c.target) return;
   c.target = target;
@@ -37,20 +36,12 @@ void setTarget(const std::string& name, solver::Case& c) {
   for (std::optional<int>* key : {&c.order, &c.force_order, &c.modes}) key->reset();
 }
 
+/// @throw program::UsageError
 void override(const Options& options, solver::Case& c) {
-  if (options.method) {
-    try {
-      c.method = solver::methodOf(*options.method);
-    } catch (const solver::CaseError& error) {
-      throw solver::CaseError(std::string("--method ") + error.what());
-    }
-  }
+  if (options.method)
+    program::orUsageError([&] { c.method = solver::methodOf(*options.method); }, "--method ");
   if (options.law) {
-    try {
-      (void)solver::lawOf(*options.law);
-    } catch (const std::invalid_argument& error) {
-      throw solver::CaseError(std::string("--law ") + error.what());
-    }
+    program::orUsageError([&] { (void)solver::lawOf(*options.law); }, "--law ");
     c.law = *options.law;
   }
   c.mesh_error = c.mesh_error || options.mesh_error;
@@ -67,7 +58,7 @@ void override(const Options& options, solver::Case& c) {
     c.travel.reset();
   }
   if (options.travel) {
-    if (options.order) throw solver::CaseError("--travel does not go with --order: it chooses it");
+    if (options.order) throw program::UsageError("--travel does not go with --order: it chooses it");
     c.travel = options.travel;
     c.order.reset();
     c.force_order.reset();
@@ -75,13 +66,22 @@ void override(const Options& options, solver::Case& c) {
   if (options.force_error) c.force_error = options.force_error;
   if (options.field_error) {
     if (options.modes)
-      throw solver::CaseError("--field-error does not go with --modes: it chooses their number");
+      throw program::UsageError("--field-error does not go with --modes: it chooses their number");
     c.field_error = options.field_error;
     c.modes.reset();
   }
   if (options.steps) c.load.steps = options.steps;
   if (options.load) c.load.magnitude = options.load;
   if (options.direction) setDirection(*options.direction, c.load);
+}
+
+bool holds(const solver::Case& c) {
+  try {
+    solver::checkCase(c);
+    return true;
+  } catch (const solver::CaseError&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -118,7 +118,8 @@ void describe(program::Options line, Options& options) {
            "series-displacement: asked error of the force within the domain, relative (default: 0.01)")
       .range(1e-9, 0.999);
   line.add("--field-error", &options.field_error,
-           "series-displacement: asked largest error of the field, of abs(d); chooses modes, near fields and "
+           "series-displacement: asked largest error of the field, relative to abs(d); chooses modes, near "
+           "fields and "
            "edges "
            "(default: 0.01)")
       .range(1e-9, 0.999);
@@ -131,7 +132,9 @@ void describe(program::Options line, Options& options) {
           "handheld: of the file, bytes (default: 8e6 at order 3, 20e6 above); chooses modes and near fields")
       .range(1e5, 1e12);
   line.add("--load-direction", &options.direction, "PGD methods: x,y,z; pgd-linear also: any");
-  line.add("--load", &options.load, "PGD methods: magnitude of the load, N").range(1e-300, 1e6);
+  line.add("--load", &options.load,
+           "PGD methods: magnitude of the load (default: what moves the contact by 2 mm)")
+      .range(1e-300, 1e6, "N");
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);
   line.add("--scratch", &options.scratch, "folder of the scratch file (default: beside the output)");
   line.add("--threads", &options.threads, "worker threads").range(1, 1024);
@@ -139,16 +142,20 @@ void describe(program::Options line, Options& options) {
             "series-displacement: measure a few positions, say what the whole takes, and stop");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.flag("-q,--quiet", &options.quiet, "no progress");
+  line.example("palpate-solve liver.msh -o liver.h5");
 }
 
 solver::Case readCase(const Options& options) {
-  solver::Case c = options.input.extension() == ".toml" ? solver::readCase(options.input)
-                                                        : solver::defaultCase(options.input);
+  const solver::Case own = options.input.extension() == ".toml" ? solver::readCase(options.input)
+                                                                : solver::defaultCase(options.input);
+  solver::Case c = own;
   override(options, c);
   try {
     solver::checkCase(c);
   } catch (const solver::CaseError& error) {
-    throw solver::CaseError(options.input.string() + ": " + error.what());
+    const std::string words = options.input.string() + ": " + error.what();
+    if (holds(own)) throw program::UsageError(words);
+    throw solver::CaseError(words);
   }
   return c;
 }

@@ -38,7 +38,8 @@ struct Options {
 void describe(program::Options line, Options& options);
 
 /// The case of a case file, or the defaults for a bare mesh, with the command line's say.
-/// @throw CaseError also where keys do not fit the method
+/// @throw program::UsageError when an option does not read, or does not fit a case that holds without it; CaseError when the
+///        case's own keys do not fit its method
 [[nodiscard]] solver::Case readCase(const Options& options);
 
 }  // namespace palpate::solve_program

@@ -17,7 +17,6 @@ using program::printed;
 
 // What organs are, widely: brain and fat have some kPa, cartilage and tendon some MPa to 1 GPa.
 constexpr double kSoftest = 500.0, kStiffest = 1e9;  // Pa
-constexpr double kSmallest = 0.01, kLargest = 2.0;   // m, longest side
 constexpr double kWide = 0.35;  // of the smallest side: radius of a patch that is most of the organ
 
 void judgeModulus(const std::string& key, double E, std::vector<std::string>& warnings) {
@@ -28,22 +27,17 @@ void judgeModulus(const std::string& key, double E, std::vector<std::string>& wa
     warnings.push_back(printed("%s = %.4g Pa is stiffer than any organ (1e3 to 1e6 Pa)", key.c_str(), E));
 }
 
-/// Whether an organ is that long.
-bool isUsual(double length) {
-  return length >= kSmallest && length <= kLargest;
-}
-
 void judgeLength(double longest, std::vector<std::string>& warnings) {
-  if (isUsual(longest)) return;
-  std::string text =
-      "the organ is " + lengthText(longest) + " long, expected 10 mm to 2 m; a mesh is in metres";
+  if (program::isOrganLength(longest)) return;
+  std::string text = "the organ is " + lengthText(longest) + " long, expected " +
+                     lengthText(program::kShortestOrgan) + " to " + lengthText(program::kLongestOrgan) +
+                     "; a mesh is in metres";
   for (const program::LengthUnit& unit : program::kLengthUnits)
-    if (unit.metres < 1.0 && isUsual(unit.metres * longest))
-      text +=
-          printed("; in %s it would be %s: palpate-organ import --scale %g", std::string(unit.plural).c_str(),
-                  lengthText(unit.metres * longest).c_str(), unit.metres);
+    if (unit.metres < 1.0 && program::isOrganLength(unit.metres * longest))
+      text += "; in " + std::string(unit.plural) + " it would be " + lengthText(unit.metres * longest) +
+              ": palpate-organ import --unit " + std::string(unit.word);
   for (const double twice : {1e3, 1e2})
-    if (isUsual(twice * longest)) {
+    if (program::isOrganLength(twice * longest)) {
       text += printed("; was it scaled twice? times %g it would be %s", twice,
                       lengthText(twice * longest).c_str());
       break;

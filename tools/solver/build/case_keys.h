@@ -29,7 +29,7 @@ struct CaseKey {
 /// @throw std::logic_error when there is none: a slip of the reader's
 [[nodiscard]] const CaseKey& caseKey(std::string_view table, std::string_view name);
 
-/// "(0, 0.05] m", "1 to 7", or empty where there is no range.
+/// "above 0, at most 0.05 m", "1 to 7", or empty where there is no range.
 [[nodiscard]] std::string rangeText(const CaseKey& key);
 
 /// A case file with every key: its default, unit and range. Keys whose default depends on the mesh or the method are comments.

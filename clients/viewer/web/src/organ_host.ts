@@ -83,7 +83,7 @@ export class OrganHost {
     else if (message.type === 'rate') this.rate(Number(message['hz']));
   }
 
-  /** @param hz  of fields; what is no number is ignored */
+  /** @param hz  of fields; what is not a number is ignored */
   private rate(hz: number): void {
     if (Number.isNaN(hz)) return;
     this.frameMs = 1000 / Math.min(MOST_HZ, Math.max(LEAST_HZ, hz));

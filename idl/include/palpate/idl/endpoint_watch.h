@@ -55,6 +55,7 @@ class EndpointWatch {
   [[nodiscard]] std::string owner(dds_instance_handle_t participant) const;
 
   std::chrono::milliseconds patience_;
+  dds_instance_handle_t self_{0};  // the participant
   std::vector<Ours> ours_;
   std::vector<Suspect> suspects_;
   Entity writers_, readers_, participants_;  // of the builtin topics

@@ -65,6 +65,8 @@ struct ServerConfig {
   bool phase_lock{false};              ///< ticks follow the poses' arrival
   std::int64_t tick_cpu{kAnyCpu};      ///< CPU of the tick, one that this process may use
   bool tick_cpu_alone{false};          ///< nothing else of this process runs there
+  bool check_realtime{false};          ///< say how the machine suits, and end. Command line only
+  bool json{false};                    ///< as JSON. Command line only
   std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
   std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
   LiveOverrides said;                  ///< of the file and the command line

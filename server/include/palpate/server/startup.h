@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,22 @@ inline constexpr int kForcePriority = 75;
 inline constexpr int kReceivePriority = 70;
 inline constexpr int kSurfacePriority = 40;
 
+/// Real-time threads sleep each period. One that does not for so long is broken: docs/design.md, Threads.
+inline constexpr std::chrono::milliseconds kLongestComputation{500}, kLastComputation{5000};
+
 using dds::kReceiveThreads;
+
+// How to get what a system does not grant.
+inline constexpr const char* kPriorityRemedy =
+    "rtprio 90 in /etc/security/limits.d (palpate-limits.conf), LimitRTPRIO=90 in a unit "
+    "(palpate-server.service), or "
+    "CAP_SYS_NICE";
+inline constexpr const char* kMemoryRemedy =
+    "memlock unlimited in /etc/security/limits.d (palpate-limits.conf), LimitMEMLOCK=infinity in a unit "
+    "(palpate-server.service), or CAP_IPC_LOCK";
+inline constexpr const char* kAwakeRemedy =
+    "write access to /dev/cpu_dma_latency (palpate-cpu-latency.rules), in a unit also "
+    "DeviceAllow=/dev/cpu_dma_latency rw";
 
 /// What the system granted, once all threads run.
 struct Startup {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/examine/query/query_error.h"
+#include "tools/program/numbers.h"
 
 namespace palpate::query {
 namespace {
@@ -20,7 +20,7 @@ TEST(ParseNodeAndVector, RefusesAllElseByOptionAndText) {
     try {
       (void)parseNodeAndVector("--tool2", text);
       ADD_FAILURE() << "'" << text << "' was not refused";
-    } catch (const QueryError& error) {
+    } catch (const program::ValueError& error) {
       EXPECT_EQ(std::string(error.what()),
                 "--tool2 is '" + std::string(text) +
                     "', expected a node's number and three finite numbers, NODE:x,y,z");

@@ -13,6 +13,7 @@
 #include "tools/mesh/box_mesh.h"
 #include "tools/modelfile/read_volume_mesh.h"
 #include "tools/modelfile/write_model.h"
+#include "tools/program/exit_code.h"
 #include "tools/solver/build/build_model.h"
 
 namespace palpate::query::test {
@@ -105,11 +106,13 @@ struct BoxModel {
   }
 };
 
-/// The message of the QueryError that `work` throws; empty if it throws none.
+/// The message of the QueryError or UsageError that `work` throws; empty if it throws none.
 inline std::string errorOf(const std::function<void()>& work) {
   try {
     work();
   } catch (const QueryError& error) {
+    return error.what();
+  } catch (const program::UsageError& error) {
     return error.what();
   }
   return {};

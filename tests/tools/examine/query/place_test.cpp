@@ -121,10 +121,11 @@ TEST(Batch, NamesFileLineAndColumnOfWhatItCannotRead) {
     return errorOf([&] { (void)touchesIn("t.csv", text, kMetres); });
   };
   EXPECT_EQ(error(titles + "0,0,0,0,0,0\n0,x,0,0,0,0\n"),
-            "t.csv, line 3, column at_y: 'x' is no finite number");
+            "t.csv, line 3, column at_y: 'x' is not a finite number");
   EXPECT_EQ(error(titles + "0,0,0,0,0,inf\n"),
-            "t.csv, line 2, column displacement_z: 'inf' is no finite number");
-  EXPECT_EQ(error(titles + "0,0,0,0,0,\n"), "t.csv, line 2, column displacement_z: '' is no finite number");
+            "t.csv, line 2, column displacement_z: 'inf' is not a finite number");
+  EXPECT_EQ(error(titles + "0,0,0,0,0,\n"),
+            "t.csv, line 2, column displacement_z: '' is not a finite number");
   EXPECT_EQ(error(titles + "0,0,0,0,0\n"), "t.csv, line 2 has 5 values, expected 6");
   EXPECT_EQ(error(titles), "t.csv has no line below that of its columns");
   EXPECT_EQ(error(""), "t.csv is empty, expected a line of columns: " + titles.substr(0, titles.size() - 1));
@@ -140,7 +141,7 @@ TEST(Batch, NamesTheLineOfAPlaceOffTheOrgan) {
       "t.csv",
       "at_x,at_y,at_z,displacement_x,displacement_y,displacement_z\n0.08,0.03,0.04,0,0,0\n70,30,41,0,0,0\n",
       kMetres);
-  const std::string refused = valueErrorOf([&] { (void)answersTo(box.model, rows); });
+  const std::string refused = errorOf([&] { (void)answersTo(box.model, rows); });
   EXPECT_NE(refused.find("t.csv, line 3, at 70,30,41 m lies "), std::string::npos) << refused;
 }
 

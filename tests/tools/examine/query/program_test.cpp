@@ -3,32 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "box_model.h"
-#include "load_models.h"
-#include "palpate/testing/run_program.h"
 #include "palpate/testing/xml_fault.h"
 #include "parsed_deck.h"
+#include "query_program.h"
 #include "tools/examine/query/together.h"
 
 namespace palpate::query::test {
 namespace {
-
-using palpate::testing::expectOneLineError;
-using palpate::testing::ProgramResult;
-using palpate::testing::runProgram;
-
-template <typename Model>
-ProgramResult query(const Model& model, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), model.path.string());
-  return runProgram("palpate-query", arguments);
-}
-
-Vec3 vectorOf(const nlohmann::json& list) {
-  EXPECT_EQ(list.size(), 3U);
-  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
-}
 
 TEST(Program, AnswersInJson) {
   const BoxModel box;
@@ -149,19 +131,6 @@ TEST(Program, AnswersALoadLevel) {
   EXPECT_NE(told.find("model is off"), std::string::npos) << told;
 }
 
-TEST(Program, RefusesALoadThatTheModelDoesNotTake) {
-  const LoadModel box(Parameters::kLevel);
-  const std::string node = std::to_string(BoxMesh::number(4, 2, 2));
-  expectOneLineError(query(box, {"--node", node, "--force", "0,0,-1"}), "use --load-level or --displacement");
-  expectOneLineError(query(box, {"--node", node, "--load-level", "1.5"}), "--load-level");
-  expectOneLineError(query(box, {"--node", node, "--load-level", "-0.5"}), "--load-level");
-  expectOneLineError(query(box, {"--node", node, "--load-level", "nan"}), "--load-level");
-  expectOneLineError(query(box, {"--node", node, "--load-level", "0.5", "--force", "0,0,0"}),
-                     "--displacement,--force,--load-level");
-  expectOneLineError(query(box, {"--node", node, "--force", "0,0"}), "--force is '0,0'");
-  expectOneLineError(query(box, {"--node", node, "--force="}), "--force");
-}
-
 TEST(Program, AnswersTwoToolsAndChecksThemByNewton) {
   const BoxModel box;
   const auto field = box.folder / "field.vtu";
@@ -213,24 +182,6 @@ TEST(Program, AnswersThreeToolsToAPerson) {
     EXPECT_NE(truth.out.find(part), std::string::npos) << part << truth.out;
 }
 
-TEST(Program, RefusesAToolTooManyOrUnclear) {
-  const BoxModel box;
-  const std::string node = std::to_string(BoxMesh::number(3, 1, 2)),
-                    other = std::to_string(BoxMesh::number(5, 1, 2));
-  const auto refused = [&](std::vector<std::string> more, const std::string& part) {
-    more.insert(more.begin(), {"--node", node, "--displacement", "0,0,-0.001"});
-    expectOneLineError(query(box, more), part);
-  };
-  refused({"--tool2", other + ":0,0"}, "--tool2 is '" + other + ":0,0', expected a node's number");
-  refused({"--tool2", node + ":0,0,0"}, "both touch node " + node);
-  refused({"--tool2", "4:0,0,0"}, "node 4 is not in the mesh");
-  refused({"--tool2"}, "--tool2");
-  refused({"--tool2", other + ":0,0,0", "--ccx", "deck.inp"}, "expected no --tool2");
-  const LoadModel load(Parameters::kForce);
-  expectOneLineError(query(load, {"--node", node, "--force", "0,0,-0.01", "--tool2", other + ":0,0,0"}),
-                     "expected --displacement");
-}
-
 TEST(Program, SaysWhenAPointIsNotAccessible) {
   const BoxModel box;
   const ProgramResult result =
@@ -242,60 +193,6 @@ TEST(Program, SaysWhenAPointIsNotAccessible) {
   EXPECT_NE(result.err.find("not accessible"), std::string::npos) << result.err;
   expectOneLineError(query(box, {"--at", "-0.01,0.03,0.02", "--displacement", "0.001,0,0", "--newton"}),
                      "clamped nodes only");
-}
-
-TEST(Program, RefusesBadArgumentsInOneLine) {
-  const BoxModel box;
-  const std::string node = std::to_string(BoxMesh::number(4, 2, 2));
-  expectOneLineError(query(box, {"--node", "4", "--displacement", "0,0,0"}), "node 4 is not in the mesh");
-  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0"}), "--displacement is '0,0'");
-  expectOneLineError(query(box, {"--at", "0,0,nan", "--displacement", "0,0,0"}), "--at is '0,0,nan'");
-  expectOneLineError(query(box, {"--displacement", "0,0,0"}), "--node,--at");
-  expectOneLineError(query(box, {"--node", node, "--at", "0,0,0", "--displacement", "0,0,0"}), "--node,--at");
-  expectOneLineError(query(box, {"--node", node}), "--displacement,--force,--load-level");
-  expectOneLineError(query(box, {"--node", "four", "--displacement", "0,0,0"}),
-                     "--node: four is not a number");
-  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,0", "--newton", "--steps", "0"}),
-                     "--steps");
-  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,0", "--field", "/none/a.vtu"}),
-                     "cannot write /none/a.vtu");
-  EXPECT_EQ(query(box, {"--help"}).exit_code, 0);
-}
-
-TEST(Program, RefusesATruncatedModel) {
-  const BoxModel box;
-  std::filesystem::resize_file(box.path, std::filesystem::file_size(box.path) / 2);
-  expectOneLineError(query(box, {"--node", "4", "--displacement", "0,0,0"}), "box.h5");
-  std::filesystem::remove(box.path);
-  expectOneLineError(query(box, {"--node", "4", "--displacement", "0,0,0"}), "cannot be opened");
-}
-
-TEST(Program, RefusesADisplacementLongerThanAnyTouch) {
-  const BoxModel box;
-  const std::string node = std::to_string(BoxMesh::number(5, 3, 2));
-  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,-2", "--newton"}),
-                     "--displacement 0,0,-2 m is 2 m long, expected at most ");
-  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,-1e300"}),
-                     "m long, expected at most ");
-  expectOneLineError(query(box, {"--node", node, "--displacement", "0,0,-0.001", "--tool2",
-                                 std::to_string(BoxMesh::number(3, 1, 2)) + ":0,0,-1"}),
-                     "--tool2 0,0,-1 m is 1 m long");
-}
-
-TEST(Program, RefusesAPlaceOffTheOrganAndSuspectsTheUnit) {
-  const BoxModel box;
-  expectOneLineError(query(box, {"--at", "83,31,41", "--displacement", "0,0,-0.002"}),
-                     "in millimetres it would lie 1 mm from the organ's surface: --unit mm");
-  const std::vector<std::string> asked{"--at",   "83,31,41", "--displacement", "0,0,-2",
-                                       "--unit", "mm",       "--json"};
-  const ProgramResult result = query(box, asked);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
-  EXPECT_NEAR(json.at("anchor").at("distance_m").get<double>(), 0.001, 1e-15);
-  EXPECT_LT((vectorOf(json.at("displacement")) - Vec3(0.0, 0.0, -0.002)).norm(), 1e-17);
-  const std::string told = query(box, {asked.begin(), asked.end() - 1}).out;
-  EXPECT_NE(told.find("1 mm from the asked place, which is outside the organ"), std::string::npos) << told;
-  expectOneLineError(query(box, {"--at", "8,3,4", "--displacement", "0,0,0", "--unit", "inch"}), "--unit");
 }
 
 TEST(Program, AnswersATableOfTouches) {
@@ -311,25 +208,14 @@ TEST(Program, AnswersATableOfTouches) {
   EXPECT_NE(written.find("\n60,20,40,0.5,0,-1,"), std::string::npos) << written;
   box.folder.write("touches.csv", titles + "83,31,41,0,0,-2\n60,20,x,0.5,0,-1\n");
   expectOneLineError(query(box, {"--batch", touches.string(), "--unit", "mm", "-o", answers}),
-                     "touches.csv, line 3, column at_z: 'x' is no finite number");
+                     "touches.csv, line 3, column at_z: 'x' is not a finite number");
+  box.folder.write("touches.csv", titles + "83,31,941,0,0,-2\n");
+  const ProgramResult off = query(box, {"--batch", touches.string(), "--unit", "mm", "-o", answers});
+  EXPECT_EQ(off.exit_code, 1);  // the file's fault
+  expectOneLineError(off, "touches.csv, line 2, at 83,31,941 mm lies 900 mm from the organ's surface");
   EXPECT_EQ(contentOf(answers), written);  // as it was
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(box.folder.path()), {}),
             3);  // nothing half written
-}
-
-TEST(Program, RefusesOptionsThatABatchHasNoPlaceFor) {
-  const BoxModel box;
-  const std::string touches = box.folder.write("t.csv", "");
-  const auto refused = [&](std::vector<std::string> more, const std::string& part) {
-    const ProgramResult result = query(box, std::move(more));
-    expectOneLineError(result, part);
-    EXPECT_EQ(result.exit_code, 2);
-  };
-  refused({"--batch", touches, "--displacement", "0,0,0"}, "--batch goes with --unit and -o only");
-  refused({"--batch", touches, "--newton"}, "--batch goes with --unit and -o only");
-  refused({"--batch", touches, "-o", touches}, "would replace the touches");
-  refused({"--at", "0.08,0.03,0.04", "--displacement", "0,0,0", "-o", "a.csv"}, "-o goes with --batch");
-  expectOneLineError(query(box, {"--batch", touches, "-o", "/none/a.csv"}), "cannot write /none/a.csv");
 }
 
 TEST(Program, WarnsOfElementsTurnedInsideOut) {

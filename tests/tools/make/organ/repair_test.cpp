@@ -35,7 +35,7 @@ TEST(RepairSurface, CountsWhatItChanged) {
   EXPECT_EQ(repairs.holes, 2U);
   EXPECT_EQ(repairs.twins, 3U);
   EXPECT_EQ(repairs.flat, 1U);
-  EXPECT_EQ(repairs.loose, 10U);
+  EXPECT_EQ(repairs.loose.size(), 10U);
   // One of the holes lies in a part that is turned over; which way a loose triangle faces says nothing.
   mesh::TriangleSurface cut = sphere(kRadius, 5);
   cutHole(cut, {0.2, 0.1, 1}, 2 * 1.6 * kRadius / 32);
@@ -46,8 +46,9 @@ TEST(RepairSurface, CountsWhatItChanged) {
   EXPECT_NEAR(static_cast<double>(repairs.turned_over), static_cast<double>(turned), 10);
   std::string words;
   for (const auto& line : repairs.inWords()) words += line + '\n';
-  for (const char* part : {"2 holes filled", "triangles turned over", "pairs of triangles crossed",
-                           "3 triangles left out that were there twice", "m^3 after"})
+  for (const char* part :
+       {"10 loose pieces left out: 1 triangle, ", "2 holes filled", "triangles turned over",
+        "pairs of triangles crossed", "3 triangles left out that were there twice", "m^3 after"})
     EXPECT_NE(words.find(part), std::string::npos) << words;
 }
 
@@ -100,6 +101,25 @@ TEST(RepairSurface, RefusesAHoleThatIsTooLargeByItsPlaceAndSize) {
   cutHole(open, {0, 0, 1}, 1.2 * kRadius);
   Repairs repairs;
   EXPECT_REFUSED(repairSurface(open, repairs), "the hole at (", "spans 0.1", "25 %");
+}
+
+// Five unstitched patches are no body with loose pieces beside it.
+TEST(RepairSurface, KeepsPiecesThatAreMuchOfTheWhole) {
+  mesh::TriangleSurface patches = sphere(kRadius, 3);
+  mesh::TriangleSurface apart;
+  for (const auto& t : patches.triangles) {
+    const Eigen::Vector3d x = centreOf(patches, t);
+    const double turn = std::atan2(x.y(), x.x());
+    const auto patch = std::floor(5 * (turn + std::numbers::pi) / (2 * std::numbers::pi));
+    const Eigen::Vector3d shift = 0.1 * kRadius * patch * Eigen::Vector3d::UnitZ();
+    const auto first = static_cast<std::int32_t>(apart.vertices.size());
+    for (const auto v : t) apart.vertices.push_back(patches.vertices[static_cast<std::size_t>(v)] + shift);
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  numberFromOne(apart);
+  Repairs repairs;
+  EXPECT_REFUSED(repairSurface(apart, repairs), "the hole at (", "that --repair fills");
+  EXPECT_TRUE(repairs.loose.empty());
 }
 
 TEST(RepairSurface, KeepsACavity) {

@@ -39,18 +39,5 @@ TEST(SizeEstimate, TheSmallestSizeHasAsManyNodesAsAllowed) {
   }
 }
 
-// Those at the surface become four times as many, those inside eight times.
-TEST(SizeEstimate, HalfTheSizeIsEightTimesTheElementsTheFinerTheMoreNearly) {
-  const Body body{1e-3, 0.06, 0.1};
-  double before = 4;
-  for (const double size : {0.016, 0.008, 0.004, 0.002, 0.001}) {
-    const double ratio = estimate(body, {size / 2}, 1).tetrahedra / estimate(body, {size}, 1).tetrahedra;
-    EXPECT_GT(ratio, before) << size;
-    EXPECT_LT(ratio, 8) << size;
-    before = ratio;
-  }
-  EXPECT_GT(before, 7.9);
-}
-
 }  // namespace
 }  // namespace palpate::organ::test

@@ -57,9 +57,9 @@ TEST_F(SolveProgram, WarnsOfAnOrganInAnotherUnit) {
   const ProgramResult result = solve({path("block.msh"), "-o", path("out.h5"), "--dry-run", "-q"});
   EXPECT_NE(
       result.err.find(
-          "warning: the organ is 60 m long, expected 10 mm to 2 m; a mesh is in metres; in centimetres it "
-          "would be 600 mm: palpate-organ import --scale 0.01; in millimetres it would be 60 mm: "
-          "palpate-organ import --scale 0.001\n"),
+          "warning: the organ is 60 m long, expected 5 mm to 1 m; a mesh is in metres; in centimetres it "
+          "would be 600 mm: palpate-organ import --unit cm; in millimetres it would be 60 mm: "
+          "palpate-organ import --unit mm\n"),
       std::string::npos)
       << result.err;
 }

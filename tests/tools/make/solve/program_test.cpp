@@ -169,7 +169,7 @@ TEST_F(SolveProgram, RefusesAClampThatDoesNotHold) {
   expectRefusal(solve({path("loose.msh"), "-o", path("out.h5")}), "loose.msh");
 }
 TEST_F(SolveProgram, RefusesAFolderThatIsNotThereBeforeItSolves) {
-  expectRefusal(solve({path("block.msh"), "-o", path("nowhere/out.h5")}), "there is no folder");
+  expectRefusal(solve({path("block.msh"), "-o", path("nowhere/out.h5")}), "No such file or directory");
 }
 TEST_F(SolveProgram, RefusesAnOutputThatItsOwnXdmfWouldReplace) {
   expectRefusal(solve({path("block.msh"), "-o", path("out.xdmf")}), "--output");
@@ -184,6 +184,22 @@ TEST_F(SolveProgram, RefusesAPatchAsWideAsTheOrgan) {
 }
 TEST_F(SolveProgram, RefusesAnUnknownOption) {
   expectRefusal(solve({path("block.msh"), "--bogus"}), "--bogus");
+}
+TEST_F(SolveProgram, TellsABadFileFromACommandLineThatCannotBeUsed) {
+  const auto code = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), path("block.msh"));
+    return solve(arguments).exit_code;
+  };
+  EXPECT_EQ(code({"-o", path("nowhere/out.h5")}), 2);
+  EXPECT_EQ(code({"-o", path("nowhere/case.toml"), "--template"}), 2);
+  EXPECT_EQ(code({"-o", folder_.path().string()}), 2) << "a folder";
+  EXPECT_EQ(code({"-o", path("out.xdmf")}), 2);
+  EXPECT_EQ(code({"-o", path("block.msh"), "--template"}), 2) << "it would replace the mesh";
+  EXPECT_EQ(code({"-o", path("out.h5"), "--method", "pod"}), 2);
+  EXPECT_EQ(code({"-o", path("out.h5"), "--travel", "0.01", "--order", "3"}), 2);
+  EXPECT_EQ(code({"-o", path("out.h5"), "--size-limit", "8e6"}), 2) << "without --target handheld";
+  EXPECT_EQ(solve({path("none.msh"), "-o", path("out.h5")}).exit_code, 1);
+  EXPECT_EQ(solve({writeCase("[material]\nyoung = 1\n"), "-o", path("out.h5")}).exit_code, 1);
 }
 TEST_F(SolveProgram, TakesAPathThatIsNotUtf8) {
   const std::string odd = path("caf\xe9.msh");

@@ -7,7 +7,7 @@
 
 namespace palpate::certify {
 
-/// A share in per cent; "unknown" where it is no number.
+/// A share in per cent; "unknown" where it is not a number.
 [[nodiscard]] std::string percent(const program::Json& share);
 /// @param length  m  @throw program::JsonError
 [[nodiscard]] std::string millimetres(const program::Json& length);

@@ -8,10 +8,6 @@ namespace palpate::organ {
 
 /// The rim of a hole that is filled spans at most this part of the body's diagonal.
 constexpr double kLargestHole = 0.25;
-/// The rim around crossing triangles that are taken away spans at most this part.
-constexpr double kLargestWound = 0.5;
-/// A piece with an open rim is left out when its area is at most this part of the whole.
-constexpr double kLoosePiece = 0.25;
 /// Makes a scanned surface one that bounds a solid, by CGAL's polygon mesh processing: leaves out triangles that are
 /// not finite, flat or there twice; merges vertices nearer than kMergeDistance; turns parts over until all face the
 /// same way,

@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/make/organ/repair/repairs.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "tools/program/printed.h"
 
 namespace palpate::organ {
+namespace {
+
+std::string listed(const std::vector<LoosePiece>& pieces) {
+  constexpr std::size_t kMost = 3;
+  std::string words;
+  for (std::size_t i = 0; i < std::min(pieces.size(), kMost); ++i) {
+    const LoosePiece& piece = pieces[i];
+    words += (i > 0 ? "; " : "") + program::printed("%zu triangle%s, %.3g cm^2, at (%.4g %.4g %.4g) m",
+                                                    piece.triangles, piece.triangles == 1 ? "" : "s",
+                                                    1e4 * piece.area, piece.middle[0], piece.middle[1],
+                                                    piece.middle[2]);
+  }
+  return words + (pieces.size() > kMost ? "; ..." : "");
+}
+
+}  // namespace
 
 std::vector<std::string> Repairs::inWords() const {
   std::vector<std::string> lines;
@@ -18,19 +36,18 @@ std::vector<std::string> Repairs::inWords() const {
   tell(flat, "triangle without area left out", "triangles without area left out");
   tell(turned_over, "triangle turned over", "triangles turned over");
   tell(stitched, "pair of edges side by side stitched", "pairs of edges side by side stitched");
-  tell(loose, "triangle of a loose piece left out", "triangles of loose pieces left out");
+  tell(loose.size(), "loose piece left out", "loose pieces left out");
+  if (!loose.empty()) lines.back() += ": " + listed(loose);
   tell(crossing_pairs, "pair of triangles crossed", "pairs of triangles crossed");
   tell(crossing_removed, "triangle taken away where they crossed", "triangles taken away where they crossed");
   tell(holes, "hole filled", "holes filled");
   tell(fills, "triangle put into the holes", "triangles put into holes and where triangles were taken away");
   if (lines.empty()) lines.emplace_back("nothing to repair");
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "volume %.6g m^3 as the file's triangles face, %.6g m^3 once all face outward, %.6g m^3 "
-                "after (%+.2f %%)",
-                volume_of_file, volume_before, volume_after,
-                100 * (volume_after - volume_before) / std::abs(volume_before));
-  lines.emplace_back(text);
+  lines.push_back(program::printed(
+      "volume %.6g m^3 as the file's triangles face, %.6g m^3 once all face outward, %.6g m^3 "
+      "after (%+.2f %%)",
+      volume_of_file, volume_before, volume_after,
+      100 * (volume_after - volume_before) / std::abs(volume_before)));
   return lines;
 }
 

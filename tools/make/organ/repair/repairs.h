@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace palpate::organ {
+
+/// A piece with an open rim that hangs on nothing.
+struct LoosePiece {
+  std::size_t triangles;
+  double area;                   ///< m^2
+  std::array<double, 3> middle;  ///< of its bounding box, m
+};
 
 /// What repairSurface() changed.
 struct Repairs {
@@ -15,7 +23,7 @@ struct Repairs {
   std::size_t flat{0};              ///< triangles without area, left out
   std::size_t turned_over{0};       ///< triangles
   std::size_t stitched{0};          ///< edges that lay side by side and became one
-  std::size_t loose{0};             ///< triangles of loose pieces, left out
+  std::vector<LoosePiece> loose;    ///< pieces that were left out, the largest first
   std::size_t crossing_pairs{0};    ///< pairs of triangles that crossed
   std::size_t crossing_removed{0};  ///< triangles taken away where they crossed
   std::size_t holes{0};             ///< holes of the file that were filled

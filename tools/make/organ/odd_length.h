@@ -6,9 +6,6 @@
 
 namespace palpate::organ {
 
-/// Metres of a unit of length: "mm", "cm" or "m". @throw MeshError
-[[nodiscard]] double metresOf(const std::string& unit);
-
 /// What to tell about a body longer than 1 m or shorter than 5 mm: its length and the unit that would make it an
 /// organ. Empty for other lengths.
 /// @param length  m, the longest side of the bounding box

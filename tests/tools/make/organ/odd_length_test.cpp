@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/make/organ/unit.h"
+#include "tools/make/organ/odd_length.h"
 
-#include "helpers.h"
+#include <gtest/gtest.h>
 
 namespace palpate::organ::test {
 namespace {
-
-TEST(Unit, HasItsMetres) {
-  EXPECT_EQ(metresOf("mm"), 0.001);
-  EXPECT_EQ(metresOf("cm"), 0.01);
-  EXPECT_EQ(metresOf("m"), 1);
-  EXPECT_REFUSED(metresOf("inch"), "--unit must be mm, cm or m, not inch");
-}
 
 TEST(OddLength, AnOrganIsNotOdd) {
   for (const double length : {0.005, 0.02, 0.2, 1.0}) EXPECT_FALSE(oddLength(length, 1)) << length;
