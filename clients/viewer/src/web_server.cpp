@@ -51,9 +51,9 @@ void useTls(const TlsFiles& files, lws_context_creation_info& info) {
 }  // namespace
 
 void check(const WebOptions& options) {
-  (void)PageFiles(options.page);
   check(options.access);
   check(options.tls);
+  (void)PageFiles(options.page);
 }
 
 struct WebServer::Connection {  // lws gives zeroed memory

@@ -148,8 +148,7 @@ TEST_F(ViewerEndToEnd, EndsWithCodeZeroWhenAsked) {
 }
 
 TEST(ViewerProgram, SaysWhyItDoesNotStart) {
-  const auto open =
-      runProgram("palpate-viewer", {"--listen", "0.0.0.0", "--port", "0", "--page", "/nowhere"});
+  const auto open = runProgram("palpate-viewer", {"--port", "0", "--page", "/nowhere"});
   EXPECT_EQ(open.exit_code, 2);
   EXPECT_NE(open.err.find("index.html"), std::string::npos) << open.err;
   const TemporaryFolder page;

@@ -73,11 +73,11 @@ TEST(RemeshSurface, SpikesThatGmshCannotFlattenBecomeAnOrgan) {
   EXPECT_GT(worst, 0.02);
 }
 
-// A bent ellipsoid with poles, as scanners number them, and 0.05 mm of noise: sound, but Gmsh flattens it not.
-mesh::TriangleSurface kidney() {
-  constexpr int kAround = 60, kAlong = 30;
+// A bent ellipsoid with poles, as scanners number them, and 0.05 mm of noise: sound, but Gmsh flattens four of five not.
+mesh::TriangleSurface kidney(unsigned seed) {
+  constexpr int kAround = 80, kAlong = 40;
   mesh::TriangleSurface s;
-  std::mt19937 random(1);
+  std::mt19937 random(seed);
   std::normal_distribution<double> noise(0, 5e-5);
   const auto at = [&](int i, int j) {
     const double t = std::numbers::pi * j / kAlong, p = 2 * std::numbers::pi * i / kAround;
@@ -105,10 +105,18 @@ mesh::TriangleSurface kidney() {
 
 TEST(ImportOrgan, WhatGmshCannotRemeshIsRemeshedAllTheSame) {
   const mesh::test::TemporaryFolder folder;
-  const mesh::TriangleSurface sound = kidney();
+  const auto gmshTakes = [](const mesh::TriangleSurface& surface) {
+    try {
+      (void)mesh::fillSurface(surface, {0.004, 0, 0.5});
+      return true;
+    } catch (const mesh::MeshError&) {
+      return false;
+    }
+  };
+  mesh::TriangleSurface sound = kidney(1);
+  for (unsigned seed = 2; seed < 9 && gmshTakes(sound); ++seed) sound = kidney(seed);
   ASSERT_TRUE(mesh::surfaceDefects(sound).empty());
-  ASSERT_THROW((void)mesh::fillSurface(sound, {0.004, 0, 0.5}), mesh::MeshError)
-      << "then another surface is due";
+  ASSERT_FALSE(gmshTakes(sound)) << "then other surfaces are due";
   writeStl((folder / "kidney.stl").string(), sound);
   ImportOptions options;
   options.sizes.surface = 0.004;
