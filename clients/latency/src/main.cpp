@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-latency: how long a pose takes to become a force, and how steadily the server ticks.
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -65,16 +64,33 @@ std::vector<Assertion> readAssertions(const Options& options) {
   return read;
 }
 
-// One line for each assertion that fails. Returns the program's exit code.
-int judgeAll(const std::vector<Assertion>& assertions, const program::Json& report,
+// One line for each assertion that fails. What was not measured to its end holds none. Returns the program's exit code.
+int judgeAll(const std::vector<Assertion>& assertions, const program::Json& report, const SenderStats& sender,
              const std::string& junit) {
+  const bool complete = !sender.server_left && !sender.interrupted;
   std::vector<Outcome> outcomes;
-  for (const Assertion& assertion : assertions) outcomes.push_back(judge(assertion, report));
+  for (const Assertion& assertion : assertions)
+    outcomes.push_back(complete ? judge(assertion, report)
+                                : Outcome{assertion, false, "not measured to the end"});
   if (!junit.empty()) program::writeFile(junit, junitOf(outcomes, report["seconds"].get<double>()));
   for (const Outcome& outcome : outcomes)
     if (!outcome.held) std::cerr << "palpate-latency: " << failureLine(outcome) << '\n';
+  if (sender.server_left) std::cerr << "palpate-latency: the server left before the end\n";
+  if (sender.server_left || (sender.interrupted && !assertions.empty())) return program::kFailed;
   const bool all = std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& one) { return one.held; });
-  return all ? 0 : program::kNotHeld;
+  return all ? program::kDone : program::kNotHeld;
+}
+
+// @return the program's exit code
+int tell(const Options& options, const std::vector<Assertion>& assertions, const LatencyLog& log,
+         const SenderStats& sender, const dds::ServerStatus& server) {
+  (options.json ? std::cerr : std::cout) << textOf(log, sender, server) << std::flush;
+  const program::Json report = jsonOf(log, sender, server);
+  if (options.json) program::printJson(report);
+  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(log));
+  if (!options.hdr.empty())
+    program::writeFile(options.hdr, hdrLogOf(taggedTimesOf(log), {sender.start_ms, sender.seconds}));
+  return judgeAll(assertions, report, sender, options.junit);
 }
 
 int body(int argc, char** argv) {
@@ -106,25 +122,18 @@ int body(int argc, char** argv) {
   options.measure.tip_radius = server.status.tip_radius[options.measure.tool_id];
 
   // 3. Measure.
-  const Interval interval{std::chrono::duration_cast<std::chrono::milliseconds>(
-                              std::chrono::system_clock::now().time_since_epoch())
-                              .count(),
-                          options.measure.seconds};
   LatencyLog log(static_cast<std::int64_t>(1e9 / options.measure.rate_hz));
   const SenderStats sender = measure(participant, spot, options.measure, log);
   if (!sender.realtime) std::cerr << client::kNotRealtime;
+  if (log.received() == 0 && sender.interrupted)
+    throw client::ClientError("interrupted before a force came back");
   if (log.received() == 0)
     throw client::ClientError("no force came back for " + std::to_string(sender.sent) + " poses");
 
   server.status = statuses.find(runOf(server)).value_or(server.status);
 
   // 4. Tell.
-  (options.json ? std::cerr : std::cout) << textOf(log, sender, server.status) << std::flush;
-  const program::Json report = jsonOf(log, sender, server.status);
-  if (options.json) program::printJson(report);
-  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(log));
-  if (!options.hdr.empty()) program::writeFile(options.hdr, hdrLogOf(taggedTimesOf(log), interval));
-  return judgeAll(assertions, report, options.junit);
+  return tell(options, assertions, log, sender, server.status);
 }
 
 }  // namespace
