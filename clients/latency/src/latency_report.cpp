@@ -114,6 +114,8 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"left_out", sender.left_out.count},
           {"superseded", log.superseded()},
           {"seconds", sender.seconds},
+          {"server_left", sender.server_left},
+          {"interrupted", sender.interrupted},
           {"sent", sender.sent},
           {"received", log.received()},
           {"server_restarts", log.restarts()},
