@@ -68,6 +68,10 @@ void Events::drain(std::int64_t now_ns) {
     if (isDue(kChangedKind, now_ns)) info(*news.changed);
     noteParameters();
   }
+  if (news.model) {
+    info(*news.model);
+    noteParameters();
+  }
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
   noteUnknownTools(now_ns);

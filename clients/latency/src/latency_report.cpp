@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "latency_report.h"
 
+#include "palpate/client/model_changes.h"
 #include "palpate/client/time_summary.h"
 #include "palpate/report/program.h"
 #include "palpate/report/text_chart.h"
@@ -60,7 +61,7 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
       static_cast<unsigned long long>(log.received()), static_cast<unsigned long long>(log.lost()),
       static_cast<unsigned long long>(log.late()), static_cast<unsigned long long>(log.superseded()),
       static_cast<unsigned long long>(log.overruns()));
-  text += sender.left_out_text;
+  text += sender.left_out_text + client::modelChangesText(sender.model_changes);
   text += std::string("real-time priority: server ") + (server.realtime ? "yes" : "no") + ", sender " +
           (sender.realtime ? "yes" : "no") +
           "; server's memory locked: " + (server.memory_locked ? "yes" : "no") + "\n";
@@ -82,6 +83,7 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"lost", log.lost()},
           {"late", log.late()},
           {"left_out", sender.left_out.count},
+          {"model_changes", sender.model_changes},
           {"superseded", log.superseded()},
           {"seconds", sender.seconds},
           {"sent", sender.sent},

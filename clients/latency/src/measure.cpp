@@ -90,6 +90,7 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   const std::int64_t end_ns = rt::monotonicNow();
   send(*tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
   stats.left_out = tool->hold().leftOut();
+  stats.model_changes = tool->modelChanges();
   stats.left_out_text = client::leftOutText(stats.left_out, statuses);
   tool.reset();  // no answer comes after this
   log.finish(end_ns);

@@ -25,8 +25,9 @@ struct SenderStats {
   rt::CycleStats wakeup;  ///< lateness of the sending thread's wake-ups
   double seconds{0.0};    ///< duration of the measurement
   std::uint64_t sent{0};
-  client::LeftOut left_out;   ///< forces of other servers
-  std::string left_out_text;  ///< whose; empty: none
+  client::LeftOut left_out;        ///< forces of other servers
+  std::string left_out_text;       ///< whose; empty: none
+  std::uint64_t model_changes{0};  ///< how often the server took another model
   bool realtime{false};
 };
 
