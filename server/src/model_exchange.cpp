@@ -79,6 +79,7 @@ ExchangeOutcome ModelExchange::take(std::int64_t now_ns) {
   served_.facts.model_id = engine_->id;
   served_.facts.model_hash = engine_->hash;
   served_.facts.organ = loaded_.organ;
+  served_.facts.memory_locked = served_.facts.memory_locked && engine_->model->locked();
   served_.parameters.take(loaded_.organ);
   if (!served_.surface.change(std::move(loaded_.shape)))
     channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
@@ -87,6 +88,7 @@ ExchangeOutcome ModelExchange::take(std::int64_t now_ns) {
   ExchangeOutcome outcome = end({});
   outcome.line = "another organ: " + describe(*engine_->model, loaded_.name) + "; " +
                  program::certificateLine(engine_->model->attributes().certificate);
+  if (!engine_->model->locked()) outcome.line += "; not locked into memory, a tick may wait for a page";
   if (!record_.empty()) outcome.line += "; the recording goes on in " + record_;
   loaded_ = {};
   state_ = State::kClearing;

@@ -15,7 +15,7 @@ class MetaModel;
 namespace palpate::server {
 
 /// What no longer changes once the server has started, as ServerStatus reports it. But for what is the model's, which another model
-/// changes: model_id, model_hash and organ are the events thread's.
+/// changes: model_id, model_hash, organ and memory_locked are the events thread's.
 struct Facts {
   std::uint32_t server_id{0};
   std::uint64_t session{0};  ///< random, of this run; never 0

@@ -24,7 +24,7 @@ struct ExchangeOutcome {
 
 /// What the exchange changes beside the engine. All must outlive it.
 struct Served {
-  Facts& facts;  ///< of these the model's: model_id, model_hash, organ
+  Facts& facts;  ///< of these the model's: model_id, model_hash, organ, memory_locked
   ParameterBook& parameters;
   RestSurface& surface;
   Recorder* recorder;  ///< none: nothing is recorded
