@@ -20,6 +20,8 @@ namespace palpate {
 
 namespace {
 
+constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL;
+
 /// Closes a file descriptor at the end of a scope.
 class Descriptor {
  public:
@@ -54,14 +56,43 @@ std::size_t regularFileSize(const std::filesystem::path& path, int descriptor) {
 }  // namespace
 
 SealedImage::SealedImage(const std::filesystem::path& path) {
+  const Descriptor source(
+      ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe must not block us
+  if (source.get() < 0) failSystem(path, "cannot be opened");
+  makeFrom(source.get(), path);
+}
+
+SealedImage::SealedImage(int descriptor, const std::filesystem::path& name) {
+  makeFrom(descriptor, name);
+}
+
+void SealedImage::makeFrom(int source, const std::filesystem::path& name) {
   try {
-    copyFrom(path);
-    seal(path);
-    map(path);
+    copyFrom(source, name);
+    seal(name);
+    map(name);
   } catch (...) {
     release();
     throw;
   }
+}
+
+SealedImage SealedImage::adopt(int descriptor, const std::filesystem::path& name) {
+  SealedImage image;
+  image.descriptor_ = descriptor;
+  const int seals = ::fcntl(descriptor, F_GET_SEALS);
+  if (seals < 0 || (seals & kSeals) != kSeals) {
+    image.release();
+    fail(name, "is no sealed copy of a file");
+  }
+  try {
+    image.size_ = regularFileSize(name, descriptor);
+    image.map(name);
+  } catch (...) {
+    image.release();
+    throw;
+  }
+  return image;
 }
 
 SealedImage::SealedImage(SealedImage&& other) noexcept
@@ -84,18 +115,15 @@ SealedImage::~SealedImage() {
   release();
 }
 
-void SealedImage::copyFrom(const std::filesystem::path& path) {
-  const Descriptor source(
-      ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe must not block us
-  if (source.get() < 0) failSystem(path, "cannot be opened");
-  size_ = regularFileSize(path, source.get());
+void SealedImage::copyFrom(int source, const std::filesystem::path& path) {
+  size_ = regularFileSize(path, source);
   requireMemoryFile(path, "its copy", size_);
   descriptor_ = ::memfd_create("palpate-model", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (descriptor_ < 0) failSystem(path, "no memory file can be created for its copy");
   std::vector<std::byte> chunk(std::size_t{1} << 20U);
   std::size_t copied = 0;
   for (;;) {
-    const ssize_t got = ::read(source.get(), chunk.data(), chunk.size());
+    const ssize_t got = ::read(source, chunk.data(), chunk.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) failSystem(path, "cannot be read");
     if (got == 0) break;
@@ -122,8 +150,7 @@ void SealedImage::seal(const std::filesystem::path& path) const {
   // Linux says EBUSY while it holds some of the pages itself, as when it moves them; it has then waited 0.15 s for them.
   constexpr int kAttempts = 20;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL) == 0)
-      return;
+    if (::fcntl(descriptor_, F_ADD_SEALS, kSeals) == 0) return;
     if (errno != EBUSY && errno != EINTR) break;
   }
   failSystem(path, "its copy in memory cannot be sealed");

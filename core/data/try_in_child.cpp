@@ -2,6 +2,7 @@
 #include "core/data/try_in_child.h"
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +21,7 @@ namespace palpate {
 namespace {
 
 constexpr char kDone = 'D', kFailed = 'F';  // first byte of what the child says
+constexpr int kTrialAnswer = kTrialImage + 1;
 
 void setLimits([[maybe_unused]] std::size_t bytes) {
   [[maybe_unused]] constexpr rlim_t kSeconds = 10, kRoom = 64U << 20U;
@@ -69,19 +71,22 @@ std::string endOf(pid_t child) {
   return WIFSIGNALED(status) ? std::string("by ") + ::strsignal(WTERMSIG(status)) : "without a word";
 }
 
-}  // namespace
+[[noreturn]] void failToStart(const std::string& name, int error) {
+  throw LoadError(name + ": no process can be started to look at it: " + std::strerror(error));
+}
 
-void tryInChild(const std::string& name, std::size_t bytes, const std::function<void()>& work) {
+/// Starts a child that says on the pipe's second end how it went, and hears it.
+/// @param start  what starts it, given that end; returns 0 and the child, or errno
+void hear(const std::string& name, const std::function<int(int answer, pid_t& child)>& start) {
   std::array<int, 2> ends{};
-  const bool piped = ::pipe2(ends.data(), O_CLOEXEC) == 0;
-  const pid_t child = piped ? ::fork() : -1;
-  if (child < 0) {
-    const std::string reason = std::strerror(errno);
-    if (piped) ::close(ends[0]), ::close(ends[1]);
-    throw LoadError(name + ": no process can be started to look at it: " + reason);
-  }
-  if (child == 0) beChild(ends[1], name, bytes, work);
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) failToStart(name, errno);
+  pid_t child = -1;
+  const int error = start(ends[1], child);
   ::close(ends[1]);
+  if (error != 0) {
+    ::close(ends[0]);
+    failToStart(name, error);
+  }
   const std::string answer = readAll(ends[0]);
   ::close(ends[0]);
   const std::string end = endOf(child);
@@ -89,6 +94,47 @@ void tryInChild(const std::string& name, std::size_t bytes, const std::function<
     throw LoadError(name + ": the process that had HDF5 look at it ended " + end +
                     ", the file is damaged or made to harm");
   if (answer.front() == kFailed) throw LoadError(answer.substr(1));
+}
+
+/// posix_spawn() shares this process's memory with the child until that has become another program: nothing is copied.
+int spawnSelf(std::array<std::string, 4> arguments, int image, int answer, pid_t& child) {
+  std::array<char*, 5> argv{};
+  for (std::size_t i = 0; i < arguments.size(); ++i) argv[i] = arguments[i].data();
+  posix_spawn_file_actions_t actions;
+  if (const int error = ::posix_spawn_file_actions_init(&actions); error != 0) return error;
+  // Away from the two places first: either may be where the other is to go.
+  const int far_image = ::fcntl(image, F_DUPFD_CLOEXEC, kTrialAnswer + 1);
+  const int far_answer = ::fcntl(answer, F_DUPFD_CLOEXEC, kTrialAnswer + 1);
+  int error = far_image < 0 || far_answer < 0 ? errno : 0;
+  if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, far_image, kTrialImage);
+  if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, far_answer, kTrialAnswer);
+  if (error == 0) error = ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  for (const int descriptor : {far_image, far_answer})
+    if (descriptor >= 0) ::close(descriptor);
+  return error;
+}
+
+}  // namespace
+
+void tryInChild(const std::string& name, std::size_t bytes, const std::function<void()>& work) {
+  hear(name, [&](int answer, pid_t& child) {
+    child = ::fork();
+    if (child == 0) beChild(answer, name, bytes, work);
+    return child < 0 ? errno : 0;
+  });
+}
+
+void tryInProgram(const std::string& name, std::size_t bytes, const std::string& argument, int descriptor) {
+  hear(name, [&](int answer, pid_t& child) {
+    return spawnSelf({"palpate-model-trial", argument, name, std::to_string(bytes)}, descriptor, answer,
+                     child);
+  });
+}
+
+void answerTrial(const std::string& name, std::size_t bytes, const std::function<void()>& work) {
+  ::close_range(kTrialAnswer + 1, ~0U, 0);  // sockets that the program before left open
+  beChild(kTrialAnswer, name, bytes, work);
 }
 
 }  // namespace palpate

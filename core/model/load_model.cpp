@@ -41,13 +41,22 @@ std::uint64_t bytesOfTables(const ModelView& v) {
 MetaModel MetaModel::load(const std::filesystem::path& path) {
   // First: later changes of the file do not reach the copy that was checked.
   const auto image = std::make_shared<const SealedImage>(path);
-  const std::size_t size = image->bytes().size();
-  const auto read = [&] { return readModel(Hdf5Reader(*image, path.string()), path.string()); };
-  tryInChild(path.string(), size, [&] { (void)read(); });  // HDF5 trusts what it reads
-  ModelContents contents = read();
-  requireMemory(path, "what is computed from it", bytesOfTables(contents.view));
+  const std::string name = path.string();
+  return load(image, name,
+              [&] { tryInChild(name, image->bytes().size(), [&] { tryToRead(*image, name); }); });
+}
+
+MetaModel MetaModel::load(const std::shared_ptr<const SealedImage>& image, const std::string& name,
+                          const std::function<void()>& trial) {
+  trial();  // HDF5 trusts what it reads
+  ModelContents contents = readModel(Hdf5Reader(*image, name), name);
+  requireMemory(name, "what is computed from it", bytesOfTables(contents.view));
   const ModelDigests digests = digestsOf(contents);
-  return of({image, size, image->locked()}, std::move(contents), digests, path.string());
+  return of({image, image->bytes().size(), image->locked()}, std::move(contents), digests, name);
+}
+
+void MetaModel::tryToRead(const SealedImage& image, const std::string& name) {
+  (void)readModel(Hdf5Reader(image, name), name);
 }
 
 }  // namespace palpate

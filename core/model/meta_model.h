@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -26,6 +27,8 @@
 
 namespace palpate {
 
+class SealedImage;
+
 /// The memory that a model's arrays lie in.
 struct ModelImage {
   std::shared_ptr<const void> memory;
@@ -41,6 +44,12 @@ class MetaModel {
   /// (docs/model_file.md).
   /// @throw LoadError one sentence: file, dataset, found, expected. Real-time: no (reads, allocates).
   [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
+  /// The same of a copy that was made already. @param name  how it is called in messages
+  /// @param trial  has HDF5 look at the copy where that can do no harm, by tryToRead(). @throw LoadError, and what trial throws
+  [[nodiscard]] static MetaModel load(const std::shared_ptr<const SealedImage>& image,
+                                      const std::string& name, const std::function<void()>& trial);
+  /// What a trial does: HDF5 reads the copy. @throw LoadError
+  static void tryToRead(const SealedImage& image, const std::string& name);
   /// A model whose arrays lie in memory already. @param digests  computed of these  @param name  how it is called in messages
   /// @throw LoadError  as load(), for numbers and digests. Real-time: no.
   [[nodiscard]] static MetaModel of(ModelImage image, ModelContents contents, const ModelDigests& digests,

@@ -29,6 +29,12 @@ bool follow(const Vec3& from, double most, Vec3& to, Mat3& K) noexcept PALPATE_N
   return true;
 }
 
+/// How much of a force the rate limit lets go in a tick, as a share of it.
+double shareOf(const LimiterInput& in, const Vec3& force) noexcept PALPATE_NONBLOCKING {
+  const double length = force.norm();
+  return length > 0.0 ? in.force_rate_limit * in.dt / length : 1.0;
+}
+
 }  // namespace
 
 double ForceLimiter::freshness(double age_at_end) const noexcept PALPATE_NONBLOCKING {
@@ -54,8 +60,10 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
   const double step = config_.ramp_time > 0.0 ? in.dt / config_.ramp_time : 1.0;
   memory.blend = std::max(0.0, memory.blend - step);
   if (in.shutting_down) memory.fade = std::max(0.0, memory.fade - step);
+  if (in.hands_over) memory.fade = std::max(0.0, memory.fade - std::min(step, shareOf(in, memory.mixed)));
   memory.gain = memory.fade * freshness(in.age + in.period);
   Vec3 mixed = (1.0 - memory.blend) * memory.target + memory.blend * memory.from;
+  if (in.hands_over) mixed = memory.mixed;
   if (follow(memory.mixed, in.force_rate_limit * in.dt, mixed, K)) out.flags |= kForceRateLimited;
   if (mixed.norm() > kRounding * in.force_limit && cut(in.force_limit, mixed, K)) out.flags |= kForceLimited;
   memory.mixed = mixed;
@@ -65,6 +73,7 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
   if (in.age > config_.stale_timeout) out.flags |= kStalePose;
   if (out.force != memory.target) out.flags |= kRamping;
   if (in.shutting_down) out.flags |= kShuttingDown;
+  if (in.hands_over) out.flags |= kModelChanging;
   return out;
 }
 

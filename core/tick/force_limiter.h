@@ -34,19 +34,22 @@ struct LimiterInput {
   bool held{false};           ///< no good pose in this tick: the last good force is used
   bool jumped{false};         ///< the model's force is not continuous in this tick: blend over
   bool shutting_down{false};  ///< fade to zero, for good
+  bool hands_over{false};     ///< the same, from the force of the tick before, within the rate limit
 };
 
 struct LimitedForce {
   Vec3 force = Vec3::Zero();  ///< on the tool, W, N, never longer than the limit
   Mat3 stiffness =
-      Mat3::Zero();        ///< d force / d pose as rendered, chain rule through all below; zero while held
-  std::uint32_t flags{0};  ///< kForceLimited, kForceRateLimited, kStalePose, kRamping, kShuttingDown
+      Mat3::Zero();  ///< d force / d pose as rendered, chain rule through all below; zero while held
+  std::uint32_t flags{
+      0};  ///< kForceLimited, kForceRateLimited, kStalePose, kRamping, kShuttingDown, kModelChanging
 };
 
 /// Keeps what a device gets safe and continuous (docs/design.md, Safety).
 ///   force = gain ((1 - blend) limit(f) + blend from),   limit(f) = f min(1, F / |f|)
 ///   what the gain multiplies changes no faster than the rate limit allows; release is not delayed by it, and a
 ///   lower force limit holds at once
+///   fade  falls from 1 to 0 within ramp_time at the end; where another engine takes over, also within the rate limit
 ///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
 ///   that the force will have when the next one replaces it, so that after zero_after the force is zero
 ///   at any rate of the loop. A jump keeps the force of the tick before as `from`

@@ -29,7 +29,9 @@ struct StepInput {
   std::int64_t dt_ns{1'000'000};
   /// of the loop: how long a force holds until the next one, ns; 0 or less: 1 ms; at most 0.1 s
   std::int64_t period_ns{1'000'000};
-  std::uint32_t shutting_down{0};  ///< not 0: ramp every force to zero within ramp_time and stay there
+  /// not 0: ramp every force to zero within ramp_time and stay there. kHandsOver: no faster than force_rate_limit, flagged
+  /// kModelChanging and not kShuttingDown
+  std::uint32_t shutting_down{0};
   /// not 0: blend to `settings` within LiveBlend::kSeconds; a tip radius changes when its tool touches nothing. 0: they stay as
   /// they are (at first StepConfig's)
   std::uint32_t has_settings{0};
@@ -51,6 +53,9 @@ struct ToolResult {
   double domain_radius{0.0};             ///< Response::domain_radius, m; zero when free
   double penetration{0.0};               ///< -d . n as imposed (before clamping), m, >= 0; zero when free
 };
+
+/// StepInput::shutting_down where another Workspace answers from then on, of another model.
+inline constexpr std::uint32_t kHandsOver = 2;
 
 /// Output of one tick; what the surface is made of is Workspace::surface(). Plain: it crosses threads.
 struct StepResult {

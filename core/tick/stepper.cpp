@@ -100,7 +100,8 @@ void Stepper::render(ToolMemory& memory, bool held, bool jumped,
   in.period = time_.period;
   in.held = held;
   in.jumped = jumped;
-  in.shutting_down = input_.shutting_down != 0;
+  in.hands_over = input_.shutting_down == kHandsOver;
+  in.shutting_down = input_.shutting_down != 0 && !in.hands_over;
   const LimitedForce limited = work_.limiter_.limit(in, memory.rendering);
   if (memory.rendering.gain <= 0.0) {
     work_.shaken_ = work_.shaken_ || !memory.contact.isFree();

@@ -12,6 +12,7 @@
 
 #include "palpate/server/config_file.h"
 #include "palpate/server/live_limits.h"
+#include "palpate/server/models_folder.h"
 #include "tools/program/command_line.h"
 #include "tools/program/installed.h"
 #include "tools/program/write_file.h"
@@ -24,6 +25,7 @@ constexpr const char* kTipRadius = "tip-radius";  // in --tool and --limit
 // What the command line names.
 struct Given {
   std::optional<std::string> model;
+  std::optional<std::string> models;
   std::optional<std::string> config;
   std::optional<std::string> record;
   std::optional<std::string> realtime;
@@ -92,6 +94,11 @@ void declareContact(program::Options line, Given& given) {
 
 void declare(program::Options line, Given& given) {
   line.add("--model", &given.model, "Model file made by palpate-solve").valueName("FILE");
+  line.add(
+          "--models", &given.models,
+          "Folder whose model files clients may ask for while it runs (palpate-parameters --model); default: "
+          "none, and they may not")
+      .valueName("FOLDER");
   line.add("--config", &given.config,
            "Options as TOML; all of them with their defaults: " +
                program::installedText(PALPATE_CONFIG_FROM_BIN))
@@ -242,6 +249,10 @@ ServerConfig combine(const Given& given) {
   ServerConfig config;
   if (given.config) readConfigFile(*given.config, config);
   if (given.model) config.model = *given.model;
+  if (given.models) config.models = *given.models;
+  if (given.models && given.models->empty())
+    throw ConfigError("--models is empty, expected the path of a folder");
+  if (!config.models.empty()) (void)ModelsFolder(config.models);  // it can be opened
   if (given.record) config.record = *given.record;
   if (given.record && given.record->empty())
     throw ConfigError("--record is empty, expected the path of a file");

@@ -175,9 +175,10 @@ void takeWord(const KeyReader& keys, const char* key, Take take) {
 void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   const toml::table root = parseToml(path);
   KeyReader keys(root, path.string());
-  std::string model;
+  std::string model, models;
   std::string realtime, parameters;
   keys.read("model", model);
+  keys.read("models", models);
   keys.read("domain", config.domain);
   keys.read("rate", config.rate);
   keys.read("realtime", realtime);
@@ -201,6 +202,10 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
   if (root.contains("model")) {
     if (model.empty()) keys.refuse("model", "is empty, expected the path of a model file");
     config.model = path.parent_path() / model;
+  }
+  if (root.contains("models")) {
+    if (models.empty()) keys.refuse("models", "is empty, expected the path of a folder");
+    config.models = path.parent_path() / models;
   }
   takeWord(keys, "realtime", [&] {
     if (root.contains("realtime")) config.realtime = parsePolicy(realtime);

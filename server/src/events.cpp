@@ -71,6 +71,10 @@ void Events::drain(std::int64_t now_ns) {
     noteParameters();
   }
   noteDelays(now_ns);
+  if (news.model) {
+    info(*news.model);
+    noteParameters();
+  }
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
   noteLateTicks(now_ns);

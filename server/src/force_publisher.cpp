@@ -19,7 +19,7 @@ dds::ToolForce toWire(const Facts& facts, const ForceRecord& record) noexcept {
   dds::ToolForce force{};
   force.server_id = facts.server_id;
   force.session = facts.session;
-  force.model_hash = facts.model_hash;
+  force.model_hash = record.model_hash;
   force.tool_id = record.tool_id;
   force.seq = record.seq;
   force.pose_seq = record.pose_seq;

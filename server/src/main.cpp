@@ -6,12 +6,16 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include "command_line.h"
-#include "core/data/model_view.h"
+#include "core/data/sealed_image.h"
+#include "core/data/try_in_child.h"
 #include "log_sink.h"
 #include "palpate/rt/spin_guard.h"
 #include "palpate/server/machine_check.h"
+#include "palpate/server/model_loader.h"
 #include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
@@ -86,12 +90,7 @@ int tellMachine(const ServerConfig& config) {
 }
 
 void logModel(const MetaModel& model, const ServerConfig& config) {
-  const ModelView& view = model.view();
-  spdlog::info(
-      "model {}: driven by {}, {} surface nodes, {} contact positions, {} modes, {} coefficients, {:.1f} MB, "
-      "id {}",
-      config.model.string(), toString(model.attributes().parameters), view.surfaceNodes(), view.positions(),
-      view.modes(), model.functions().size(), 1e-6 * static_cast<double>(model.bytes()), model.id());
+  spdlog::info(describe(model, config.model.string()));
   spdlog::info(program::certificateLine(model.attributes().certificate));
 }
 
@@ -100,7 +99,14 @@ void logContact(const Facts& facts) {
                facts.step.tools, facts.organ.largest, facts.organ.youngs_modulus);
 }
 
+// This program is started by itself, to look at a model that a client asked for (tryInProgram()).
+[[noreturn]] void answerTrialOf(const char* name, const char* bytes) {
+  answerTrial(name, std::strtoull(bytes, nullptr, 10),
+              [name] { MetaModel::tryToRead(SealedImage::adopt(kTrialImage, name), name); });
+}
+
 int serve(int argc, char** argv) {
+  if (argc == 4 && std::string_view(argv[1]) == kTrialArgument) answerTrialOf(argv[2], argv[3]);
   // 1. Options.
   std::optional<ServerConfig> config;
   program::orUsageError([&] { config = parseCommandLine(argc, argv); });
@@ -111,10 +117,10 @@ int serve(int argc, char** argv) {
   // before any thread exists too: what is made from here on stays off the tick's CPU.
   if (config->tick_cpu_alone) leaveCpuToTheTick(static_cast<int>(config->tick_cpu));
   // 3. The organ: immutable, checked, mapped.
-  const MetaModel model = MetaModel::load(config->model);
-  logModel(model, *config);
+  std::shared_ptr<const MetaModel> model(new const MetaModel(MetaModel::load(config->model)));
+  logModel(*model, *config);
   // 4. From here on poses are answered.
-  Server server(model, *config);
+  Server server(std::exchange(model, nullptr), *config);
   logContact(server.facts());
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
   // 5. Until a signal says stop,

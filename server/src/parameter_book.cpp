@@ -74,6 +74,12 @@ std::string beyond(const LiveParameters& wanted, const LiveLimits& limits) {
   return {};
 }
 
+// E is the organ's: its limits follow it, those of the other parameters do not.
+void setYoungsModulus(const LiveLimits& from, LiveLimits& to) {
+  to.lowest.youngs_modulus = from.lowest.youngs_modulus;
+  to.highest.youngs_modulus = from.highest.youngs_modulus;
+}
+
 dds::LiveValues toWire(const LiveParameters& live) {
   dds::LiveValues values{};
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
@@ -86,6 +92,8 @@ dds::LiveValues toWire(const LiveParameters& live) {
 ParameterBook::ParameterBook(const Facts& facts)
     : server_id_(facts.server_id),
       open_(facts.parameters),
+      start_youngs_modulus_(facts.step.youngs_modulus),
+      bounds_(facts.limits),
       organ_(facts.organ),
       device_(facts.device),
       settings_(toolSettings(facts.step)),
@@ -99,6 +107,32 @@ ParameterBook::ParameterBook(const Facts& facts)
     tools_[tool].start = settings_[tool];
     tools_[tool].start_limits = limits_[tool];
   }
+}
+
+std::string ParameterBook::complaintAbout(const OrganStiffness& organ) const {
+  LiveParameters start = tools_[0].start.live;
+  start.youngs_modulus = start_youngs_modulus_;
+  start = named(start, organ.youngs_modulus);
+  const std::string complaint = beyond(start, liveLimits(start, bounds_));
+  return complaint.empty() ? "" : "limits: with this model " + complaint;
+}
+
+AllToolSettings ParameterBook::inForceOnNext() const {
+  AllToolSettings settings = settings_;
+  for (ToolSettings& tool : settings) tool.live.youngs_modulus = start_youngs_modulus_;
+  return settings;
+}
+
+void ParameterBook::take(const OrganStiffness& organ) {
+  organ_ = organ;
+  settings_ = inForceOnNext();
+  for (std::size_t tool = 0; tool < settings_.size(); ++tool) {
+    tools_[tool].start.live.youngs_modulus = start_youngs_modulus_;
+    const LiveLimits limits = liveLimits(named(tools_[tool].start.live, organ.youngs_modulus), bounds_);
+    setYoungsModulus(limits, limits_[tool]);
+    setYoungsModulus(limits, tools_[tool].start_limits);
+  }
+  ++revision_;
 }
 
 std::string ParameterBook::complaintAbout(const dds::ParameterRequest& request,

@@ -2,6 +2,7 @@
 #include "palpate/server/parameter_service.h"
 
 #include <array>
+#include <cstring>
 
 #include "palpate/idl/error.h"
 #include "palpate/rt/clock.h"
@@ -19,8 +20,7 @@ std::string wordOf(bool said, const std::string& refusal) {
 ParameterService::ParameterService(const dds::Participant& participant, Channels& channels,
                                    const Facts& facts)
     : channels_(channels),
-      server_id_(facts.server_id),
-      session_(facts.session),
+      facts_(facts),
       book_(facts),
       announcements_(participant, channels, facts),
       answers_(participant),
@@ -31,8 +31,8 @@ ParameterService::ParameterService(const dds::Participant& participant, Channels
 bool ParameterService::admits(const dds::ParameterRequest& request, void* context) noexcept {
   auto& self = *static_cast<ParameterService*>(context);
   std::atomic<std::uint64_t>* refused = nullptr;
-  const bool this_run = request.session == 0 || request.session == self.session_;
-  if (request.server_id != self.server_id_ || !this_run) refused = &self.channels_.foreign_requests;
+  const bool this_run = request.session == 0 || request.session == self.facts_.session;
+  if (request.server_id != self.facts_.server_id || !this_run) refused = &self.channels_.foreign_requests;
   if (refused == nullptr && !self.bucket_.take(rt::monotonicNow()))
     refused = &self.channels_.surplus_requests;
   if (refused != nullptr) refused->fetch_add(1, std::memory_order_relaxed);
@@ -43,7 +43,8 @@ ParameterNews ParameterService::poll() {
   std::array<dds::ParameterRequest, dds::kMaxTake> requests;
   const std::size_t count = requests_.take(requests);
   ParameterNews news;
-  hearDrivers(news);
+  noteModel(news);
+  if (!leaving()) hearDrivers(news);
   for (std::size_t i = 0; i < count; ++i) serve(requests[i], news);
   return news;
 }
@@ -63,6 +64,8 @@ void ParameterService::hearDrivers(ParameterNews& news) {
 }
 
 void ParameterService::serve(const dds::ParameterRequest& request, ParameterNews& news) {
+  if (request.model[0] != '\0') return serveModel(request, news);
+  if (request.fields != 0 && leaving()) return;  // the client asks again
   const std::uint64_t before = book_.revision();
   const dds::ServerParameters answer = book_.decide(request);
   if (book_.revision() != before) {
@@ -74,8 +77,44 @@ void ParameterService::serve(const dds::ParameterRequest& request, ParameterNews
   if (!publish(answer)) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
 }
 
+void ParameterService::serveModel(const dds::ParameterRequest& request, ParameterNews& news) {
+  const std::uint64_t id = request.request_id;
+  if (id != 0 && id == last_model_.request_id) return answerModel(id, last_model_.refusal, false);
+  if (exchange_ != nullptr && exchange_->pending(id)) return answerModel(id, {}, true);
+  std::string refusal = "this server takes no models from clients";
+  if (request.fields != 0)
+    refusal = "a request is for another model or for other values, not for both";
+  else if (exchange_ != nullptr)
+    refusal = exchange_->ask(std::string(request.model, strnlen(request.model, sizeof request.model)), id,
+                             rt::monotonicNow());
+  if (!refusal.empty()) news.refused = "model refused: " + refusal;
+  answerModel(id, refusal, refusal.empty());
+}
+
+// What has become of the model that somebody asked for.
+void ParameterService::noteModel(ParameterNews& news) {
+  if (exchange_ == nullptr) return;
+  const std::optional<ExchangeOutcome> outcome = exchange_->poll(rt::monotonicNow());
+  if (!outcome) return;
+  last_model_ = *outcome;
+  if (!outcome->refusal.empty()) news.refused = "model refused: " + outcome->refusal;
+  if (!outcome->line.empty()) news.model = outcome->line + "; " + book_.describe();
+  answerModel(outcome->request_id, outcome->refusal, false);
+}
+
+void ParameterService::answerModel(std::uint64_t request_id, const std::string& refusal, bool pending) {
+  dds::ServerParameters answer = book_.answer();
+  answer.request_id = request_id;
+  answer.accepted = refusal.empty();
+  answer.pending = pending;
+  dds::assignText(answer.message, refusal);
+  if (!publish(answer)) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
+}
+
 bool ParameterService::publish(dds::ServerParameters answer) {
-  answer.session = session_;
+  answer.session = facts_.session;
+  dds::assignText(answer.model_id, facts_.model_id);
+  answer.models = exchange_ != nullptr && exchange_->allowed();
   return answers_.write(answer);
 }
 

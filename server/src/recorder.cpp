@@ -12,9 +12,26 @@ constexpr int kPollsPerFlush = 100;  // about once per second; a killed server l
 
 }  // namespace
 
+record::SessionFacts sessionOf(const MetaModel& model, const StepConfig& config) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return {model.digest(), std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), config};
+}
+
 Recorder::Recorder(Channels& channels, const std::filesystem::path& path, const record::SessionFacts& facts)
-    : channels_(channels), path_(path), writer_(path, facts) {
-  channels_.recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
+    : channels_(channels), first_path_(path), path_(path) {
+  writer_.emplace(path, facts);
+  channels_.recording = std::make_unique<rt::SpscQueue<SessionTick, 16384>>();
+}
+
+std::filesystem::path Recorder::expect(std::uint64_t engine, const record::SessionFacts& facts) {
+  std::filesystem::path path;
+  do {
+    path = first_path_.parent_path() /
+           (first_path_.stem().string() + "-" + std::to_string(++files_) + first_path_.extension().string());
+  } while (std::filesystem::exists(path));
+  const std::lock_guard lock(mutex_);
+  expected_.insert_or_assign(engine, Next{path, facts});
+  return path;
 }
 
 void Recorder::run() noexcept {
@@ -24,9 +41,9 @@ void Recorder::run() noexcept {
       std::this_thread::sleep_for(kPoll);
       stopping = channels_.stopping.load(std::memory_order_acquire);  // SYNC STOP
       drain();
-      if (polls % kPollsPerFlush == 0) writer_.flush();
+      if (polls % kPollsPerFlush == 0) writer_->flush();
     }
-    writer_.finish(writer_.ticks() + channels_.unrecorded.load(std::memory_order_relaxed));
+    finish();
   } catch (const std::exception& error) {
     failure_ = error.what();
     channels_.recording_failed.store(true, std::memory_order_relaxed);
@@ -34,16 +51,42 @@ void Recorder::run() noexcept {
 }
 
 void Recorder::drain() {
-  record::RecordedTick tick;
-  while (channels_.recording->pop(tick)) writer_.write(tick);
+  SessionTick next;
+  while (channels_.recording->pop(next)) {
+    if (next.engine != engine_) goOn(next.engine);
+    writer_->write(next.tick);
+  }
+}
+
+void Recorder::finish() {
+  const std::uint64_t unrecorded = channels_.unrecorded.load(std::memory_order_relaxed);
+  writer_->finish(writer_->ticks() + unrecorded - unrecorded_);
+  unrecorded_ = unrecorded;
+}
+
+// Another file for another model.
+void Recorder::goOn(std::uint64_t engine) {
+  finish();
+  finished_ += path_.string() + " (" + std::to_string(writer_->ticks()) + " ticks), ";
+  Next next;
+  {
+    const std::lock_guard lock(mutex_);
+    next = expected_.at(engine);
+    expected_.erase(expected_.begin(), expected_.upper_bound(engine));
+  }
+  engine_ = engine;
+  path_ = next.path;
+  writer_.emplace(path_, next.facts);
 }
 
 std::string Recorder::summary() const {
   if (!failure_.empty())
-    return "recording ends early after " + std::to_string(writer_.ticks()) + " ticks: " + failure_;
+    return "recording ends early after " + std::to_string(writer_ ? writer_->ticks() : 0) +
+           " ticks: " + failure_;
   const std::uint64_t lost = channels_.unrecorded.load(std::memory_order_relaxed);
-  return "recorded " + std::to_string(writer_.ticks()) + " ticks to " + path_.string() + ", " +
-         std::to_string(lost) + " lost";
+  return "recorded " + std::to_string(writer_->ticks()) + " ticks to " + path_.string() + ", " +
+         std::to_string(lost) + " lost" +
+         (finished_.empty() ? "" : "; before that " + finished_ + "of other models");
 }
 
 }  // namespace palpate::server

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
-#include "core/model/contact_radius.h"
 #include "palpate/idl/error.h"
 #include "palpate/rt/clock.h"
-#include "tools/program/certificate_line.h"
 
 namespace palpate::server {
 namespace {
@@ -24,36 +23,20 @@ bool isVolatile(dds_entity_t writer, dds_instance_handle_t reader) noexcept {
   return durability == DDS_DURABILITY_VOLATILE;
 }
 
-/// The regions that have tetrahedra: of "elsewhere" there may be none.
-std::vector<dds::Region> regionsOf(const ModelView& view, const std::vector<RegionSurface>& surfaces) {
-  std::vector<dds::Region> regions;
-  for (std::size_t r = 0; r < surfaces.size(); ++r) {
-    if (surfaces[r].tetrahedra == 0) continue;
-    dds::Region region{};
-    dds::assignText(region.name, textOf(view.region_name[r]));
-    region.youngs_modulus = view.region_E[r];
-    dds::lend(region.positions, surfaces[r].positions.data(), surfaces[r].positions.size());
-    dds::lend(region.triangles, surfaces[r].triangles.data(), surfaces[r].triangles.size());
-    regions.push_back(region);
-  }
-  return regions;
-}
-
 }  // namespace
 
-RestSurface::RestSurface(const dds::Participant& participant, const Facts& facts, const MetaModel& model)
-    : facts_(facts),
-      view_(model.view()),
-      contact_radius_(contactRadius(model)),
-      certificate_(program::certificateLine(model.attributes().certificate)),
-      triangles_(view_.surface_triangles.begin(), view_.surface_triangles.end()),
-      accessible_(model.accessibleNodes()),
-      clamped_(model.clampedNodes()),
-      region_surfaces_(regionSurfaces(view_)),
-      regions_(regionsOf(view_, region_surfaces_)),
-      writer_(participant) {
+RestSurface::RestSurface(const dds::Participant& participant, const Facts& facts,
+                         std::unique_ptr<const OrganShape> shape)
+    : facts_(facts), shape_(std::move(shape)), writer_(participant) {
   if (!write()) throw dds::DdsError("cannot publish the rest surface");
   sent_ns_ = rt::monotonicNow();
+}
+
+bool RestSurface::change(std::unique_ptr<const OrganShape> shape) noexcept {
+  shape_ = std::move(shape);
+  repeats_ = kRepeats;
+  sent_ns_ = rt::monotonicNow();
+  return write();
 }
 
 bool RestSurface::repeatIfAsked(std::int64_t now_ns) noexcept {
@@ -82,14 +65,7 @@ bool RestSurface::write() noexcept {
   mesh.organ_id = facts_.organ_id;
   mesh.session = facts_.session;
   dds::assignText(mesh.model_id, facts_.model_id);
-  dds::lend(mesh.positions, view_.surface_positions.data(), view_.surface_positions.size());
-  dds::lend(mesh.triangles, triangles_.data(), triangles_.size());
-  dds::lend(mesh.accessible, accessible_.data(), accessible_.size());
-  dds::lend(mesh.mesh_tags, view_.surface_mesh_tag.data(), view_.surface_mesh_tag.size());
-  dds::lend(mesh.clamped, clamped_.data(), clamped_.size());
-  dds::lend(mesh.regions, regions_.data(), regions_.size());
-  mesh.contact_radius = contact_radius_;
-  dds::assignText(mesh.certificate, certificate_);
+  shape_->lendTo(mesh);
   return writer_.write(mesh);
 }
 

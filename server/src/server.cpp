@@ -28,9 +28,8 @@ TickPlan planOf(const ServerConfig& config) {
   return {periodOf(config), std::llround(1e9 / surface_rate), config.phase_lock};
 }
 
-record::SessionFacts sessionOf(const MetaModel& model, const Facts& facts) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return {model.digest(), std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), facts.step};
+std::unique_ptr<ModelLoader> loaderOf(const ServerConfig& config) {
+  return config.models.empty() ? nullptr : std::make_unique<ModelLoader>(config.models);
 }
 
 const char* reasonNotLocked(const rt::MemoryLock& lock) {
@@ -66,27 +65,33 @@ std::string describeRealtime(rt::RealtimePolicy policy, bool realtime) {
 
 }  // namespace
 
-Server::Server(const MetaModel& model, const ServerConfig& config)
-    : facts_(factsOf(model, config)),
-      work_(model, facts_.step),
+Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig& config)
+    : facts_(factsOf(*model, config)),
+      first_(std::make_unique<Engine>(model, facts_.step)),
       participant_(static_cast<std::uint32_t>(config.domain)),
       status_out_(participant_, facts_),
       rivals_(participant_, facts_, status_out_, config.listen_first),
       force_out_(participant_, channels_, facts_),
-      rest_surface_(participant_, facts_, model),
-      surface_out_(participant_, model, channels_, facts_),
+      rest_surface_(participant_, facts_, std::make_unique<const OrganShape>(*model)),
+      surface_out_(participant_, channels_, facts_),
       parameters_(participant_, channels_, facts_),
       events_(channels_, status_out_, parameters_, rivals_),
-      tick_(model, work_, channels_, planOf(config)),
+      tick_(*first_, channels_, planOf(config)),
+      exchange_(channels_, {facts_, parameters_.book(), rest_surface_, nullptr}, std::move(first_),
+                loaderOf(config)),
       poses_in_(participant_, channels_, config.step, {facts_.server_id, facts_.answers_any}),
       endpoints_(participant_),
       processes_(participant_),
       ramp_time_(config.step.ramp_time) {
   watchEndpoints();
   parameters_.listenToDrivers(poses_in_.handle());
-  if (!config.record.empty()) recorder_.emplace(channels_, config.record, sessionOf(model, facts_));
-  Startup startup{config.realtime, rt::lockMemory(), model.locked(), false, {}};
-  facts_.memory_locked = isLocked(model, startup.memory);
+  parameters_.serveModels(exchange_);
+  if (!config.record.empty()) {
+    recorder_.emplace(channels_, config.record, sessionOf(*model, facts_.step));
+    exchange_.recordBy(*recorder_);
+  }
+  Startup startup{config.realtime, rt::lockMemory(), model->locked(), false, {}};
+  facts_.memory_locked = isLocked(*model, startup.memory);
   settleRealtime(config.realtime);
   try {
     startThreads(config);

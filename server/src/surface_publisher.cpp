@@ -8,23 +8,37 @@ void SurfacePublisher::run() noexcept {
   while (true) {
     (void)channels_.surface_ready.waitFor(kLook);
     if (channels_.stopping.load(std::memory_order_acquire)) return;  // SYNC STOP
+    // Before the look at the newest surface: no older one comes after it.
+    const std::uint64_t in_use = channels_.engine_to_show.load(std::memory_order_acquire);  // SYNC SHOWN
     const std::uint32_t readers = displacement_.readers();
     channels_.field_readers.store(readers, std::memory_order_relaxed);
-    if (readers == 0) surface_.forget();
+    if (readers == 0 && engine_ != nullptr) engine_->shown.forget();
     if (channels_.surface.update()) publish(channels_.surface.front());
+    letGo(in_use);
   }
 }
 
+// An engine before the one in use is not looked at any more: its last surface was taken just now, or replaced.
+void SurfacePublisher::letGo(std::uint64_t in_use) noexcept {
+  if (engine_ != nullptr && engine_->number < in_use) {
+    engine_ = nullptr;
+    channels_.field_overflowed.store(false, std::memory_order_relaxed);
+  }
+  channels_.engine_shown.store(in_use, std::memory_order_release);  // SYNC SHOWN
+}
+
 void SurfacePublisher::publish(const SurfaceSample& sample) noexcept {
-  (void)surface_.show(sample.state);
-  channels_.field_overflowed.store(surface_.overflowed(), std::memory_order_relaxed);
+  engine_ = sample.engine;
+  ShownSurface& surface = engine_->shown;
+  (void)surface.show(sample.state);
+  channels_.field_overflowed.store(surface.overflowed(), std::memory_order_relaxed);
   dds::SurfaceDisplacement field{};
   field.organ_id = facts_.organ_id;
   field.session = facts_.session;
-  dds::assignText(field.model_id, facts_.model_id);
+  dds::assignText(field.model_id, engine_->id);
   field.seq = sample.seq;
   field.stamp_ns = sample.stamp_ns;
-  const std::span<const float> u = surface_.displacement();
+  const std::span<const float> u = surface.displacement();
   dds::lend(field.displacement, u.data(), u.size());
   for (std::size_t tool = 0; tool < sample.poses.size(); ++tool) {
     field.pose_seq[tool] = sample.poses[tool].seq;

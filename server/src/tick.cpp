@@ -24,10 +24,11 @@ bool isZero(const std::array<double, 3>& force) noexcept PALPATE_NONBLOCKING {
 }  // namespace
 
 std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
-  // 1. What the tools want: the newest pose of each, and its age by our clock.
+  // 1. Who answers: another engine, once all forces have gone to zero.
+  changeEngine(cycle);
+  // 2. What the tools want: the newest pose of each, and its age by our clock. What they feel.
   readPoses(cycle);
-  // 2. What the tools feel.
-  (void)step(model_, work_, input_, result_);
+  (void)step(engine_->organ, engine_->work, input_, result_);
   countRejectedPoses();
   // 3. One force for each tool seen so far.
   writeForces(cycle);
@@ -46,6 +47,21 @@ std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   return shift_ns_;
 }
 
+// Settings that were written before the other engine was offered go to this one: they are part of the other's beginning.
+// So the offer is looked at before them, and at least one tick lies between seeing it and taking it.
+void Tick::changeEngine(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  if (next_engine_ == nullptr) {
+    Engine* const offered = channels_.next_engine.load(std::memory_order_acquire);  // SYNC ENGINE
+    if (offered != engine_) next_engine_ = offered;
+    return;
+  }
+  if (input_.shutting_down != kHandsOver || !allForcesAreZero()) return;
+  engine_ = next_engine_;
+  next_engine_ = nullptr;
+  engine_began_ = cycle.index;
+  channels_.engine_in_use.store(engine_->number, std::memory_order_release);  // SYNC TAKEN
+}
+
 void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   overrun_ = cycle.overruns > last_overruns_;
   last_overruns_ = cycle.overruns;
@@ -53,7 +69,8 @@ void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   input_.dt_ns = last_woke_ns_ == 0 ? 0 : cycle.woke_ns - last_woke_ns_;
   input_.has_settings =
       channels_.parameters.read(input_.settings) ? 1 : 0;  // passed once; the engine blends over
-  input_.shutting_down = channels_.shutting_down.load(std::memory_order_relaxed) ? 1 : 0;
+  input_.shutting_down = next_engine_ != nullptr ? kHandsOver : 0;
+  if (channels_.shutting_down.load(std::memory_order_relaxed)) input_.shutting_down = 1;
   input_.field_overflowed = channels_.field_overflowed.load(std::memory_order_relaxed) ? 1 : 0;
   last_woke_ns_ = cycle.woke_ns;
 }
@@ -133,13 +150,14 @@ void Tick::answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     record.pose_seq = stranger.seq;
     record.pose_stamp_ns = stranger.stamp_ns;
     record.pose_wait_ns = cycle.woke_ns - stranger.arrival_ns;
-    record.result.flags = stranger.flags | (input_.shutting_down != 0 ? kShuttingDown : 0);
+    record.result.flags = stranger.flags | (input_.shutting_down == 1 ? kShuttingDown : 0);
     push(record, cycle);
     return;
   }
 }
 
 void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  record.model_hash = engine_->hash;
   record.stamp_ns = cycle.woke_ns;
   record.wakeup_ns = cycle.woke_ns - cycle.deadline_ns;
   record.previous_tick_ns = cycle.previous_ns;
@@ -162,14 +180,17 @@ bool Tick::surfaceIsDue(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   const std::uint32_t readers = channels_.field_readers.load(std::memory_order_relaxed);
   if (readers == 0 || !surfaceIsDue(cycle)) return;
-  const bool changed = !(work_.surface() == handed_over_);
+  const SurfaceState& surface = engine_->work.surface();
+  const bool changed = shown_engine_ != engine_->number || !(surface == handed_over_);
   if (!field_pace_.admits(changed, readers, cycle.woke_ns)) return;
-  handed_over_ = work_.surface();
+  handed_over_ = surface;
+  shown_engine_ = engine_->number;
   SurfaceSample& sample = channels_.surface.back();
   sample.seq = ++surface_seq_;
   sample.stamp_ns = cycle.woke_ns;
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool)
     sample.poses[tool] = {ledgers_[tool].pose.seq, ledgers_[tool].pose.stamp_ns};
+  sample.engine = engine_;
   sample.state = handed_over_;
   channels_.surface.publish();
   channels_.surface_waits.store(true, std::memory_order_relaxed);
@@ -177,7 +198,7 @@ void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 
 void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (!channels_.recording) return;
-  if (!channels_.recording->push({cycle.index, input_, result_}))
+  if (!channels_.recording->push({{cycle.index - engine_began_, input_, result_}, engine_->number}))
     channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -223,11 +244,14 @@ void Tick::reportTick(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (!channels_.ticks.push(record)) ++dropped_;
 }
 
+bool Tick::allForcesAreZero() const noexcept PALPATE_NONBLOCKING {
+  return std::all_of(result_.tools.begin(), result_.tools.end(),
+                     [](const ToolResult& tool) { return isZero(tool.force); });
+}
+
 void Tick::reportZeroForce() noexcept PALPATE_NONBLOCKING {
-  if (input_.shutting_down == 0) return;
-  const bool zero = std::all_of(result_.tools.begin(), result_.tools.end(),
-                                [](const ToolResult& tool) { return isZero(tool.force); });
-  zero_ticks_ = zero ? zero_ticks_ + 1 : 0;
+  if (input_.shutting_down != 1) return;
+  zero_ticks_ = allForcesAreZero() ? zero_ticks_ + 1 : 0;
   if (zero_ticks_ == kZeroTicks) channels_.zero_force_sent.post();
 }
 

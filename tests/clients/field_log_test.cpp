@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
 
 #include "palpate/idl/writer.h"
@@ -21,7 +22,7 @@ struct Wire {
   palpate::testing::SmallSurface source;
   client::Surface surface{client::checkedSurface(source.message())};
   dds::Participant participant{palpate::testing::exclusiveDomain()};
-  FieldLog log{surface};
+  FieldLog log{std::make_shared<const client::Surface>(surface)};
   dds::Reader<dds::SurfaceDisplacement> reader{
       participant,
       [](dds::ReaderView<dds::SurfaceDisplacement> view, void* context) noexcept {
@@ -83,6 +84,27 @@ TEST(FieldLog, RefusesFieldsThatDoNotBelongToTheSurface) {
   wire.send(3, wire.source.model_id);
   EXPECT_EQ(wire.log.summary().refused, 3U);
   EXPECT_EQ(wire.log.summary().received, 0U);
+}
+
+TEST(FieldLog, GoesOnWithTheSurfaceOfAnotherModel) {
+  Wire wire;
+  ASSERT_TRUE(wire.writer.waitForReaders(1, 5s));
+  wire.u[3 * 2 + 1] = -0.004F;
+  wire.send(1, wire.source.model_id);
+  wire.send(2, "next");
+  EXPECT_EQ(wire.log.summary().refused, 1U) << "its surface has not come yet";
+  auto next = std::make_shared<client::Surface>(wire.surface);
+  next->model_id = "next";
+  wire.log.change(next);
+  EXPECT_EQ(wire.log.summary().peak.size, 0.0) << "that was another organ";
+  wire.u[3 * 2 + 1] = -0.001F;
+  wire.send(3, "next");
+  wire.send(4, wire.source.model_id);
+  const FieldSummary summary = wire.log.summary();
+  EXPECT_EQ(summary.refused, 2U);
+  EXPECT_EQ(summary.model_changes, 1U);
+  EXPECT_FLOAT_EQ(static_cast<float>(summary.peak.size), 0.001F);
+  EXPECT_EQ(summary.surface->model_id, "next");
 }
 
 }  // namespace

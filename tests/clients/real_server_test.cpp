@@ -71,6 +71,39 @@ TEST(RealServer, FourToolsAreMeasuredAtOnce) {
   EXPECT_EQ(report["pose_to_force_us"]["p99"].get<double>(), worst);
 }
 
+TEST(RealServer, OfSeveralTheOneWithTheOrganThatIsNamedIsChosen) {
+  const Running first({"--server-id", "1", "--organ-id", "11", "--addressed-only"});
+  const Running second({"--server-id", "2", "--organ-id", "22", "--addressed-only", "--device", "omni",
+                        "--tip-radius", "0.007", "--rate", "500"});
+  EXPECT_EQ(first.run("palpate-parameters", {"--organ-id", "22"})["server_id"], 2);
+  EXPECT_EQ(first.run("palpate-parameters", {"--organ-id", "11"})["server_id"], 1);
+  EXPECT_EQ(first.run("palpate-tool", {"--organ-id", "22", "--seconds", "0.5"})["tip_radius"], 0.007);
+  EXPECT_EQ(first.run("palpate-tool", {"--organ-id", "11", "--seconds", "0.5"})["tip_radius"], 0.005);
+  EXPECT_EQ(first.run("palpate-latency", {"--organ-id", "22", "--seconds", "1"})["server_rate_hz"], 500.0);
+  EXPECT_EQ(first.run("palpate-device", {"--organ-id", "22", "--preset", "omni"})["server_device"], "omni");
+  for (const char* program :
+       {"palpate-parameters", "palpate-tool", "palpate-latency", "palpate-device", "palpate-watch"}) {
+    const auto result = runProgram(program, {"--organ-id", "33", "--wait", "1", "--domain", first.domain});
+    EXPECT_EQ(result.exit_code, 1) << program;
+    EXPECT_NE(result.err.find("no server with organ 33 on DDS domain"), std::string::npos) << result.err;
+  }
+}
+
+TEST(RealServer, AToolThatGoesOnOverAnotherModelSaysSo) {
+  const TemporaryFolder models;
+  writeSyntheticModel(models / "next.h5", {.stiffness = 600.0});
+  const Running server({"--device", "custom", "--models", models.path().string()});
+  const CaughtOutput said;
+  ChildProcess tool("palpate-tool",
+                    {"--script", "press", "--seconds", "6", "--wait", "30", "--domain", server.domain},
+                    {said.descriptor(), said.descriptor()});
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_TRUE(server.run("palpate-parameters", {"--model", "next.h5"})["accepted"]);
+  EXPECT_EQ(tool.waitForExit(), 0) << said.text();
+  EXPECT_NE(said.text().find("note: the server took another model once meanwhile"), std::string::npos)
+      << said.text();
+}
+
 // One server with its organ and both devices, and one publisher that sends.
 bool isComplete(const json& listing) {
   if (!listing.is_object() || listing["servers"].size() != 1 || listing["publishers"].size() != 1)

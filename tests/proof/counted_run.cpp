@@ -7,11 +7,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <stdexcept>
 #include <thread>
 
+#include "palpate/testing/run_program.h"
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
@@ -72,10 +74,22 @@ class Preload {
 };
 
 std::unique_ptr<ServerProcess> startServer(const std::string& model, std::uint32_t domain,
-                                           const SharedCounts& counts, const std::string& mistake) {
+                                           const SharedCounts& counts, const std::string& mistake,
+                                           const std::filesystem::path& models) {
   const Preload preload(counts.descriptor(), mistake);
   return std::make_unique<ServerProcess>(
-      std::vector<std::string>{"--model", model, "--domain", std::to_string(domain), "--friction", "0.1"});
+      std::vector<std::string>{"--model", model, "--models", models.string(), "--domain",
+                               std::to_string(domain), "--friction", "0.1"});
+}
+
+// Asks for another organ; the seconds that are left of the time go by.
+void swapWithin(double seconds, std::uint32_t domain) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  wait(0.2 * seconds);
+  const auto asked = palpate::testing::runProgram("palpate-parameters",
+                                                  {"--model", "next.h5", "--domain", std::to_string(domain)});
+  if (asked.exit_code != 0) throw std::runtime_error("no other organ could be had: " + asked.err);
+  std::this_thread::sleep_until(end);
 }
 
 // Until the tick thread has said that it is done.
@@ -105,9 +119,12 @@ CountedRun countTicks(const CountedOptions& options) {
   const palpate::testing::TemporaryFile round("counted.h5");
   const std::string path = options.model.empty() ? round.path().string() : options.model;
   if (options.model.empty()) palpate::testing::writeSyntheticModel(round.path(), {.modes = 24});
+  const palpate::testing::TemporaryFolder models;
+  if (options.swaps)
+    palpate::testing::writeSyntheticModel(models / "next.h5", {.modes = 12, .stiffness = 400.0});
   const MetaModel model = MetaModel::load(path);
   const SharedCounts counts;
-  const auto server = startServer(path, domain, counts, options.mistake);
+  const auto server = startServer(path, domain, counts, options.mistake, models.path());
   CountedRun run;
   {
     TwoTools tools(model, domain, kTipRadius);
@@ -116,11 +133,17 @@ CountedRun countTicks(const CountedOptions& options) {
     (void)tools.take();
     const std::uint64_t fields_before = tools.newestField();
     counts->command.store(TickCounts::kCount, std::memory_order_relaxed);
-    wait(options.seconds);
+    if (options.swaps)
+      swapWithin(options.seconds, domain);
+    else
+      wait(options.seconds);
     const bool counted = stopCounting(counts);
     run.tools = tools.take();
     run.fields = static_cast<std::int64_t>(tools.newestField() - fields_before);
-    const auto status = tools.status();
+    auto status = tools.status();
+    for (int i = 0; i < 5 && options.swaps && status && status->model_id == model.id(); ++i)
+      status = tools.status();
+    run.swapped = status && status->model_id != model.id();
     if (!counted || !status)
       throw std::runtime_error("no tick was counted; the server said:\n" + server->log());
     run.memory_locked = status->memory_locked;

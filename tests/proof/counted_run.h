@@ -22,6 +22,7 @@ struct CountedRun {
   Usage usage;
   std::array<Answers, 2> tools;
   std::int64_t fields{0};  ///< of the surface that the server made while it was counted
+  bool swapped{false};     ///< another organ answered at the end
   std::string log;         ///< the server's
 
   [[nodiscard]] std::int64_t of(Kind kind) const noexcept { return calls[static_cast<std::size_t>(kind)]; }
@@ -33,6 +34,7 @@ struct CountedOptions {
   double seconds{5.0};  ///< that are counted, after one and a half that are not
   std::string model;    ///< a file; empty: the round organ of the tests
   std::string mistake;  ///< of the wrong twin: malloc, lock, fault or sleep; empty: the server as it is
+  bool swaps{false};    ///< another organ is asked for while it is counted
 };
 [[nodiscard]] CountedOptions optionsFromEnvironment();
 

@@ -56,6 +56,22 @@ TEST_F(CountedServer, ItsTickMeetsNoPageFault) {
   EXPECT_EQ(run_.faults(), 0);
 }
 
+// The same server while it goes over to another organ: the model is checked and mapped beside, forces end, begin again.
+TEST(CountedSwap, ItsTickDoesNotNoticeAnotherOrgan) {
+  const CountedRun run = countTicks({.seconds = 4.0, .model = {}, .mistake = {}, .swaps = true});
+  std::cout << table(run);
+  ASSERT_TRUE(run.swapped) << run.log;
+  for (const Kind kind : {Kind::kAllocation, Kind::kFree, Kind::kLock, Kind::kWait, Kind::kSystemCall})
+    EXPECT_EQ(run.of(kind), 0) << static_cast<int>(kind);
+  EXPECT_LE(run.usage.voluntary, run.sleeps);
+  EXPECT_EQ(run.posts[0].count, run.sleeps);
+  EXPECT_EQ(run.other_posts + run.posts[1].count, 0) << "it wakes nobody but force-out";
+  for (const Answers& tool : run.tools) EXPECT_GT(tool.in_contact, tool.all / 3) << "contact comes back";
+  if (run.memory_locked) {
+    EXPECT_EQ(run.faults(), 0);
+  }
+}
+
 // Twins of the server whose tick makes one mistake now and then: each must be found, and by the count that it is about.
 CountedRun withMistake(const std::string& mistake) {
   CountedRun run = countTicks({.seconds = 1.5, .model = {}, .mistake = mistake});

@@ -215,5 +215,46 @@ TEST(ParameterBook, LimitsOfEThatLeaveOutTheModelsAreRefused) {
   EXPECT_THROW(ParameterBook{facts}, std::invalid_argument);
 }
 
+// An organ that is softer and less stiff than the first.
+constexpr OrganStiffness kNextOrgan{20e3, 250.0};
+
+TEST(ParameterBook, OnAnotherOrganEIsItsOwnAndAllElseStays) {
+  ParameterBook book(factsOf("touch"));
+  ASSERT_TRUE(book.decide(request(dds::parameter::kFriction, 0.1)).accepted);
+  ASSERT_TRUE(book.decide(request(dds::parameter::kYoungsModulus, 5e4)).accepted);
+  ASSERT_EQ(book.complaintAbout(kNextOrgan), "");
+  book.take(kNextOrgan);
+  const dds::ServerParameters answer = book.answer();
+  EXPECT_EQ(answer.revision, 3U);
+  EXPECT_EQ(answer.model_youngs_modulus, 20e3);
+  EXPECT_EQ(answer.model_stiffness, 250.0);
+  EXPECT_EQ(answer.tools[0].now.youngs_modulus, 20e3);
+  EXPECT_EQ(answer.tools[0].highest.youngs_modulus, 20e3) << "nobody makes it stiffer than it is";
+  EXPECT_EQ(answer.tools[0].now.friction, 0.1);
+  EXPECT_EQ(answer.tools[0].highest.friction, 0.3) << "of the start";
+  EXPECT_EQ(answer.tools[0].now.coupling_stiffness, kInfinity) << "a touch renders this organ as it is";
+  EXPECT_FALSE(book.decide(request(dds::parameter::kYoungsModulus, 5e4)).accepted);
+}
+
+TEST(ParameterBook, OnAnotherOrganTheOperatorsEHoldsAgain) {
+  Facts facts = factsOf("touch");
+  facts.step.youngs_modulus = 40e3;
+  ParameterBook book(facts);
+  ASSERT_TRUE(book.decide(request(dds::parameter::kYoungsModulus, 1e4)).accepted);
+  book.take(kNextOrgan);
+  EXPECT_EQ(book.answer().tools[0].now.youngs_modulus, 40e3);
+  EXPECT_EQ(book.inForceOnNext()[0].live.youngs_modulus, 40e3);
+}
+
+TEST(ParameterBook, AnOrganThatTheOperatorsLimitsLeaveOutIsRefused) {
+  Facts facts = factsOf("touch");
+  facts.limits.youngs_modulus = Bounds{50e3, 320e3};
+  const ParameterBook book(facts);
+  EXPECT_EQ(
+      book.complaintAbout(kNextOrgan),
+      "limits: with this model youngs_modulus is 20000, expected 50000 to 320000 Pa: what the server was "
+      "started with");
+}
+
 }  // namespace
 }  // namespace palpate::server

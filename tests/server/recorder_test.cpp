@@ -28,7 +28,7 @@ class RecorderTest : public ::testing::Test {
 
 TEST_F(RecorderTest, WritesWhatLiesInTheRingBeforeItReturns) {
   Recorder recorder(*channels_, path_, facts());
-  for (std::uint64_t i = 0; i < 100; ++i) ASSERT_TRUE(channels_->recording->push({i, {}, {}}));
+  for (std::uint64_t i = 0; i < 100; ++i) ASSERT_TRUE(channels_->recording->push({{i, {}, {}}, 0}));
   channels_->stopping = true;
   recorder.run();
   EXPECT_EQ(recorder.summary(), "recorded 100 ticks to " + path_.string() + ", 0 lost");
@@ -42,8 +42,8 @@ TEST_F(RecorderTest, WritesWhatLiesInTheRingBeforeItReturns) {
 
 TEST_F(RecorderTest, TicksLostToAFullRingAreToldInTheFile) {
   Recorder recorder(*channels_, path_, facts());
-  ASSERT_TRUE(channels_->recording->push({0, {}, {}}));
-  ASSERT_TRUE(channels_->recording->push({8, {}, {}}));
+  ASSERT_TRUE(channels_->recording->push({{0, {}, {}}, 0}));
+  ASSERT_TRUE(channels_->recording->push({{8, {}, {}}, 0}));
   channels_->unrecorded = 7;
   channels_->stopping = true;
   recorder.run();
@@ -55,9 +55,37 @@ TEST_F(RecorderTest, TicksLostToAFullRingAreToldInTheFile) {
   EXPECT_EQ(reader.end().missing, 7U);
 }
 
+TEST_F(RecorderTest, AnotherModelGoesIntoAnotherFileAndOverwritesNone) {
+  const palpate::testing::TemporaryFolder folder;
+  (void)folder.write("session-2.rec", "somebody's");
+  Recorder recorder(*channels_, folder / "session.rec", facts());
+  record::SessionFacts next = facts();
+  next.model.bytes.fill(9);
+  recorder.expect(1, next);
+  for (std::uint64_t i = 0; i < 100; ++i) ASSERT_TRUE(channels_->recording->push({{i, {}, {}}, 0}));
+  for (std::uint64_t i = 0; i < 40; ++i) ASSERT_TRUE(channels_->recording->push({{i, {}, {}}, 1}));
+  channels_->stopping = true;
+  recorder.run();
+  EXPECT_EQ(recorder.summary(), "recorded 40 ticks to " + (folder / "session-3.rec").string() +
+                                    ", 0 lost; before that " + (folder / "session.rec").string() +
+                                    " (100 ticks), of other models");
+  EXPECT_EQ(palpate::testing::contentOf(folder / "session-2.rec"), "somebody's");
+  const std::pair<const char*, std::pair<std::uint8_t, std::uint64_t>> files[]{{"session.rec", {7, 100}},
+                                                                               {"session-3.rec", {9, 40}}};
+  for (const auto& [name, holds] : files) {
+    record::RecordReader reader(folder / name);
+    EXPECT_EQ(reader.facts().model.bytes[0], holds.first);
+    record::RecordedTick tick;
+    while (reader.next(tick)) {
+    }
+    EXPECT_EQ(reader.end().ticks, holds.second);
+    EXPECT_EQ(reader.end().missing, 0U);
+  }
+}
+
 TEST_F(RecorderTest, AFileThatCannotGrowEndsTheRecordingAndNotTheServer) {
   Recorder recorder(*channels_, path_, facts());
-  ASSERT_TRUE(channels_->recording->push({5, {}, {}}));
+  ASSERT_TRUE(channels_->recording->push({{5, {}, {}}, 0}));
   channels_->stopping = true;
   const rlimit64 before = [] {
     rlimit64 limit{};

@@ -78,10 +78,10 @@ TEST_F(TickFieldTest, OneThatOverflowedFlagsTheToolsInContact) {
 }
 
 TEST_F(TickFieldTest, ForcesAreTheSameWhoeverReads) {
-  Workspace unseen(model_, StepConfig{});
+  Engine unseen({std::shared_ptr<const void>{}, &model_}, StepConfig{});
   Channels nobody;
   PoseIntake intake(nobody, StepConfig{});
-  Tick tick(model_, unseen, nobody, {kPeriod});
+  Tick tick(unseen, nobody, {kPeriod});
   for (int i = 0; i < 300; ++i) {
     const dds::ToolPose pose = poseAtDepth(0, 0.003 * std::sin(0.03 * i));
     send(pose);

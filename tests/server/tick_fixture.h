@@ -89,10 +89,11 @@ class TickTest : public ::testing::Test {
   }
 
   const MetaModel& model_ = syntheticModel();
-  Workspace work_{model_, StepConfig{}};
+  Engine engine_{{std::shared_ptr<const void>{}, &model_}, StepConfig{}};
+  Workspace& work_ = engine_.work;
   std::unique_ptr<Channels> channels_ = std::make_unique<Channels>();
   PoseIntake intake_{*channels_, StepConfig{}};
-  Tick tick_{model_, work_, *channels_, {kPeriod}};
+  Tick tick_{engine_, *channels_, {kPeriod}};
   rt::Cycle cycle_;
   std::int64_t now_ns_{1'000'000'000};
   std::int64_t shift_ns_{0};

@@ -48,7 +48,7 @@ class TickPhaseTest : public TickTest {
   }
 
   std::array<Sender, 2> senders_;
-  Tick locking_{model_, work_, *channels_, {kPeriod, 0, true}};
+  Tick locking_{engine_, *channels_, {kPeriod, 0, true}};
   std::int64_t travelled_{0};  // by the grid, in the last run()
 
  private:

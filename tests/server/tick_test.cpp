@@ -205,19 +205,20 @@ TEST_F(TickTest, AFullRingCostsTheNewestRecordAndTheCounterShowsIt) {
 }
 
 TEST_F(TickTest, AFullRecordingRingCostsTheNewestTicksAndTheCounterShowsIt) {
-  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
+  channels_->recording = std::make_unique<rt::SpscQueue<SessionTick, 16384>>();
   send(poseAtDepth(0, -0.01));
   for (std::size_t i = 0; i < channels_->recording->capacity() + 3; ++i) runOneTick();
   EXPECT_EQ(channels_->unrecorded, 3U);
-  record::RecordedTick tick;
-  ASSERT_TRUE(channels_->recording->pop(tick));
+  SessionTick first;
+  ASSERT_TRUE(channels_->recording->pop(first));
+  const record::RecordedTick& tick = first.tick;
   EXPECT_EQ(tick.index, 0U);
   EXPECT_EQ(tick.input.tools[0].present, 1U);
   EXPECT_EQ(tick.input.dt_ns, 0);
 }
 
 TEST_F(TickTest, WritesTheSurfaceAsOftenAsAskedInTheMeanAndTheForceEveryTick) {
-  Tick seldom(model_, work_, *channels_, {kPeriod, 16'666'667});  // 60 Hz: no whole number of ticks
+  Tick seldom(engine_, *channels_, {kPeriod, 16'666'667});  // 60 Hz: no whole number of ticks
   std::int64_t last_ns = 0;
   SurfaceState last;
   for (int i = 0; i < 1000; ++i) {
@@ -240,7 +241,7 @@ TEST_F(TickTest, WritesTheSurfaceAsOftenAsAskedInTheMeanAndTheForceEveryTick) {
 }
 
 TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
-  Tick seldom(model_, work_, *channels_, {kPeriod, 10 * kPeriod});
+  Tick seldom(engine_, *channels_, {kPeriod, 10 * kPeriod});
   double depth = 0.001;
   const auto run = [&](int ticks) {
     for (int i = 0; i < ticks; ++i, now_ns_ += kPeriod, depth += 1e-5) {
@@ -279,7 +280,7 @@ TEST_F(TickTest, TellsWhenZeroForceWasSent) {
 }
 
 TEST_F(TickTest, AllocatesNothingWhateverComes) {
-  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
+  channels_->recording = std::make_unique<rt::SpscQueue<SessionTick, 16384>>();
   dds::ToolPose bad = poseAtDepth(1, 0.001);
   bad.position[2] = std::numeric_limits<double>::infinity();
   std::vector<dds::ToolPose> poses;

@@ -34,7 +34,7 @@ TEST(ForceOnTheWire, SaysWhatTheRecordSays) {
   Facts facts;
   facts.server_id = 4;
   facts.session = 0xfedcba9876543210;
-  facts.model_hash = 0x0123456789abcdef;
+  record.model_hash = 0x0123456789abcdef;
   const dds::ToolForce force = toWire(facts, record);
   EXPECT_EQ(force.server_id, 4U);
   EXPECT_EQ(force.session, 0xfedcba9876543210);

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "palpate/client/error.h"
 #include "palpate/client/no_server.h"
@@ -19,9 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The first answer to a request, and who else answers it.
+// The first answer to a request, and who else answers it. One that says that another follows only says that there is a server.
 struct Answers {
   std::optional<dds::ServerParameters> first;
+  bool pending{false};  // since the last look
   std::set<dds::WriterId> writers;
 
   void take(std::uint64_t request_id, const dds::Reader<dds::ServerParameters>& reader) {
@@ -30,8 +32,11 @@ struct Answers {
     const std::size_t count = reader.view().take(samples, from);
     for (std::size_t i = 0; i < count; ++i) {
       if (samples[i].request_id != request_id) continue;
-      if (!first) first = samples[i];
       writers.insert(from[i]);
+      if (samples[i].pending)
+        pending = true;
+      else if (!first)
+        first = samples[i];
     }
   }
 };
@@ -60,10 +65,10 @@ dds::ServerParameters exchangeParameters(const dds::Participant& participant, dd
   dds::Writer<dds::ParameterRequest> requests(participant);
   const dds::Reader<dds::ServerParameters> answers(participant);
   request.request_id = firstRequestId();
-  const Clock::time_point end = Clock::now() + patience;
+  Clock::time_point end = Clock::now() + patience;
   constexpr auto kLinger = std::chrono::milliseconds(50);  // for another server of the same id
   Clock::time_point next = Clock::now();
-  Clock::time_point answered = end;
+  std::optional<Clock::time_point> answered;
   Answers found;
   while (Clock::now() <= end && !stopRequested()) {
     if (requests.matched() == 0) next = Clock::now() + kLinger;
@@ -73,8 +78,9 @@ dds::ServerParameters exchangeParameters(const dds::Participant& participant, dd
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     found.take(request.request_id, answers);
-    if (found.first && answered == end) answered = Clock::now();
-    if (found.first && Clock::now() - answered >= kLinger) return onlyAnswer(found);
+    if (std::exchange(found.pending, false)) end = Clock::now() + patience;
+    if (found.first && !answered) answered = Clock::now();
+    if (answered && Clock::now() - *answered >= kLinger) return onlyAnswer(found);
   }
   if (found.first) return onlyAnswer(found);
   if (stopRequested()) throw ClientError("interrupted while waiting for a server");

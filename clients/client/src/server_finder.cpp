@@ -14,9 +14,9 @@
 
 namespace palpate::client {
 
-ServerFinder::ServerFinder(const dds::Participant& participant, std::uint32_t server_id)
+ServerFinder::ServerFinder(const dds::Participant& participant, const WantedServer& wanted)
     : domain_(participant.domain()),
-      server_id_(server_id),
+      wanted_(wanted),
       statuses_(participant, nullptr, nullptr, dds::Wants::kHistory),
       surfaces_(participant, nullptr, this, &ServerFinder::onSurface) {}
 
@@ -57,7 +57,7 @@ void ServerFinder::takeSurfaces() {
 bool ServerFinder::look(ServerInfo& info) {
   takeSurfaces();
   for (const dds::ServerStatus& status : statuses_.running()) {
-    if (server_id_ != dds::kServerAny && status.server_id != server_id_) continue;
+    if (!wanted_.fits(status)) continue;
     has_status_ = true;
     const auto fits = std::find_if(kept_.begin(), kept_.end(), [&](const Surface& surface) {
       return surface.session == status.session && surface.organ_id == status.organ_id &&
@@ -82,8 +82,7 @@ std::string ServerFinder::missing(std::chrono::milliseconds waited) const {
   for (const std::string& mismatch : {statuses_.mismatch(), surfaces_.mismatch()})
     if (!mismatch.empty()) return "no server fits" + where + ": " + mismatch;
   if (!refusal_.empty()) return refusal_;
-  if (!has_status_ && server_id_ != dds::kServerAny)
-    return "no server " + std::to_string(server_id_) + where + kNoServerHint;
+  if (!has_status_ && !wanted_.any()) return "no " + nameOf(wanted_) + where + kNoServerHint;
   if (!has_status_ && kept_.empty()) return "no server" + where + kNoServerHint;
   if (!has_status_)
     return "no running server's status (" + std::string(dds::TopicTraits<dds::ServerStatus>::kName) + ")" +
@@ -109,9 +108,9 @@ ServerInfo ServerFinder::wait(std::chrono::milliseconds timeout) {
   return info;
 }
 
-ServerInfo findServer(const dds::Participant& participant, double seconds, std::uint32_t server_id) {
+ServerInfo findServer(const dds::Participant& participant, double seconds, const WantedServer& wanted) {
   std::cerr << "waiting for a server on DDS domain " << participant.domain() << "\n";
-  ServerFinder finder(participant, server_id);
+  ServerFinder finder(participant, wanted);
   ServerInfo server = finder.wait(std::chrono::milliseconds(static_cast<long>(seconds * 1e3)));
   for (const std::string& other : finder.others(server))
     std::cerr << "note: held on to " << describe(server.status) << "; there is " << other << "\n";

@@ -71,6 +71,7 @@ void ToolClient::onForce(const dds::ToolForce& force, dds::WriterId writer, void
   const bool farewell = (force.flags & dds::flag::kShuttingDown) != 0;
   const ServerRun from{force.server_id, force.session};
   if (!self.hold_.takes(from, writer, received_ns, answers_us, farewell) || !answers_us) return;
+  self.models_.add(force.session, force.model_hash);
   self.latest_.write(force);
   if (self.callback_ != nullptr) self.callback_(force, received_ns, self.context_);
 }

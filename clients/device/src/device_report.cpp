@@ -96,6 +96,7 @@ std::string textOf(const Session& s) {
       static_cast<unsigned long long>(recording.waited));
   text += report::flagNames(recording.flags) + '\n';
   text += energyText(s.energy);
+  text += client::modelChangesText(recording.model_changes);
   if (recording.server_left) text += "the server shut down before the motion's end\n";
   if (recording.interrupted) text += "interrupted before the motion's end\n";
   return text;
@@ -131,6 +132,7 @@ Json jsonOf(const Session& s) {
       {"flags", recording.flags},
       {"flag_names", report::flagNames(recording.flags)},
       {"waited_periods", recording.waited},
+      {"model_changes", recording.model_changes},
       {"server_left", recording.server_left},
       {"interrupted", recording.interrupted},
       {"tip_m", recording.trace.position},

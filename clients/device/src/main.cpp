@@ -33,7 +33,7 @@ struct Arguments {
   std::string at;
   std::uint32_t tool_id{0};
   std::uint32_t domain{0};
-  std::uint32_t server_id{dds::kServerAny};
+  client::WantedServer wanted;
   double wait_s{10.0};
   bool json{false};
   std::string plot;
@@ -63,7 +63,9 @@ void addOptions(program::Options line, Arguments& arguments) {
            "touch the accessible node nearest to x,y,z, m; refused off the organ; default: the highest one");
   line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &arguments.server_id, "which server of the domain; default: the first found");
+  line.add("--server-id", &arguments.wanted.server_id,
+           "which server of the domain; default: the first found");
+  line.add("--organ-id", &arguments.wanted.organ_id, client::kOrganIdHelp);
   line.add("--wait", &arguments.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &arguments.json, "print one JSON object on standard output");
   line.add("--plot", &arguments.plot, "write the depth over time to this SVG file");
@@ -174,7 +176,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(arguments.domain);
-  const client::ServerInfo server = client::findServer(participant, arguments.wait_s, arguments.server_id);
+  const client::ServerInfo server = client::findServer(participant, arguments.wait_s, arguments.wanted);
 
   // 3. The motion there, once without the organ and once against the server.
   arguments.path.tip_radius = server.status.tip_radius[arguments.tool_id];

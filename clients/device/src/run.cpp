@@ -105,6 +105,7 @@ Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDe
     goes_on = exchange.await(recording);
   }
   recording.left_out = tool.hold().leftOut();
+  recording.model_changes = tool.modelChanges();
   std::cerr << client::leftOutText(recording.left_out, statuses);
   return recording;
 }

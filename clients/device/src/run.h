@@ -17,6 +17,7 @@ struct Recording {
   std::vector<double> work;         ///< done on the organ until then, J
   std::uint32_t flags{0};           ///< FLAG_* of all answers, or-ed
   client::LeftOut left_out;         ///< forces of other servers
+  std::uint64_t model_changes{0};   ///< how often the server took another model
   std::uint64_t waited{0};          ///< periods in which the device stood still because an answer was late
   bool server_left{false};          ///< the server said that it shuts down
   bool interrupted{false};

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "palpate/client/model_changes.h"
 #include "palpate/client/time_summary.h"
 #include "palpate/report/late_ticks.h"
 #include "palpate/report/program.h"
@@ -87,7 +88,7 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
       static_cast<unsigned long long>(log.late()), static_cast<unsigned long long>(log.superseded()),
       static_cast<unsigned long long>(log.overruns()));
   text += "late ticks: " + report::lateText(server.late) + "\n";
-  text += sender.left_out_text;
+  text += sender.left_out_text + client::modelChangesText(sender.model_changes);
   text += std::string("real-time priority: server ") + (server.realtime ? "yes" : "no") + ", sender " +
           (sender.realtime ? "yes" : "no") +
           "; server's memory locked: " + (server.memory_locked ? "yes" : "no") + "\n";
@@ -112,6 +113,7 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"lost", log.lost()},
           {"late", log.late()},
           {"left_out", sender.left_out.count},
+          {"model_changes", sender.model_changes},
           {"superseded", log.superseded()},
           {"seconds", sender.seconds},
           {"server_left", sender.server_left},

@@ -31,7 +31,7 @@ struct Options {
   int tools{1};
   std::string at;
   std::uint32_t domain{0};
-  std::uint32_t server_id{dds::kServerAny};
+  client::WantedServer wanted;
   double wait_s{10.0};
   bool json{false};
   std::string plot, hdr, junit;
@@ -50,7 +50,8 @@ void addOptions(program::Options line, Options& options) {
            "each")
       .range(1, 4);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
+  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found");
+  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp);
   line.add("--wait", &options.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.flag("--fields", &options.measure.fields,
@@ -150,7 +151,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and a place to press.
   const dds::Participant participant(options.domain);
-  client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
+  client::ServerInfo server = client::findServer(participant, options.wait_s, options.wanted);
   const client::StatusBoard statuses(participant);
   const std::vector<client::Spot> spots =
       spotsApart(server.surface,

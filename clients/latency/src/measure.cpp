@@ -102,6 +102,7 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   stats.server_left = tool->latest(newest) && (newest.flags & dds::flag::kShuttingDown) != 0;
   send(*tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
   stats.left_out = tool->hold().leftOut();
+  stats.model_changes = tool->modelChanges();
   stats.left_out_text = client::leftOutText(stats.left_out, statuses);
   tool.reset();  // no answer comes after this
   log.finish(end_ns);

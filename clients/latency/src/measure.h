@@ -28,8 +28,9 @@ struct SenderStats {
   bool server_left{false};   ///< before its end: it said so, or answered nothing for a second
   bool interrupted{false};   ///< before its end
   std::uint64_t sent{0};
-  client::LeftOut left_out;   ///< forces of other servers
-  std::string left_out_text;  ///< whose; empty: none
+  client::LeftOut left_out;        ///< forces of other servers
+  std::string left_out_text;       ///< whose; empty: none
+  std::uint64_t model_changes{0};  ///< how often the server took another model
   bool realtime{false};
 };
 

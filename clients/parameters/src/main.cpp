@@ -9,6 +9,7 @@
 #include <string>
 
 #include "palpate/client/parameter_exchange.h"
+#include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/printable.h"
 #include "tools/program/command_line.h"
@@ -21,8 +22,10 @@ namespace {
 struct Options {
   LiveFields<std::optional<double>> values;
   std::uint32_t domain{0};
-  std::uint32_t server_id{0};
+  std::optional<std::int64_t> server_id;
+  std::optional<std::int64_t> organ_id;
   std::optional<int> tool;
+  std::optional<std::string> model;
   double wait_s{10.0};
   bool json{false};
 };
@@ -35,14 +38,23 @@ void addOptions(program::Options line, Options& options) {
   }
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
   line.add("--tool", &options.tool, "change this tool only, 0 to 3; default: all of them").range(0, 3);
-  line.add("--server-id", &options.server_id, "which server of the domain");
+  line.add("--model", &options.model,
+           "have the server answer with this model file from now on: a path within its folder of models "
+           "(palpate-server --models)")
+      .valueName("FILE");
+  line.add("--server-id", &options.server_id, "which server of the domain; default: 0, or that of the organ");
+  line.add("--organ-id", &options.organ_id, client::kOrganIdHelp);
   line.add("--wait", &options.wait_s, "how long to wait for an answer").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
 }
 
 dds::ParameterRequest requestOf(const Options& options) {
+  constexpr std::int64_t kMaxId = std::int64_t{dds::kServerAny} - 1;
+  if (const std::int64_t id = options.server_id.value_or(0); id < 0 || id > kMaxId)
+    throw program::UsageError("--server-id is " + std::to_string(id) + ", expected 0 to " +
+                              std::to_string(kMaxId));
   dds::ParameterRequest request{};
-  request.server_id = options.server_id;
+  request.server_id = static_cast<std::uint32_t>(options.server_id.value_or(0));
   request.tool_id = options.tool ? static_cast<std::uint32_t>(*options.tool) : dds::kAllTools;
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const std::optional<double>& value = options.values.*kLiveFields<LiveFields<std::optional<double>>>[i];
@@ -50,7 +62,31 @@ dds::ParameterRequest requestOf(const Options& options) {
     request.fields |= kLiveParameters[i].bit;
     request.*kLiveFields<dds::ParameterRequest>[i] = *value;
   }
+  if (options.model) dds::assignText(request.model, *options.model);
   return request;
+}
+
+// Addresses the server of an organ. @throw client::ClientError  there is none
+void findOrgan(const dds::Participant& participant, const Options& options, dds::ParameterRequest& request) {
+  client::WantedServer wanted;
+  wanted.organ_id = options.organ_id;
+  if (options.server_id) wanted.server_id = request.server_id;
+  const client::ServerInfo found = client::findServer(participant, options.wait_s, wanted);
+  request.server_id = found.status.server_id;
+  request.session = found.status.session;
+}
+
+// What a request cannot hold. @throw program::UsageError
+void checkModel(const Options& options, const dds::ParameterRequest& request) {
+  if (!options.model) return;
+  if (options.model->empty())
+    throw program::UsageError("--model is empty, expected the name of a model file");
+  if (options.model->size() >= sizeof request.model)
+    throw program::UsageError("--model has " + std::to_string(options.model->size()) +
+                              " characters, at most " + std::to_string(sizeof request.model - 1) +
+                              " can be sent");
+  if (request.fields != 0)
+    throw program::UsageError("--model goes alone: give other values once the model is there");
 }
 
 // JSON has no infinity: null says "no bound".
@@ -74,6 +110,8 @@ program::Json jsonOf(const dds::ServerParameters& answer, std::size_t tool) {
                      {"message", answer.message},
                      {"revision", answer.revision},
                      {"server_id", answer.server_id},
+                     {"model_id", dds::printable(answer.model_id, sizeof answer.model_id)},
+                     {"models", answer.models},
                      {"model_youngs_modulus_Pa", answer.model_youngs_modulus},
                      {"model_stiffness_N_per_m", answer.model_stiffness},
                      {"open", answer.open}};
@@ -104,6 +142,8 @@ void print(const dds::ServerParameters& answer, std::size_t shown) {
     std::cout << "\n";
   }
   if (!answer.open) std::cout << "the server takes no changes from clients\n";
+  std::cout << "model " << dds::printable(answer.model_id, sizeof answer.model_id)
+            << (answer.models ? ", may be changed for another of the server's folder of models\n" : "\n");
 }
 
 int body(int argc, char** argv) {
@@ -116,15 +156,19 @@ int body(int argc, char** argv) {
   line.footer(
       "The server's operator sets which values are allowed; by default none above that of its start. Without "
       "values it says what is in force, and what is allowed.\n"
-      "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4");
+      "Examples: palpate-parameters --friction 0.1 --youngs-modulus 5e4\n          palpate-parameters "
+      "--model kidney.h5");
   if (!line.read(argc, argv)) return program::kDone;
+  dds::ParameterRequest request = requestOf(options);
+  checkModel(options, request);
   client::catchStopSignals();
 
   // 2. Ask, until the server answers.
   const dds::Participant participant(options.domain);
+  if (options.organ_id) findOrgan(participant, options, request);
   const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
-  std::cerr << "waiting for server " << options.server_id << " on DDS domain " << options.domain << "\n";
-  const dds::ServerParameters answer = client::exchangeParameters(participant, requestOf(options), patience);
+  std::cerr << "waiting for server " << request.server_id << " on DDS domain " << options.domain << "\n";
+  const dds::ServerParameters answer = client::exchangeParameters(participant, request, patience);
 
   // 3. Tell.
   const auto tool = static_cast<std::size_t>(options.tool.value_or(0));

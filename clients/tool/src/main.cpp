@@ -31,7 +31,7 @@ struct Options {
   std::string at, beside;
   std::uint32_t tool_id{0};
   std::uint32_t domain{0};
-  std::uint32_t server_id{dds::kServerAny};
+  client::WantedServer wanted;
   double wait_s{10.0};
   bool json{false};
   std::string plot;
@@ -54,7 +54,8 @@ void addOptions(program::Options line, Options& options) {
       .range(0.0, 0.05, "m");
   line.add("--tool", &options.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
+  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found");
+  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp);
   line.add("--wait", &options.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.add("--plot", &options.plot, "write the force over time to this SVG file");
@@ -102,7 +103,7 @@ int body(int argc, char** argv) {
 
   // 2. Find the server and its organ.
   const dds::Participant participant(options.domain);
-  const client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
+  const client::ServerInfo server = client::findServer(participant, options.wait_s, options.wanted);
 
   const auto at = report::askedPlace(server.surface, "--at", options.at);
   const auto beside = report::askedPlace(server.surface, "--beside", options.beside);

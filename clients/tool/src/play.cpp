@@ -88,6 +88,7 @@ Recording play(const dds::Participant& participant, std::uint32_t tool_id, const
     std::this_thread::sleep_for(20ms);  // the last answers are on their way
     recording.left_out = tool.hold().leftOut();
     recording.left_out_text = client::leftOutText(recording.left_out, statuses);
+    recording.model_changes = tool.modelChanges();
   }
   recording.samples = join(sent, log.first_answers);
   recording.answers = log.answers;

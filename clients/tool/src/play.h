@@ -27,6 +27,7 @@ struct Recording {
   std::uint64_t sent{0};
   client::LeftOut left_out;         ///< forces of other servers
   std::string left_out_text;        ///< whose; empty: none
+  std::uint64_t model_changes{0};   ///< how often the server took another model
   std::uint64_t missed_periods{0};  ///< periods that this process missed
   bool server_left{false};          ///< the server said that it shuts down
   /// Poses without a recorded answer: superseded, or their answer was lost.

@@ -5,6 +5,7 @@
 #include <array>
 #include <tuple>
 
+#include "palpate/client/model_changes.h"
 #include "palpate/report/program.h"
 #include "palpate/report/text_chart.h"
 #include "tools/program/printed.h"
@@ -58,7 +59,7 @@ std::string summaryOf(const Played& played, const Recording& recording) {
              static_cast<unsigned long long>(recording.superseded()),
              static_cast<unsigned long long>(recording.unanswered()),
              static_cast<unsigned long long>(recording.answers.lost())) +
-         recording.left_out_text +
+         recording.left_out_text + client::modelChangesText(recording.model_changes) +
          (recording.server_left ? "the server shut down before the script's end\n" : "");
 }
 
@@ -141,6 +142,7 @@ program::Json jsonOf(const Played& played, const Recording& recording) {
             {"received", recording.answers.received()},
             {"lost", recording.answers.lost()},
             {"left_out", recording.left_out.count},
+            {"model_changes", recording.model_changes},
             {"missed_periods", recording.missed_periods},
             {"server_left", recording.server_left},
             {"flags_seen", report::flagNames(flagsOf(recording))}}}};

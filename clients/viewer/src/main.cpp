@@ -32,7 +32,7 @@ struct Options {
   std::string model;
   std::string token_file;
   std::uint32_t domain{0};
-  std::uint32_t server_id{dds::kServerAny};
+  client::WantedServer wanted;
   std::vector<std::uint32_t> tools{3, 2, 1, 0};  // a device's usual tool, 0, last
   bool json{false};
 };
@@ -40,7 +40,8 @@ struct Options {
 void addOptions(program::Options line, Options& options) {
   WebOptions& web = options.web;
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &options.server_id, "which server of the domain; default: the first found");
+  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found");
+  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp);
   line.add("--listen", &web.access.listen,
            "numeric address to listen on; one that other machines reach needs a token");
   line.add("--port", &web.access.port, "TCP port; 0: any that is free");
@@ -141,8 +142,7 @@ int body(int argc, char** argv) {
   // 2. Listen, and join the domain.
   WebServer server(options.web);
   const dds::Participant participant(options.domain);
-  Viewer viewer(participant, options.server_id, options.web.rate_hz, options.tools, &WebServer::wake,
-                &server);
+  Viewer viewer(participant, options.wanted, options.web.rate_hz, options.tools, &WebServer::wake, &server);
   // Where the kernel grants it: browsers keep a machine busy.
   (void)rt::raiseThreadsNamed(dds::kReceiveThreads, kReceivePriority);
 

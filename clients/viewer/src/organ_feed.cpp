@@ -49,10 +49,10 @@ bool sameSurface(const client::Surface& a, const client::Surface& b) {
 
 }  // namespace
 
-OrganFeed::OrganFeed(const dds::Participant& participant, std::uint32_t server_id, double rate_hz,
+OrganFeed::OrganFeed(const dds::Participant& participant, const client::WantedServer& wanted, double rate_hz,
                      WakeFunction wake, void* context)
     : rate_hz_(rate_hz),
-      watch_(participant.domain(), server_id),
+      watch_(participant.domain(), wanted),
       statuses_(participant),
       parameter_answers_(participant),
       surfaces_(participant),

@@ -37,9 +37,9 @@ class OrganFeed {
   };
 
   /// @param[in] wake  called on DDS's thread when a field comes
-  /// @param[in] server_id  the only one that is followed, or SERVER_ANY  @throw dds::DdsError
-  OrganFeed(const dds::Participant& participant, std::uint32_t server_id, double rate_hz, WakeFunction wake,
-            void* context);
+  /// @param[in] wanted  servers that may be followed  @throw dds::DdsError
+  OrganFeed(const dds::Participant& participant, const client::WantedServer& wanted, double rate_hz,
+            WakeFunction wake, void* context);
 
   /// Takes in what came. @param[in] own_writer  writer of this program's poses
   /// @return tools for which other programs sent poses

@@ -14,7 +14,7 @@ std::string secondsOf(std::int64_t ns) {
 
 bool ServerWatch::saw(const dds::ServerStatus& status, std::int64_t now_ns, dds::WriterId writer) {
   const bool stopping = status.state == dds::server_state::kStopping;
-  if (wanted_ != dds::kServerAny && status.server_id != wanted_) {
+  if (!wanted_.fits(status)) {
     others_.erase(status.session);
     if (!stopping) keepOther(status, now_ns);
     return false;
@@ -53,7 +53,7 @@ std::string ServerWatch::othersAt(std::int64_t now_ns) const {
 }
 
 std::string ServerWatch::awaited() const {
-  return wanted_ == dds::kServerAny ? "a server" : "server " + std::to_string(wanted_);
+  return wanted_.any() ? "a server" : nameOf(wanted_);
 }
 
 ServerState ServerWatch::state(std::int64_t now_ns, const std::string& surface_model,

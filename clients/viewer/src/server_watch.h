@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "palpate/client/wanted_server.h"
 #include "palpate/idl/reader.h"
 
 namespace palpate::viewer {
@@ -24,9 +25,9 @@ class ServerWatch {
   static constexpr std::int64_t kSilenceNs = 2'500'000'000;  ///< a status comes about once a second
   static constexpr std::size_t kMostOthers = 16;
 
-  /// @param[in] server_id  the only one that is followed; SERVER_ANY: whichever is found first
-  explicit ServerWatch(std::uint32_t domain, std::uint32_t server_id = dds::kServerAny)
-      : domain_(domain), wanted_(server_id) {}
+  /// @param[in] wanted  of the servers that fit the first that is found is followed
+  explicit ServerWatch(std::uint32_t domain, const client::WantedServer& wanted = {})
+      : domain_(domain), wanted_(wanted) {}
 
   /// A status came. Of several servers, or runs of one, the watch follows the first until it is gone or stopping.
   /// @param[in] writer  who sent it: another one that names the followed run is not believed
@@ -57,7 +58,7 @@ class ServerWatch {
   [[nodiscard]] std::string awaited() const;
 
   std::uint32_t domain_;
-  std::uint32_t wanted_;
+  client::WantedServer wanted_;
   std::optional<dds::ServerStatus> status_;
   dds::WriterId writer_{0};
   std::int64_t heard_ns_{0};

@@ -44,11 +44,16 @@ void ToolDesk::setServer(const Server& server) {
   server_tools_ = server.tools;
   speed_ = server.speed_limit > 0.0 ? std::min(kMaxSpeed, 0.5 * server.speed_limit) : kMaxSpeed;
   if (std::exchange(session_, server.session) == server.session) return;
-  const std::int64_t now_ns = rt::monotonicNow();
+  endAll("another server serves now");
   const std::lock_guard lock(mutex_);
   server_id_ = server.server_id;
+}
+
+void ToolDesk::endAll(const char* message) {
+  const std::int64_t now_ns = rt::monotonicNow();
+  const std::lock_guard lock(mutex_);
   for (Tool& tool : tools_)
-    if (tool.driven) end(tool, "another server serves now", now_ns);
+    if (tool.driven) end(tool, message, now_ns);
 }
 
 void ToolDesk::sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept {

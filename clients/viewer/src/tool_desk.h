@@ -53,6 +53,8 @@ class ToolDesk {
   void setServer(const Server& server);
   void setNoServer() { server_tools_ = 0; }
   void setSurface(const client::Surface& surface) { outward_ = Outward(surface); }
+  /// What pages hold ends: a hand that pressed one organ should not press the next by surprise. @param message  why
+  void endAll(const char* message);
   /// A pose of this tool came over the wire from another program.
   void sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexcept;
 

@@ -7,9 +7,9 @@
 
 namespace palpate::viewer {
 
-Viewer::Viewer(const dds::Participant& participant, std::uint32_t server_id, double rate_hz,
+Viewer::Viewer(const dds::Participant& participant, const client::WantedServer& wanted, double rate_hz,
                std::vector<std::uint32_t> tool_ids, WakeFunction wake, void* context)
-    : feed(participant, server_id, rate_hz, wake, context),
+    : feed(participant, wanted, rate_hz, wake, context),
       tools(participant, std::move(tool_ids)),
       parameters(participant) {
   feed.setWatched(false);
@@ -35,6 +35,7 @@ void Viewer::tendTools(std::int64_t now_ns) {
     tools.setNoServer();
   }
   if (feed.revision() != surface_revision_) {
+    if (surface_revision_ != 0) tools.endAll("another organ is shown now");
     surface_revision_ = feed.revision();
     tools.setSurface(*feed.surface());
   }

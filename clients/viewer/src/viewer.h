@@ -30,8 +30,8 @@ class PageListener {
 class Viewer {
  public:
   /// @param[in] wake  called on DDS's thread when a field comes
-  /// @param[in] server_id  the only server that is followed, or SERVER_ANY  @throw dds::DdsError
-  Viewer(const dds::Participant& participant, std::uint32_t server_id, double rate_hz,
+  /// @param[in] wanted  servers that may be followed  @throw dds::DdsError
+  Viewer(const dds::Participant& participant, const client::WantedServer& wanted, double rate_hz,
          std::vector<std::uint32_t> tool_ids, WakeFunction wake, void* context);
 
   /// Takes in what came and passes it on; call about every 20 ms.

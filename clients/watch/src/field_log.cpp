@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "palpate/rt/clock.h"
 
@@ -21,16 +22,24 @@ NodeDisplacement largestOf(const dds::SurfaceDisplacement& field) noexcept {
 
 }  // namespace
 
-FieldLog::FieldLog(const client::Surface& surface)
-    : surface_(surface),
-      hold_({dds::kServerAny, surface.session}, kSilenceNs),
-      peak_field_(3 * surface.positions.size(), 0.0F) {
+FieldLog::FieldLog(std::shared_ptr<const client::Surface> surface)
+    : surface_(std::move(surface)),
+      hold_({dds::kServerAny, surface_->session}, kSilenceNs),
+      peak_field_(3 * surface_->positions.size(), 0.0F) {
   (void)hold_.address(rt::monotonicNow());  // its silence counts from here on
+}
+
+void FieldLog::change(std::shared_ptr<const client::Surface> surface) {
+  const std::lock_guard lock(mutex_);
+  surface_ = std::move(surface);
+  ++model_changes_;
+  largest_ = peak_ = {};
+  peak_field_.assign(3 * surface_->positions.size(), 0.0F);
 }
 
 bool FieldLog::fits(const dds::SurfaceDisplacement& field) const noexcept {
   const auto& u = field.displacement;
-  return surface_.model_id == field.model_id && surface_.topology_revision == field.topology_revision &&
+  return surface_->model_id == field.model_id && surface_->topology_revision == field.topology_revision &&
          u._length == peak_field_.size() &&
          std::all_of(u._buffer, u._buffer + u._length, [](float value) { return std::isfinite(value); });
 }
@@ -54,12 +63,13 @@ void FieldLog::take(dds::ReaderView<dds::SurfaceDisplacement> reader) noexcept {
   const auto samples = reader.takeLoaned();
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < samples.size(); ++i)
-    if (samples[i].organ_id == surface_.organ_id) add(samples[i]);
+    if (samples[i].organ_id == surface_->organ_id) add(samples[i]);
 }
 
 FieldSummary FieldLog::summary() const {
   const std::lock_guard lock(mutex_);
-  return {fields_.received(), fields_.lost(), refused_, hold_.leftOut().count, largest_, peak_};
+  return {fields_.received(), fields_.lost(), refused_, hold_.leftOut().count,
+          largest_,           peak_,          surface_, model_changes_};
 }
 
 std::vector<float> FieldLog::peakField() const {

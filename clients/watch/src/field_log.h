@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -27,21 +28,25 @@ struct FieldSummary {
   std::uint64_t superseded{
       0};                    ///< sent by the server but replaced, lost, or not admitted before they came here
   std::uint64_t refused{0};  ///< of another model, of another size, or with a number that is not finite
-  std::uint64_t left_out{0};  ///< of another server
-  NodeDisplacement largest;   ///< of the newest field
-  NodeDisplacement peak;      ///< of all fields so far
+  std::uint64_t left_out{0};                       ///< of another server
+  NodeDisplacement largest;                        ///< of the newest field
+  NodeDisplacement peak;                           ///< of all fields so far of the surface below
+  std::shared_ptr<const client::Surface> surface;  ///< whose nodes these are
+  std::uint64_t model_changes{0};                  ///< how often it became another one
 };
 
 /// Follows an organ's displacement field, of one server as long as that sends. Threads: take() on the receive thread, the rest on one other; they
 /// share a lock. Real-time: no.
 class FieldLog {
  public:
-  /// @param[in] surface  must outlive the log
-  explicit FieldLog(const client::Surface& surface);
+  explicit FieldLog(std::shared_ptr<const client::Surface> surface);
   static constexpr std::int64_t kSilenceNs = 2'500'000'000;  ///< a server sends a field each second at least
 
   /// Whether it is this run's fields that are followed. Threads: any
   [[nodiscard]] bool holds(std::uint64_t session) const noexcept { return hold_.held().session == session; }
+
+  /// The server took another model: fields of this surface are followed from now on.
+  void change(std::shared_ptr<const client::Surface> surface);
 
   void take(dds::ReaderView<dds::SurfaceDisplacement> reader) noexcept;
 
@@ -53,8 +58,9 @@ class FieldLog {
   [[nodiscard]] bool fits(const dds::SurfaceDisplacement& field) const noexcept;
   void add(const dds::SurfaceDisplacement& field) noexcept;
 
-  const client::Surface& surface_;
   mutable std::mutex mutex_;
+  std::shared_ptr<const client::Surface> surface_;
+  std::uint64_t model_changes_{0};
   client::ServerHold hold_;
   client::GapCounter fields_;
   std::uint64_t refused_{0};

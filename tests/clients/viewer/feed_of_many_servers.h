@@ -111,7 +111,7 @@ class FeedOfManyServers : public ::testing::Test {
   dds::Writer<dds::SurfaceDisplacement> fields_{participant_};
   dds::Writer<dds::ToolForce> forces_{participant_};
   dds::Writer<dds::ToolPose> poses_{participant_};
-  OrganFeed feed_{participant_, dds::kServerAny, kNeverTwice, [](void*) noexcept {}, nullptr};
+  OrganFeed feed_{participant_, {}, kNeverTwice, [](void*) noexcept {}, nullptr};
 };
 
 }  // namespace palpate::viewer

@@ -81,6 +81,23 @@ TEST_F(FeedOfManyServers, TheNextServersSurfaceIsKnownThoughItCameOnceBeforeItWa
   EXPECT_TRUE(until([&] { return feed_.surface()->model_id == "bb" && state() == "serving"; }));
 }
 
+TEST_F(FeedOfManyServers, AServerThatTakesAnotherModelIsFollowedWithItsNewSurface) {
+  const Run before{1, 7, "aa"}, after{1, 7, "bb"};
+  sayAll(before);
+  const std::uint32_t revision = feed_.revision();
+  saySurface(after, 0.2);
+  sayStatus(after);
+  ASSERT_TRUE(until([&] { return feed_.surface()->model_id == "bb" && state() == "serving"; }));
+  EXPECT_EQ(feed_.revision(), revision + 1);
+  EXPECT_EQ(feed_.surface()->positions[1][0], 0.2);
+  sayField(after, 5);
+  EXPECT_TRUE(until([&] { return feed_.field() != nullptr && feed_.field()->seq == 5; }));
+  sayStatus(before);  // and back
+  saySurface(before);
+  EXPECT_TRUE(until([&] { return feed_.surface()->model_id == "aa" && state() == "serving"; }));
+  EXPECT_EQ(feed_.field(), nullptr) << "what was shown was of the organ before";
+}
+
 TEST_F(FeedOfManyServers, OtherServersHoweverManyDoNotHideTheOneThatIsFollowed) {
   sayAll({1, 7, "aa", 500});
   for (std::uint32_t i = 0; i < 3 * Surfaces::kMostKept; ++i) {

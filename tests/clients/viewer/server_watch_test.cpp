@@ -36,7 +36,7 @@ TEST(ServerWatch, SaysWhatIsMissing) {
 }
 
 TEST(ServerWatch, OfManyServersTheOneThatIsNamedIsFollowed) {
-  ServerWatch watch(7, 3);
+  ServerWatch watch(7, {3, {}});
   EXPECT_FALSE(watch.saw(running(2, "aa"), kSecond));
   const ServerState waiting = watch.state(kSecond, "aa", "");
   EXPECT_EQ(waiting.name, "waiting");
@@ -45,6 +45,16 @@ TEST(ServerWatch, OfManyServersTheOneThatIsNamedIsFollowed) {
   EXPECT_TRUE(watch.saw(running(3, "bb"), kSecond));
   EXPECT_FALSE(watch.saw(running(2, "aa"), 9 * kSecond)) << "the named one is silent: still no other";
   EXPECT_EQ(watch.state(9 * kSecond, "bb", "").name, "gone");
+}
+
+TEST(ServerWatch, OfManyServersTheOneWithTheOrganThatIsNamedIsFollowed) {
+  ServerWatch watch(7, {dds::kServerAny, 4});
+  EXPECT_FALSE(watch.saw(running(2, "aa"), kSecond));
+  EXPECT_NE(watch.state(kSecond, "aa", "").text.find("waiting for server with organ 4 on DDS domain 7"),
+            std::string::npos);
+  dds::ServerStatus with_it = running(3, "bb");
+  with_it.organ_id = 4;
+  EXPECT_TRUE(watch.saw(with_it, kSecond));
 }
 
 TEST(ServerWatch, AServerThatIsSilentIsGoneUntilOneComes) {

@@ -103,6 +103,16 @@ TEST_F(ToolDeskOfAPage, AToolOfOneServerIsNotHandedToTheNext) {
   EXPECT_EQ(endings[0].message, "another server serves now");
 }
 
+TEST_F(ToolDeskOfAPage, AToolOfOneOrganDoesNotPressTheNext) {
+  ASSERT_TRUE(desk_.grab(kPage).granted);
+  ASSERT_TRUE(desk_.target(kPage, {{0.0, 0.0, 0.1}}));
+  desk_.endAll("another organ is shown now");
+  EXPECT_FALSE(desk_.toolOf(kPage));
+  const auto endings = desk_.endings();
+  ASSERT_EQ(endings.size(), 1U);
+  EXPECT_EQ(endings[0].page_id, kPage);
+}
+
 TEST_F(ToolDeskOfAPage, OfAPageThatIsSilentTheToolIsTakenAway) {
   ASSERT_TRUE(desk_.grab(kPage).granted);
   ASSERT_TRUE(desk_.target(kPage, {{0.0, 0.0, 0.1}}));

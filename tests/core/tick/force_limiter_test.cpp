@@ -147,4 +147,27 @@ TEST(StepConfig, DampingIsBoundedByTheCouplingsStiffness) {
   EXPECT_EQ(complaint({.coupling_damping = 100.0}), "") << "without a coupling there is none";
 }
 
+TEST(ForceLimiter, HandsOverWithinTheRampAndTheRateLimit) {
+  for (const double rate : {std::numeric_limits<double>::infinity(), 20.0}) {
+    const ForceLimiter limiter(StepConfig{});
+    Rendering memory;
+    LimiterInput in = pushing(Vec3(0.0, 0.6, 0.8));
+    (void)limiter.limit(in, memory);
+    in.force_rate_limit = rate;
+    in.hands_over = in.held = true;
+    double last = 1.0;
+    int ticks = 0;
+    for (; last > 0.0 && ticks < 1000; ++ticks) {
+      const LimitedForce out = limiter.limit(in, memory);
+      const double size = out.force.norm();
+      ASSERT_LE(last - size, std::min(rate * in.dt, in.dt / StepConfig{}.ramp_time) * 1.000001);
+      ASSERT_LT(size, last);
+      EXPECT_NE(out.flags & kModelChanging, 0U);
+      EXPECT_EQ(out.flags & kShuttingDown, 0U);
+      last = size;
+    }
+    EXPECT_NEAR(ticks, std::isinf(rate) ? 30 : 50, 1);
+  }
+}
+
 }  // namespace palpate

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/record/recording.h"
 #include "palpate/rt/periodic_thread.h"
 #include "palpate/rt/semaphore.h"
 #include "palpate/rt/spsc_queue.h"
@@ -17,8 +16,8 @@
 namespace palpate::server {
 
 /// Everything that two threads of the server share, and nothing is shared but this. Each line names its one
-/// writer and one reader. Two more things never change while threads run: the model and the configuration. Outside of the
-/// tick, RivalBook has a lock of its own.
+/// writer and one reader. Two more things never change while threads run: a model and the configuration. Outside of the
+/// tick, RivalBook, Recorder and ModelLoader have locks of their own.
 struct Channels {
   // Subscriber -> events: the writer of each tool's poses; 0: none yet. Relaxed, it orders nothing.
   std::array<std::atomic<std::uint64_t>, kMaxTools> owners{};
@@ -30,6 +29,19 @@ struct Channels {
 
   // Events -> tick: latest wins. What is in it was checked.
   rt::TripleBuffer<AllToolSettings> parameters;
+
+  // Model exchange, on the events thread -> tick: the engine that is to answer from now on. The tick ends all forces, and takes it.
+  // SYNC ENGINE: stored with release once it is made, loaded with acquire before the tick looks at parameters.
+  std::atomic<Engine*> next_engine{nullptr};
+
+  // Tick -> model exchange: number of the engine in use. SYNC TAKEN: stored with release by the tick that no longer looks at the
+  // engine before it, loaded with acquire.
+  std::atomic<std::uint64_t> engine_in_use{0};
+
+  // Model exchange -> surface-out: number of the engine in use, once the tick has said so. Surface-out -> model exchange: such a
+  // number, once no field of an engine before it is looked at any more. SYNC SHOWN: both with release and acquire.
+  std::atomic<std::uint64_t> engine_to_show{0};
+  std::atomic<std::uint64_t> engine_shown{0};
 
   // Tick -> force-out: a ring, because every tick is answered. 2048 records are 128 ms of four tools at
   // 4 kHz.
@@ -91,7 +103,7 @@ struct Channels {
 
   // Tick -> recorder, only with --record: 16,384 ticks are 4 s at 4 kHz, longer than a disk stalls. On the heap, made before
   // the loop. Polled. A full ring loses the newest tick, which the counter says; relaxed, it orders nothing.
-  std::unique_ptr<rt::SpscQueue<record::RecordedTick, 16384>> recording;
+  std::unique_ptr<rt::SpscQueue<SessionTick, 16384>> recording;
   std::atomic<std::uint64_t> unrecorded{0};
 
   // Recorder -> events: the file cannot be written any more. A flag, relaxed.

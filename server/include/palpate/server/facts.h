@@ -14,7 +14,8 @@ class MetaModel;
 
 namespace palpate::server {
 
-/// What no longer changes once the server has started, as ServerStatus reports it.
+/// What no longer changes once the server has started, as ServerStatus reports it. But for what is the model's, which another model
+/// changes: model_id, model_hash, organ and memory_locked are the events thread's.
 struct Facts {
   std::uint32_t server_id{0};
   std::uint64_t session{0};  ///< random, of this run; never 0
@@ -26,7 +27,7 @@ struct Facts {
   std::uint32_t organ_id{0};
   double rate_hz{0.0};
   std::array<std::string, kMaxTools> device;  ///< by tool: preset or custom
-  StepConfig step;                            ///< as started, with the organ's stiffness
+  StepConfig step;                            ///< as started, with the first organ's stiffness
   OrganStiffness organ{};                     ///< the model's own
   bool parameters{true};                      ///< requests may change live parameters
   LiveBounds limits;                          ///< within these

@@ -46,6 +46,13 @@ class ParameterBook {
   /// naming the tools that differ from tool 0.
   [[nodiscard]] std::string describe() const;
 
+  /// Why another organ cannot be served with the limits of the start; empty: it can.
+  [[nodiscard]] std::string complaintAbout(const OrganStiffness& organ) const;
+  /// What tools have on another organ: E as at a start with it, the operator's or the model's own; all else as it is in force.
+  [[nodiscard]] AllToolSettings inForceOnNext() const;
+  /// Another organ is served from now on. @param[in] organ  complaintAbout() has nothing to say
+  void take(const OrganStiffness& organ);
+
   [[nodiscard]] const AllToolSettings& inForce() const noexcept { return settings_; }
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
@@ -70,6 +77,8 @@ class ParameterBook {
 
   std::uint32_t server_id_;
   bool open_;
+  double start_youngs_modulus_;  // Pa; 0: the model's own
+  LiveBounds bounds_;            // that the operator named
   OrganStiffness organ_;
   std::array<std::string, kMaxTools> device_;
   AllToolSettings settings_;

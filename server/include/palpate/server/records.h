@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/record/recording.h"
 #include "core/tick/step.h"
 #include "palpate/rt/late_cause.h"
 
 namespace palpate::server {
+
+struct Engine;
 
 // What crosses from thread to thread: plain arrays, no DDS types. Units and frames as in palpate.idl.
 
@@ -54,6 +57,7 @@ struct ForceRecord {
   std::int64_t previous_tick_ns{0};  ///< compute time of the tick before
   std::uint64_t overruns{0};
   std::uint64_t superseded{0};   ///< of this tool
+  std::uint64_t model_hash{0};   ///< of the model that answers
   std::int64_t pose_wait_ns{0};  ///< from the pose's arrival to the wake-up; below 0: it came after that
   std::int64_t handed_ns{0};     ///< our monotonic clock when the tick handed it over
   ToolResult result;             ///< force on the tool
@@ -70,7 +74,14 @@ struct SurfaceSample {
   std::uint64_t seq{0};
   std::int64_t stamp_ns{0};                 ///< when the tick woke
   std::array<PoseEcho, kMaxTools> poses{};  ///< newest that the tick knew
+  Engine* engine{nullptr};                  ///< whose surface it is
   SurfaceState state;
+};
+
+/// Tick to recorder: a tick, and the number of the engine that it ran on. Its index counts from that engine's first tick.
+struct SessionTick {
+  record::RecordedTick tick;
+  std::uint64_t engine{0};
 };
 
 /// Tick to events: how one tick went. Counters are totals since the start.

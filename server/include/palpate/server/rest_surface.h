@@ -2,15 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
+#include <memory>
 
-#include "core/data/model_view.h"
-#include "core/data/region_surfaces.h"
-#include "core/model/meta_model.h"
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/writer.h"
 #include "palpate/server/facts.h"
+#include "palpate/server/organ_shape.h"
 
 namespace palpate::server {
 
@@ -20,8 +17,13 @@ namespace palpate::server {
 /// Threads: one. Real-time: no.
 class RestSurface {
  public:
-  /// Sends it. Facts and model must outlive this. @throw dds::DdsError
-  RestSurface(const dds::Participant& participant, const Facts& facts, const MetaModel& model);
+  /// Sends it. Facts and the shape's model must outlive this. @throw dds::DdsError
+  RestSurface(const dds::Participant& participant, const Facts& facts,
+              std::unique_ptr<const OrganShape> shape);
+
+  /// Sends that of another model, whose id the facts have by now; nothing of the one before is looked at any more.
+  /// @return false when DDS refused it
+  bool change(std::unique_ptr<const OrganShape> shape) noexcept;
 
   /// Sends it again if a volatile reader has come. @param[in] now_ns  our monotonic clock
   /// @return false when DDS refused it
@@ -35,14 +37,7 @@ class RestSurface {
   [[nodiscard]] bool hasVolatileReader() const noexcept;
 
   const Facts& facts_;
-  const ModelView& view_;
-  double contact_radius_;  // m
-  std::string certificate_;
-  std::vector<std::uint32_t> triangles_;
-  std::vector<std::uint8_t> accessible_;
-  std::vector<std::uint8_t> clamped_;
-  std::vector<RegionSurface> region_surfaces_;
-  std::vector<dds::Region> regions_;  // borrow from these
+  std::unique_ptr<const OrganShape> shape_;
   dds::Writer<dds::SurfaceMesh> writer_;
   std::uint32_t readers_so_far_{0};
   int repeats_{0};

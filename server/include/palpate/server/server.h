@@ -16,6 +16,7 @@
 #include "palpate/server/facts.h"
 #include "palpate/server/force_publisher.h"
 #include "palpate/server/late_watch.h"
+#include "palpate/server/model_exchange.h"
 #include "palpate/server/parameter_service.h"
 #include "palpate/server/pose_subscriber.h"
 #include "palpate/server/recorder.h"
@@ -29,10 +30,10 @@ namespace palpate::server {
 /// A running server: the threads of docs/design.md, Threads and what they work on, from construction to stop().
 class Server {
  public:
-  /// Starts everything. `model` must outlive the server.
+  /// Starts everything.
   /// @throw RivalError (another server answers the same poses), record::RecordError, dds::DdsError, rt::RealtimeError (policy require), std::invalid_argument (parameters of the
   /// engine)
-  Server(const MetaModel& model, const ServerConfig& config);
+  Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig& config);
   ~Server() { stop(); }
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -49,7 +50,7 @@ class Server {
   void sendZeroForce();
 
   Facts facts_;
-  Workspace work_;
+  std::unique_ptr<Engine> first_;  // until the exchange has it
   Channels channels_;
   std::optional<Recorder> recorder_;
   std::optional<rt::CpuLatencyHold> awake_;
@@ -66,6 +67,7 @@ class Server {
   ParameterService parameters_;
   Events events_;
   Tick tick_;
+  ModelExchange exchange_;
   PoseSubscriber poses_in_;
   dds::EndpointWatch endpoints_;
   dds::ProcessBook processes_;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/tick/shown_surface.h"
+#include <cstdint>
+
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/writer.h"
 #include "palpate/server/channels.h"
+#include "palpate/server/engine.h"
 #include "palpate/server/facts.h"
 
 namespace palpate::server {
@@ -13,10 +15,9 @@ namespace palpate::server {
 /// anybody reads it, and whether it overflowed.
 class SurfacePublisher {
  public:
-  /// Model, channels and facts must outlive the publisher. Allocates the field's memory. @throw dds::DdsError
-  SurfacePublisher(const dds::Participant& participant, const MetaModel& model, Channels& channels,
-                   const Facts& facts)
-      : channels_(channels), facts_(facts), surface_(model), displacement_(participant) {}
+  /// Channels and facts must outlive the publisher. @throw dds::DdsError
+  SurfacePublisher(const dds::Participant& participant, Channels& channels, const Facts& facts)
+      : channels_(channels), facts_(facts), displacement_(participant) {}
 
   /// Body of the surface-out thread. Returns once the server stops.
   void run() noexcept;
@@ -26,10 +27,11 @@ class SurfacePublisher {
 
  private:
   void publish(const SurfaceSample& sample) noexcept;
+  void letGo(std::uint64_t in_use) noexcept;
 
   Channels& channels_;
   const Facts& facts_;
-  ShownSurface surface_;
+  Engine* engine_{nullptr};  // whose surface was shown last; none: the one in use has shown nothing yet
   dds::Writer<dds::SurfaceDisplacement> displacement_;
 };
 

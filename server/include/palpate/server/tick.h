@@ -9,6 +9,7 @@
 #include "palpate/rt/periodic_thread.h"
 #include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"
+#include "palpate/server/engine.h"
 #include "palpate/server/field_pace.h"
 
 namespace palpate::server {
@@ -23,13 +24,14 @@ struct TickPlan {
 
 /// One tick: newest poses in, one step of the engine, forces and what the surface is made of out (docs/design.md, Contact, Threads).
 /// Takes no lock, allocates nothing, logs nothing, knows no DDS. What it keeps from tick to tick is
-/// bookkeeping only; the state of the contact lives in the Workspace. Threads: one, the tick thread.
+/// bookkeeping only; the state of the contact lives in the engine's Workspace. Another engine (Channels::next_engine) is taken
+/// once all forces of this one have gone to zero. Threads: one, the tick thread.
 /// Real-time: yes.
 class Tick {
  public:
-  /// The three references must outlive the tick.
-  Tick(const MetaModel& model, Workspace& work, Channels& channels, const TickPlan& plan)
-      : model_(model), work_(work), channels_(channels), plan_(plan) {
+  /// Engines must outlive their use, `channels` the tick.
+  Tick(Engine& first, Channels& channels, const TickPlan& plan)
+      : engine_(&first), channels_(channels), plan_(plan) {
     phases_.fill(rt::PhaseLock(plan.period_ns));
     input_.period_ns = plan.period_ns;
   }
@@ -56,6 +58,7 @@ class Tick {
         false};  // since the last tick, at once: another publisher's, and the former one is gone
   };
 
+  void changeEngine(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void readPose(std::size_t tool, std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] std::uint32_t noticed(const PoseSample& pose, std::uint64_t unordered_before,
@@ -72,12 +75,14 @@ class Tick {
   void followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportTick(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void reportZeroForce() noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool allForcesAreZero() const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool seen(std::size_t tool) const noexcept PALPATE_NONBLOCKING {
     return ledgers_[tool].pose.received > 0;
   }
 
-  const MetaModel& model_;
-  Workspace& work_;
+  Engine* engine_;
+  Engine* next_engine_{nullptr};   // to be taken, once all forces are zero
+  std::uint64_t engine_began_{0};  // ticks run before this engine's first one
   Channels& channels_;
   TickPlan plan_;
 
@@ -96,6 +101,7 @@ class Tick {
   std::uint64_t surface_seq_{0};
   std::int64_t next_surface_ns_{0};
   SurfaceState handed_over_;
+  std::uint64_t shown_engine_{0};  // whose it was
   FieldPace field_pace_;
   std::uint64_t rejected_{0};
   std::uint64_t dropped_{0};

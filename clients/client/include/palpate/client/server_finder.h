@@ -8,6 +8,7 @@
 
 #include "palpate/client/status_board.h"
 #include "palpate/client/surface.h"
+#include "palpate/client/wanted_server.h"
 #include "palpate/idl/reader.h"
 
 namespace palpate::client {
@@ -25,9 +26,9 @@ struct ServerInfo {
 /// Finds a running server and its organ's surface on a domain.
 class ServerFinder {
  public:
-  /// @param[in] server_id  the server; kServerAny: the first that is complete
+  /// @param[in] wanted  of those that fit the first that is complete is found
   /// @throw dds::DdsError
-  explicit ServerFinder(const dds::Participant& participant, std::uint32_t server_id = dds::kServerAny);
+  explicit ServerFinder(const dds::Participant& participant, const WantedServer& wanted = {});
 
   /// Waits for a running server's status and for the surface of the same run that fits it (organ id and model id).
   /// @throw ClientError  what is missing (a status, a surface, the right model, the right version of the types),
@@ -45,7 +46,7 @@ class ServerFinder {
   [[nodiscard]] std::string missing(std::chrono::milliseconds waited) const;
 
   std::uint32_t domain_;
-  std::uint32_t server_id_;
+  WantedServer wanted_;
   StatusBoard statuses_;
   std::vector<Surface> kept_;
   std::string refusal_;  // of the newest surface that was malformed
@@ -59,6 +60,6 @@ class ServerFinder {
 /// ServerFinder::wait() for a program: first says on standard error that it waits, and afterwards which server was chosen if
 /// there are several.
 [[nodiscard]] ServerInfo findServer(const dds::Participant& participant, double seconds,
-                                    std::uint32_t server_id = dds::kServerAny);
+                                    const WantedServer& wanted = {});
 
 }  // namespace palpate::client

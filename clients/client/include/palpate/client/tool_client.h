@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/devices/path/path.h"
+#include "palpate/client/model_changes.h"
 #include "palpate/client/server_hold.h"
 #include "palpate/idl/tap.h"
 #include "palpate/idl/writer.h"
@@ -53,6 +54,9 @@ class ToolClient {
   /// The server that is held on to, and what others sent. Threads: any.
   [[nodiscard]] const ServerHold& hold() const noexcept { return hold_; }
 
+  /// How often the held server took another model while it answered. Threads: any.
+  [[nodiscard]] std::uint64_t modelChanges() const noexcept { return models_.count(); }
+
   /// @return whether, within `timeout`, a server listens to the poses and a server sends forces
   [[nodiscard]] bool waitForServer(std::chrono::milliseconds timeout) const noexcept;
   /// One line when a server is there whose endpoints do not match: by which policies, and whose they are; else empty.
@@ -71,6 +75,7 @@ class ToolClient {
   void* context_;
   rt::TripleBuffer<dds::ToolForce> latest_;  // written by the receive thread, read by latest()'s caller
   ServerHold hold_;
+  ModelChanges models_;
   dds::Writer<dds::ToolPose> poses_;
   dds::Tap<dds::ToolForce> forces_;  // last: no callback comes after it is destroyed
 };

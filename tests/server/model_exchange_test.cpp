@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps of an exchange; the test plays the tick and the surface's thread.
+#include "palpate/server/model_exchange.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "core/data/load_error.h"
+#include "core/data/sealed_image.h"
+#include "palpate/testing/synthetic_model.h"
+#include "palpate/testing/test_domain.h"
+
+namespace palpate::server {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+std::shared_ptr<const MetaModel> loaded(const std::filesystem::path& path) {
+  return std::shared_ptr<const MetaModel>(new const MetaModel(MetaModel::load(path)));
+}
+
+class ModelExchangeTest : public ::testing::Test {
+ protected:
+  ModelExchangeTest() {
+    palpate::testing::writeSyntheticModel(folder_ / "next.h5", {.subdivisions = 2, .stiffness = 600.0});
+    std::filesystem::copy_file(first_file_.path(), folder_ / "same.h5");
+    (void)folder_.write("broken.h5", "no model");
+    auto first = loaded(first_file_.path());
+    first_ = first;
+    exchange_.emplace(*channels_, Served{facts_, book_, surface_, nullptr},
+                      std::make_unique<Engine>(std::move(first), facts_.step),
+                      std::make_unique<ModelLoader>(folder_.path(), &MetaModel::tryToRead));
+  }
+
+  // Polls until the request has ended, or the tick is to go over.
+  std::optional<ExchangeOutcome> settle() {
+    for (int i = 0; i < 2000 && !exchange_->leaving(); ++i) {
+      if (auto outcome = exchange_->poll(now_ns_)) return outcome;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] bool freed() const {
+    for (int i = 0; i < 400 && !first_.expired(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return first_.expired();
+  }
+
+  static ServerConfig config() {
+    ServerConfig config;
+    config.device = "custom";
+    settleTools(config);
+    return config;
+  }
+  static std::filesystem::path written(const std::filesystem::path& path) {
+    palpate::testing::writeSyntheticModel(path);
+    return path;
+  }
+
+  palpate::testing::TemporaryFolder folder_;
+  palpate::testing::TemporaryFile first_file_{"exchange.h5"};
+  std::unique_ptr<Channels> channels_ = std::make_unique<Channels>();
+  std::shared_ptr<const MetaModel> shape_of_ = loaded(written(first_file_.path()));
+  Facts facts_ = factsOf(*shape_of_, config());
+  ParameterBook book_{facts_};
+  dds::Participant participant_{palpate::testing::exclusiveDomain()};
+  RestSurface surface_{participant_, facts_, std::make_unique<const OrganShape>(*shape_of_)};
+  std::weak_ptr<const MetaModel> first_;
+  std::optional<ModelExchange> exchange_;
+  std::int64_t now_ns_{10 * kSecond};
+};
+
+TEST_F(ModelExchangeTest, GoesThroughItsStepsAndFreesTheModelBeforeOnceNobodyLooks) {
+  const std::string before = facts_.model_id;
+  ASSERT_EQ(exchange_->ask("next.h5", 42, now_ns_), "");
+  EXPECT_TRUE(exchange_->pending(42));
+  EXPECT_FALSE(exchange_->pending(43));
+  EXPECT_NE(exchange_->ask("same.h5", 43, now_ns_).find("another model is on its way: \"next.h5\""),
+            std::string::npos);
+  EXPECT_FALSE(settle());
+  ASSERT_TRUE(exchange_->leaving());
+  Engine* const offered = channels_->next_engine.load();
+  ASSERT_NE(offered, nullptr);
+  EXPECT_EQ(offered->number, 1U);
+  EXPECT_FALSE(exchange_->poll(now_ns_)) << "the tick has not gone over yet";
+  EXPECT_EQ(facts_.model_id, before);
+  channels_->engine_in_use = 1;  // the tick
+  const auto outcome = exchange_->poll(now_ns_);
+  ASSERT_TRUE(outcome.has_value());
+  EXPECT_EQ(outcome->request_id, 42U);
+  EXPECT_EQ(outcome->refusal, "");
+  EXPECT_EQ(outcome->line.find("another organ: model next.h5: driven by displacement, 162 surface nodes"),
+            0U);
+  EXPECT_EQ(facts_.model_id, offered->id);
+  EXPECT_NE(facts_.model_id, before);
+  EXPECT_EQ(channels_->engine_to_show, 1U);
+  EXPECT_TRUE(channels_->surface_ready.tryWait()) << "the surface's thread is woken";
+  EXPECT_FALSE(exchange_->poll(now_ns_));
+  EXPECT_FALSE(first_.expired()) << "the surface's thread may look at it";
+  channels_->engine_shown = 1;  // that thread
+  EXPECT_FALSE(exchange_->poll(now_ns_));
+  EXPECT_TRUE(freed());
+  EXPECT_EQ(exchange_->ask("same.h5", 44, now_ns_ + kSecond / 2),
+            "the model was changed less than a second ago");
+  EXPECT_EQ(exchange_->ask("same.h5", 45, now_ns_ + 2 * kSecond), "");
+}
+
+TEST_F(ModelExchangeTest, ARefusedModelChangesNothing) {
+  const std::string before = facts_.model_id;
+  for (const char* name : {"broken.h5", "none.h5"}) {
+    ASSERT_EQ(exchange_->ask(name, 7, now_ns_), "");
+    const auto outcome = settle();
+    ASSERT_TRUE(outcome.has_value());
+    EXPECT_NE(outcome->refusal.find(name), std::string::npos) << outcome->refusal;
+    EXPECT_FALSE(exchange_->pending(7));
+  }
+  EXPECT_EQ(channels_->next_engine.load(), nullptr);
+  EXPECT_EQ(facts_.model_id, before);
+  EXPECT_EQ(book_.revision(), 0U);
+  EXPECT_FALSE(first_.expired());
+}
+
+TEST_F(ModelExchangeTest, TheModelInUseIsThereAlready) {
+  ASSERT_EQ(exchange_->ask("same.h5", 7, now_ns_), "");
+  const auto outcome = settle();
+  ASSERT_TRUE(outcome.has_value());
+  EXPECT_EQ(outcome->refusal, "");
+  EXPECT_EQ(outcome->line, "");
+  EXPECT_EQ(channels_->next_engine.load(), nullptr);
+}
+
+TEST_F(ModelExchangeTest, TheNextEngineBeginsWithWhatIsInForce) {
+  dds::ParameterRequest asked{};
+  asked.request_id = 1;
+  asked.tool_id = 2;
+  asked.fields = dds::parameter::kFriction | dds::parameter::kYoungsModulus;
+  asked.friction = 0.05;
+  asked.youngs_modulus = 5e4;
+  ASSERT_TRUE(book_.decide(asked).accepted);
+  ASSERT_EQ(exchange_->ask("next.h5", 42, now_ns_), "");
+  EXPECT_FALSE(settle());
+  const Engine* const offered = channels_->next_engine.load();
+  ASSERT_NE(offered, nullptr);
+  EXPECT_EQ(offered->work.live(2).friction, 0.05);
+  EXPECT_EQ(offered->work.live(0).friction, 0.3);
+  EXPECT_EQ(offered->work.live(0).youngs_modulus, offered->organ.attributes().E) << "the organ's own";
+}
+
+TEST_F(ModelExchangeTest, AnOfferThatTheTickNeverTakesIsFreedAtTheEnd) {
+  ASSERT_EQ(exchange_->ask("next.h5", 42, now_ns_), "");
+  EXPECT_FALSE(settle());
+  const std::weak_ptr<const MetaModel> next = channels_->next_engine.load()->model;
+  exchange_.reset();
+  EXPECT_TRUE(next.expired());
+  EXPECT_TRUE(first_.expired());
+}
+
+TEST_F(ModelExchangeTest, WhatStopsHdf5IsARefusal) {
+  ModelLoader loader(folder_.path(), [](const SealedImage&, const std::string& name) {
+    throw LoadError(name + ": the process that had HDF5 look at it ended");
+  });
+  loader.load("next.h5");
+  std::optional<LoadedModel> model;
+  for (int i = 0; i < 400 && !model; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
+    model = loader.poll();
+  ASSERT_TRUE(model.has_value());
+  EXPECT_EQ(model->model, nullptr);
+  EXPECT_EQ(model->refusal, "next.h5: the process that had HDF5 look at it ended");
+}
+
+}  // namespace
+}  // namespace palpate::server
