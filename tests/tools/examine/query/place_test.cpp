@@ -141,7 +141,7 @@ TEST(Batch, NamesTheLineOfAPlaceOffTheOrgan) {
       "t.csv",
       "at_x,at_y,at_z,displacement_x,displacement_y,displacement_z\n0.08,0.03,0.04,0,0,0\n70,30,41,0,0,0\n",
       kMetres);
-  const std::string refused = valueErrorOf([&] { (void)answersTo(box.model, rows); });
+  const std::string refused = errorOf([&] { (void)answersTo(box.model, rows); });
   EXPECT_NE(refused.find("t.csv, line 3, at 70,30,41 m lies "), std::string::npos) << refused;
 }
 
