@@ -75,6 +75,7 @@ WRONG = [
     (["palpate-query", "none.h5", "--node", "1"], "--displacement"),
     (["palpate-query", "none.h5", "--node", "1", "--displacement", "1,2"], "--displacement"),
     (["palpate-query", "none.h5", "--node", "1", "--force", "up"], "--force"),
+    (["palpate-query", "none.h5", "--node", "1", "--force", "0,0,1e200"], "--force"),
     (["palpate-query", "none.h5", "--node", "1", "--load-level", "nan"], "--load-level"),
     (["palpate-query", "none.h5", "--at", "here", "--displacement", "0,0,0"], "--at"),
     (["palpate-query", "none.h5", "--at", "0,0,0", "--displacement", "0,0,0", "--unit", "inch"], "--unit"),
