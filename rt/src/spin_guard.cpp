@@ -57,9 +57,11 @@ std::vector<ThreadFacts> spinningThreads(std::chrono::milliseconds time) {
   return spinning;
 }
 
-int lowerThread(int id) noexcept {
+int lowerThread(const ThreadFacts& thread) {
+  std::ofstream("/proc/self/task/" + std::to_string(thread.id) + "/comm")
+      << thread.name.substr(0, 11) + "-low";
   const sched_param ordinary{};
-  return sched_setscheduler(id, SCHED_OTHER, &ordinary) == 0 ? 0 : errno;
+  return sched_setscheduler(thread.id, SCHED_OTHER, &ordinary) == 0 ? 0 : errno;
 }
 
 }  // namespace palpate::rt

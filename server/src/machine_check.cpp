@@ -76,6 +76,7 @@ class Checker {
     return check;
   }
   static MachineCheck unknown(MachineCheck check, std::string found, std::string remedy = {}) {
+    check.suits = Suits::kUnknown;
     check.found = std::move(found);
     check.remedy = std::move(remedy);
     return check;

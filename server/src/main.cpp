@@ -51,7 +51,7 @@ bool judgeSpinning() {
         "thread {} computes at real-time priority {} without a sleep for {} ms: {}", thread.name,
         thread.fifo_priority, kLongestComputation.count(),
         receives ? "it goes on as an ordinary thread" : "the server ends, so that the machine stays usable");
-    if (receives) (void)rt::lowerThread(thread.id);
+    if (receives) (void)rt::lowerThread(thread);
     ours = ours || !receives;
   }
   (void)rt::limitRealtimeWithoutSleep(kLongestComputation, kLastComputation);  // the kernel has raised it

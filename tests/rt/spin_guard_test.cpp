@@ -9,8 +9,10 @@
 #include <atomic>
 #include <csignal>
 #include <ctime>
+#include <string_view>
 
 #include "palpate/rt/clock.h"
+#include "palpate/rt/scheduling.h"
 #include "palpate/rt/thread.h"
 
 namespace palpate::rt {
@@ -65,8 +67,10 @@ TEST_F(SpinGuard, AThreadThatNeverSleepsIsSignalledAndFound) {
   const std::vector<ThreadFacts> found = spinningThreads(milliseconds(100));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].name, "spinner");
-  ASSERT_EQ(lowerThread(found[0].id), 0);
+  ASSERT_EQ(lowerThread(found[0]), 0);
   EXPECT_EQ(sched_getscheduler(found[0].id), SCHED_OTHER);
+  constexpr std::string_view kSpinner[] = {"spinner"};
+  EXPECT_EQ(raiseThreadsNamed(kSpinner, 1), 0U) << "it stays lowered";
   EXPECT_TRUE(spinningThreads(milliseconds(20)).empty()) << "an ordinary thread may compute";
   ASSERT_EQ(limitRealtimeWithoutSleep(milliseconds(100), milliseconds(60'000)), 0);
   (void)signalComes(milliseconds(0));

@@ -105,7 +105,8 @@ Told toldOf(const std::vector<std::unique_ptr<ToolMeasurement>>& tools, const dd
     if (tools.size() > 1) told.text += (told.text.empty() ? "tool " : "\ntool ") + id + '\n';
     told.text += textOf(tool->log, tool->sender, server);
     program::Json report{{"tool_id", tool->tool_id}};
-    for (const auto& [key, value] : jsonOf(tool->log, tool->sender, server).members()) report[key] = value;
+    const program::Json figures = jsonOf(tool->log, tool->sender, server);
+    for (const auto& [key, value] : figures.members()) report[key] = value;
     told.reports.push_back(std::move(report));
     for (const auto& times : taggedTimesOf(tool->log, tools.size() > 1 ? "_tool" + id : ""))
       told.times.push_back(times);

@@ -53,7 +53,7 @@ void describe(program::Options line, Options& options) {
             "answer each line of a table (.csv) of places and displacements, see below");
   program::Options what = line.atMostOneOf("what");
   what.add("--displacement", &options.displacement, "displacement dx,dy,dz of the contact patch");
-  what.add("--force", &options.force, "force fx,fy,fz of the tool, N (models driven by force)");
+  what.add("--force", &options.force, "force fx,fy,fz of the tool, at most 1e6 N (models driven by force)");
   what.add("--load-level", &options.level,
            "share of the model's load (models driven by level; leave out for others)")
       .range(0.0, 1.0);
@@ -86,11 +86,19 @@ query::Anchor anchorOf(const MetaModel& model, const Options& options) {
   return query::anchorOf(model, asked("--at", program::parseVector("--at", options.at), options));
 }
 
+/// The square of a much larger force overflows, and with it the residual that Newton is judged by.
+Vec3 forceOf(const std::string& text) {
+  constexpr double kLargest = 1e6;  // N, as of palpate-solve --load
+  const Vec3 f = vectorOf("--force", text);
+  if (!(f.norm() <= kLargest)) throw program::ValueError("--force is '" + text + "', expected at most 1e6 N");
+  return f;
+}
+
 query::Question questionOf(const Options& options) {
   if (options.level && std::isnan(*options.level))
     throw program::ValueError("--load-level is nan, expected 0 to 1");
   if (options.level) return {Parameters::kLevel, {*options.level, 0.0, 0.0}};
-  if (options.force) return {Parameters::kForce, vectorOf("--force", *options.force)};
+  if (options.force) return {Parameters::kForce, forceOf(*options.force)};
   if (!options.displacement) throw program::ValueError("--displacement or --force is empty, expected x,y,z");
   return {Parameters::kDisplacement, vectorOf("--displacement", *options.displacement)};
 }

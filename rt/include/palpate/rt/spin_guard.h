@@ -22,7 +22,9 @@ namespace palpate::rt {
 /// Real-time: no; takes `time`.
 [[nodiscard]] std::vector<ThreadFacts> spinningThreads(std::chrono::milliseconds time);
 
-/// Makes a thread an ordinary one. @return 0, or the errno of the refusal. Real-time: no.
-[[nodiscard]] int lowerThread(int id) noexcept;
+/// Makes a thread an ordinary one for good: "-low" behind its name keeps raiseThreadsNamed() off it. Raised again it would
+/// go on to be counted where it was, up to `last`.
+/// @return 0, or the errno of the refusal. Real-time: no.
+[[nodiscard]] int lowerThread(const ThreadFacts& thread);
 
 }  // namespace palpate::rt

@@ -89,6 +89,16 @@ TEST(FullSolution, RefusesAPatchThatIsAllClamped) {
             std::string::npos);
 }
 
+// Longer ones than the program lets through: of those that it does, elements turn inside out before Newton fails.
+TEST(FullSolution, RefusesADisplacementThatNewtonCannotReach) {
+  const BoxModel box;
+  const Anchor anchor = anchorAtNode(box.model, BoxMesh::number(5, 3, 2));
+  EXPECT_EQ(errorOf([&] {
+              (void)box.solve(anchor, {-1e100, 0.0, 0.0});
+            }).find("displacement -1e+100,0,0 m: Newton does not converge"),
+            0U);
+}
+
 TEST(FullSolution, OfAModelWithAStiffRegionOnSpringsIsThatOfTheModel) {
   const BoxModel box{"stvk", 1, BoxCase::kRegionAndSprings}, plain;
   for (const std::int64_t node : {BoxMesh::number(3, 1, 2), BoxMesh::number(5, 2, 2)}) {

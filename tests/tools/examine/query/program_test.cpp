@@ -212,7 +212,7 @@ TEST(Program, AnswersATableOfTouches) {
   box.folder.write("touches.csv", titles + "83,31,941,0,0,-2\n");
   const ProgramResult off = query(box, {"--batch", touches.string(), "--unit", "mm", "-o", answers});
   EXPECT_EQ(off.exit_code, 1);  // the file's fault
-  expectOneLineError(off, "touches.csv, line 2, at 83,31,941 mm lies 900 mm from the organ's surface");
+  expectOneLineError(off, "touches.csv, line 2, at 83,31,941 mm lies 901 mm from the organ's surface");
   EXPECT_EQ(contentOf(answers), written);  // as it was
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(box.folder.path()), {}),
             3);  // nothing half written

@@ -71,14 +71,6 @@ TEST(Program, RefusesATruncatedModel) {
   expectOneLineError(none, "cannot be opened");
 }
 
-TEST(Program, RefusesAForceThatNewtonCannotReach) {
-  const LoadModel box(Parameters::kForce);
-  const ProgramResult result =
-      query(box, {"--node", std::to_string(BoxMesh::number(4, 2, 2)), "--force", "0,0,-1e6", "--newton"});
-  EXPECT_EQ(result.exit_code, 1);
-  expectOneLineError(result, "force 0,0,-1e+06 N: Newton does not converge");
-}
-
 TEST(Program, RefusesADisplacementLongerThanAnyTouch) {
   const BoxModel box;
   const std::string node = std::to_string(BoxMesh::number(5, 3, 2));
