@@ -331,6 +331,17 @@ TEST(Device, AStallOfTheServerIsWaitedForAndNotFelt) {
   EXPECT_NEAR(report["penetration_m"].get<double>(), 0.003 * 200.0 / 700.0, 1e-4);
 }
 
+TEST(Device, ARunWithoutAContactIsNotJudged) {
+  const FakeServer server(exclusiveDomain(), {.far = true});
+  const auto result = runProgram(
+      "palpate-device", onDomain({"--preset", "custom", "--motion", "press", "--seconds", "2.5", "--json"}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_FALSE(json::parse(result.out)["stable"]) << "nothing is known of the loop";
+  EXPECT_NE(result.err.find("no contact, so not judged"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("palpate-device: the tool never touched the organ"), std::string::npos)
+      << result.err;
+}
+
 TEST(Device, StopsWhenTheServerLeaves) {
   const FakeServer server(exclusiveDomain(), {.leave_after = 200});
   const auto result = runProgram("palpate-device", onDomain({"--seconds", "60", "--json"}));
