@@ -59,7 +59,9 @@ EndpointWatch::EndpointWatch(dds_entity_t participant, std::chrono::milliseconds
     : patience_(patience),
       writers_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION)),
       readers_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION)),
-      participants_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT)) {}
+      participants_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT)) {
+  checked(dds_get_instance_handle(participant, &own_), "cannot tell the participant from others");
+}
 
 void EndpointWatch::add(dds_entity_t endpoint, bool writes) {
   const dds_entity_t topic = dds_get_topic(endpoint);
@@ -97,6 +99,7 @@ void EndpointWatch::look(dds_entity_t builtin, bool writes, Clock::time_point no
 
 void EndpointWatch::note(const Other& other, dds_instance_handle_t endpoint, bool writes,
                          Clock::time_point now) {
+  if (other.participant_instance_handle == own_) return;
   const auto ours = std::find_if(ours_.begin(), ours_.end(), [&](const Ours& one) {
     return one.writes != writes && one.topic == other.topic_name;
   });

@@ -54,6 +54,7 @@ class EndpointWatch {
   [[nodiscard]] bool fitsOneOfOurs(dds_instance_handle_t endpoint, bool writes) const;
   [[nodiscard]] std::string owner(dds_instance_handle_t participant) const;
 
+  dds_instance_handle_t own_{0};  // the participant: its endpoints fit, or want nothing of each other
   std::chrono::milliseconds patience_;
   std::vector<Ours> ours_;
   std::vector<Suspect> suspects_;
