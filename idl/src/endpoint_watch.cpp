@@ -60,7 +60,7 @@ EndpointWatch::EndpointWatch(dds_entity_t participant, std::chrono::milliseconds
       writers_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION)),
       readers_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION)),
       participants_(builtinReader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT)) {
-  (void)dds_get_instance_handle(participant, &self_);
+  checked(dds_get_instance_handle(participant, &own_), "cannot tell the participant from others");
 }
 
 void EndpointWatch::add(dds_entity_t endpoint, bool writes) {
@@ -99,7 +99,7 @@ void EndpointWatch::look(dds_entity_t builtin, bool writes, Clock::time_point no
 
 void EndpointWatch::note(const Other& other, dds_instance_handle_t endpoint, bool writes,
                          Clock::time_point now) {
-  if (other.participant_instance_handle == self_) return;  // some of ours hear others only (Hears::kOthers)
+  if (other.participant_instance_handle == own_) return;  // some of ours hear others only (Hears::kOthers)
   const auto ours = std::find_if(ours_.begin(), ours_.end(), [&](const Ours& one) {
     return one.writes != writes && one.topic == other.topic_name;
   });

@@ -66,6 +66,15 @@ class EndpointWatchTest : public ::testing::Test {
 constexpr const char* kReader = "found a reader of palpate/tool/measured_cp that does not fit: ";
 constexpr const char* kWriter = "found a writer of palpate/tool/measured_cp that does not fit: ";
 
+TEST_F(EndpointWatchTest, SaysNothingOfATapOnOthersInItsOwnProcess) {
+  const Tap<ToolPose> tap(
+      participant_, [](const ToolPose&, WriterId, void*) noexcept {}, nullptr, Hears::kOthers);
+  for (int i = 0; i < 5; ++i) {
+    std::this_thread::sleep_for(30ms);
+    EXPECT_EQ(watch_.poll(), std::vector<std::string>{});
+  }
+}
+
 TEST_F(EndpointWatchTest, SaysNothingOfThoseThatMatch) {
   joinWriter([](dds_qos_t*) {});
   ASSERT_TRUE(reader_.waitForWriters(2, 5s));

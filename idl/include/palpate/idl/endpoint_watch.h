@@ -54,8 +54,8 @@ class EndpointWatch {
   [[nodiscard]] bool fitsOneOfOurs(dds_instance_handle_t endpoint, bool writes) const;
   [[nodiscard]] std::string owner(dds_instance_handle_t participant) const;
 
+  dds_instance_handle_t own_{0};  // the participant: its endpoints fit, or want nothing of each other
   std::chrono::milliseconds patience_;
-  dds_instance_handle_t self_{0};  // the participant
   std::vector<Ours> ours_;
   std::vector<Suspect> suspects_;
   Entity writers_, readers_, participants_;  // of the builtin topics
