@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "command_words.h"
 #include "palpate/server/config_file.h"
 #include "palpate/server/live_limits.h"
 #include "palpate/server/models_folder.h"
@@ -19,8 +20,6 @@
 
 namespace palpate::server {
 namespace {
-
-constexpr const char* kTipRadius = "tip-radius";  // in --tool and --limit
 
 // What the command line names.
 struct Given {
@@ -168,67 +167,6 @@ void combineContact(const Given& given, StepConfig& step) {
   overwrite(given.tip_radius, step.tip_radius);
   overwrite(given.speed_limit, step.speed_limit);
   if (given.tools) step.tools = static_cast<int>(std::clamp(*given.tools, -kFar, kFar));
-}
-
-[[noreturn]] void refuseLimit(const std::string& word) {
-  std::string names;
-  for (const LiveParameterInfo& info : kLiveParameters) names += std::string(&info.option[2]) + " ";
-  throw ConfigError("--limit is \"" + word + "\", expected NAME=LOW:HIGH, NAME one of " + names + kTipRadius);
-}
-
-// "friction=0:0.5".
-void takeLimit(const std::string& word, ServerConfig& config) {
-  std::istringstream text(word);
-  std::string name, low, high;
-  std::getline(std::getline(std::getline(text, name, '='), low, ':'), high);
-  char *low_end = nullptr, *high_end = nullptr;
-  const Bounds bounds{std::strtod(low.c_str(), &low_end), std::strtod(high.c_str(), &high_end)};
-  if (low.empty() || high.empty() || *low_end != '\0' || *high_end != '\0') refuseLimit(word);
-  for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
-    if (name == &kLiveParameters[i].option[2]) {
-      config.limits.*kLiveFields<LiveBounds>[i] = bounds;
-      return;
-    }
-  if (name != kTipRadius) refuseLimit(word);
-  config.tip_limits = bounds;
-}
-
-[[noreturn]] void refuseTool(const std::string& word) {
-  throw ConfigError("--tool is \"" + word + "\", expected ID:NAME=VALUE,... with ID 0 to 3, see --help");
-}
-
-// "friction" and "0.5" of a tool.
-bool takeOwn(const std::string& name, const std::string& value, OwnOptions& own) {
-  if (name == "device") {
-    own.device = value;
-    return true;
-  }
-  char* end = nullptr;
-  const double number = std::strtod(value.c_str(), &end);
-  if (value.empty() || *end != '\0') return false;
-  if (name == kTipRadius) {
-    own.tip_radius = number;
-    return true;
-  }
-  for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
-    if (name != &kLiveParameters[i].option[2] || kLiveParameters[i].zero_is_models) continue;
-    own.said.*kLiveFields<LiveOverrides>[i] = number;
-    return true;
-  }
-  return false;
-}
-
-// "1:device=omni,tip-radius=0.004".
-void takeTool(const std::string& word, std::array<OwnOptions, kMaxTools>& all) {
-  if (word.size() < 3 || word[1] != ':' || word[0] < '0' || word[0] >= '0' + kMaxTools) refuseTool(word);
-  std::istringstream entries(word.substr(2));
-  for (std::string entry; std::getline(entries, entry, ',');) {
-    const std::size_t equals = entry.find('=');
-    if (equals == std::string::npos) refuseTool(word);
-    if (!takeOwn(entry.substr(0, equals), entry.substr(equals + 1),
-                 all[static_cast<std::size_t>(word[0] - '0')]))
-      refuseTool(word);
-  }
 }
 
 template <class Take>

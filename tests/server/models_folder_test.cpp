@@ -11,6 +11,7 @@
 
 #include "core/data/load_error.h"
 #include "palpate/server/config.h"
+#include "palpate/server/config_file.h"
 #include "palpate/testing/files.h"
 
 namespace palpate::server {
@@ -96,6 +97,14 @@ TEST(ModelsFolder, HasToBeAFolder) {
   (void)root.write("file", "x");
   EXPECT_THROW(ModelsFolder{root / "none"}, ConfigError);
   EXPECT_THROW(ModelsFolder{root / "file"}, ConfigError);
+}
+
+TEST(ModelsFolder, IsTakenFromTheFolderOfTheConfiguration) {
+  const palpate::testing::TemporaryFolder root;
+  ServerConfig config;
+  readConfigFile(root.write("server.toml", "models = \"organs\"\n"), config);
+  EXPECT_EQ(config.models, root / "organs");
+  EXPECT_THROW(readConfigFile(root.write("empty.toml", "models = \"\"\n"), config), ConfigError);
 }
 
 }  // namespace

@@ -70,6 +70,17 @@ TEST_F(ServerRefuses, AFileThatIsNoModel) {
   EXPECT_NE(refusal({"--model", file_.string()}, 1).find(file_.string()), std::string::npos);
 }
 
+TEST_F(ServerRefuses, AFolderOfModelsThatIsNone) {
+  EXPECT_EQ(refusal({"--model", file_.string(), "--models", "/nonexistent"}),
+            "the folder of models, /nonexistent, cannot be opened: No such file or directory");
+  std::ofstream(file_) << "no folder";
+  EXPECT_NE(refusal({"--model", file_.string(), "--models", file_.string()})
+                .find("cannot be opened: Not a directory"),
+            std::string::npos);
+  EXPECT_EQ(refusal({"--model", file_.string(), "--models", ""}),
+            "--models is empty, expected the path of a folder");
+}
+
 TEST_F(ServerRefuses, AMissingModel) {
   EXPECT_NE(refusal({"--model", "/nonexistent.h5"}, 1).find("/nonexistent.h5"), std::string::npos);
   EXPECT_EQ(refusal({"--json", "--model", "a.h5"}), "--json is for --check-realtime");

@@ -6,6 +6,7 @@
 
 #include "palpate/client/tool_client.h"
 #include "palpate/idl/reader.h"
+#include "palpate/testing/run_program.h"
 #include "viewer_fixture.h"
 
 namespace palpate::testing {
@@ -48,6 +49,29 @@ class AnswersOnTheWire {
   dds::Participant participant_;
   dds::Reader<dds::ToolForce> reader_;
 };
+
+TEST_F(ViewerEndToEnd, APageGoesOnWithAnotherOrganAndItsToolEnds) {
+  const TemporaryFolder models;
+  writeSyntheticModel(models / "next.h5", {.subdivisions = 2});
+  server_ = newServer(3, {"--models", models.path().string()});
+  startViewer();
+  const auto page = openPage();
+  ASSERT_TRUE(page->connect());
+  EXPECT_EQ(page->texts["mesh"]["nodes"], 642);
+  ASSERT_TRUE(grab(*page)["granted"]);
+  ASSERT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.5; }));
+  page->texts.erase("tool");
+  const auto asked = runProgram("palpate-parameters", {"--model", "next.h5", "--domain", domain_});
+  EXPECT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_TRUE(page->listen(seconds(10), [&] { return page->texts["mesh"]["nodes"] == 162; }));
+  EXPECT_TRUE(page->listen(seconds(10), [&] { return page->texts["state"]["server"] == "serving"; }));
+  EXPECT_TRUE(page->listen(seconds(5), [&] { return page->has("tool"); }));
+  EXPECT_TRUE(goesOn(*page));
+  ASSERT_TRUE(grab(*page)["granted"]) << "the new organ can be touched at once";
+  EXPECT_TRUE(page->press(kDepth, seconds(10), [&] { return forceOn(*page) > 0.3; }));
+  EXPECT_TRUE(page->press(kDepth, seconds(10), [&] { return page->largest_displacement > 1e-3; }))
+      << "and its surface is shown";
+}
 
 TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
   const auto page = openServedPage();
