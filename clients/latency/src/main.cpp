@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ struct Options {
   std::uint32_t server_id{dds::kServerAny};
   double wait_s{10.0};
   bool json{false};
-  std::string plot, hdr, junit;
+  std::string plot, hdr, junit, samples;
   std::vector<std::string> assertions;
 };
 
@@ -53,7 +54,20 @@ void addOptions(program::Options line, Options& options) {
       .oneWordEach()
       .valueName("BOUND");
   line.add("--hdr", &options.hdr, "write the distributions as an HdrHistogram log, values in ns");
+  line.add(
+      "--samples", &options.samples,
+      "write when each pose was sent and answered as CSV, for palpate-device and palpate-feel --delay-from");
   line.add("--junit", &options.junit, "write what --assert found as JUnit XML");
+}
+
+// Room for all poses, or nothing. @throw program::UsageError  too many
+std::optional<SampleLog> samplesOf(const Options& options) {
+  if (options.samples.empty()) return std::nullopt;
+  const auto poses = static_cast<std::size_t>(options.measure.seconds * options.measure.rate_hz) + 1000;
+  if (poses > SampleLog::kMost)
+    throw program::UsageError("--samples " + options.samples + ": " + std::to_string(poses) +
+                              " poses, at most " + std::to_string(SampleLog::kMost) + " are kept");
+  return SampleLog(poses);
 }
 
 std::vector<Assertion> readAssertions(const Options& options) {
@@ -93,6 +107,8 @@ int body(int argc, char** argv) {
   program::checkOutput("--plot", options.plot);
   program::checkOutput("--hdr", options.hdr);
   program::checkOutput("--junit", options.junit);
+  program::checkOutput("--samples", options.samples);
+  std::optional<SampleLog> samples = samplesOf(options);
   if (!options.at.empty()) (void)program::parseVector("--at", options.at);  // before it waits
   client::catchStopSignals();
 
@@ -111,6 +127,7 @@ int body(int argc, char** argv) {
                               .count(),
                           options.measure.seconds};
   LatencyLog log(static_cast<std::int64_t>(1e9 / options.measure.rate_hz));
+  if (samples) log.keepSamples(options.measure.samples = &*samples);
   const SenderStats sender = measure(participant, spot, options.measure, log);
   if (!sender.realtime) std::cerr << client::kNotRealtime;
   if (log.received() == 0)
@@ -124,6 +141,7 @@ int body(int argc, char** argv) {
   if (options.json) program::printJson(report);
   if (!options.plot.empty()) program::writeFile(options.plot, plotOf(log));
   if (!options.hdr.empty()) program::writeFile(options.hdr, hdrLogOf(taggedTimesOf(log), interval));
+  if (samples) program::writeFile(options.samples, samples->csv());
   return judgeAll(assertions, report, options.junit);
 }
 
