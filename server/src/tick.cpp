@@ -167,8 +167,12 @@ void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 
 void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (!channels_.recording) return;
-  if (!channels_.recording->push({cycle.index, input_, result_}))
-    channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
+  record::RecordedTick tick{cycle.index, input_, result_, cycle.woke_ns, {}};
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
+    const PoseSample& pose = ledgers_[tool].pose;
+    tick.poses[tool] = {pose.seq, pose.stamp_ns, pose.arrival_ns, pose.buttons};
+  }
+  if (!channels_.recording->push(tick)) channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 
 // The first tool with a phase sets the ticks' phase until it loses its own; then the first tool that has one follows.
