@@ -70,14 +70,11 @@ void declareContact(program::Options line, Given& given) {
              std::string(info.help) + ", default " + defaultOf(i));
   }
   line.add("--rendered-stiffness", &given.rendered_stiffness,
-           "Organ and coupling in series render at most this, N/m, 1 to 1e5, default the device's, which is "
-           "the most; its "
-           "damping goes down in proportion");
+           "Organ and coupling in series render at most this, N/m, 1 to 1e5, default and most the device's; "
+           "its damping goes down in proportion");
   line.add("--tool", &given.own,
            "What one tool has of its own: device, tip-radius, friction, coupling, rendered-stiffness, "
-           "coupling-damping, "
-           "force-limit, "
-           "force-rate-limit, e.g. --tool 1:device=omni,tip-radius=0.004")
+           "coupling-damping, force-limit, force-rate-limit, e.g. --tool 1:device=omni,tip-radius=0.004")
       .oneWordEach()
       .valueName("ID:NAME=VALUE,...");
   line.add("--parameters", &given.parameters,
@@ -199,12 +196,8 @@ bool takeOwn(const std::string& name, const std::string& value, OwnOptions& own)
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
   if (value.empty() || *end != '\0') return false;
-  if (name == kTipRadius) {
-    own.tip_radius = number;
-    return true;
-  }
-  if (name == "rendered-stiffness") {
-    own.rendered_stiffness = number;
+  if (name == kTipRadius || name == "rendered-stiffness") {
+    (name == kTipRadius ? own.tip_radius : own.rendered_stiffness) = number;
     return true;
   }
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {

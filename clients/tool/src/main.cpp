@@ -57,7 +57,8 @@ void addOptions(program::Options line, Options& options) {
            "of a recording: play this tool only; default: all that were recorded")
       .range(0, 3);
   line.add("--within", &options.within,
-           "of a recording: exit code 3 where a force differs by more than this share of the largest")
+           "of a recording: exit code 3 where a force differs by more than this share of the largest; "
+           "default: none")
       .range(0.0, 100.0, "%");
   line.flag("--partial", &options.partial, "play a recording although ticks or its end are missing");
   line.add(
