@@ -10,7 +10,7 @@ namespace palpate::record {
 
 /// First bytes of the file.
 inline constexpr std::array<std::uint8_t, 8> kMagic{'P', 'A', 'L', 'P', 'R', 'E', 'C', 0x1A};
-inline constexpr std::uint32_t kVersion = 6;
+inline constexpr std::uint32_t kVersion = 7;
 
 /// Kinds of block; each begins with its kind, the size of its content and the content's CRC-32.
 inline constexpr std::uint32_t kHeaderBlock = 0x44414548;  // "HEAD"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/record/recording.h"
 #include "core/tick/step.h"
 
 // The fields of what is recorded, each once and in the order of the file: writer, reader and comparison walk these
@@ -9,7 +10,8 @@ namespace palpate::record {
 
 // A new field changes a size: add it to its list, and raise the version (kVersion).
 static_assert(sizeof(ToolSettings) == 64 && sizeof(StepConfig) == 120 + 4 * 72 && sizeof(ToolInput) == 80 &&
-                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 32 + 4 * 64,
+                  sizeof(ToolResult) == 192 && sizeof(StepInput) == 4 * 80 + 32 + 4 * 64 &&
+                  sizeof(PoseFacts) == 32,
               "core has other fields than the recording");
 
 template <class Config, class Visit>
@@ -39,6 +41,14 @@ void forEachSetting(Settings& all, Visit&& visit) {
       visit(kLiveParameters[i].name, tool.live.*kLiveFields<LiveParameters>[i]);
     visit("rendered_stiffness", tool.rendered_stiffness);
   }
+}
+
+template <class Facts, class Visit>
+void forEachFact(Facts& facts, Visit&& visit) {
+  visit(facts.seq);
+  visit(facts.stamp_ns);
+  visit(facts.arrival_ns);
+  visit(facts.buttons);
 }
 
 template <class Result, class Visit>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -24,11 +25,23 @@ class TruncatedError : public RecordError {
   using RecordError::RecordError;
 };
 
+/// The newest pose of a tool that a tick knew, as it came: what step() does not need, and playing it back does.
+struct PoseFacts {
+  std::uint64_t seq{0};        ///< sender's counter
+  std::int64_t stamp_ns{0};    ///< sender's clock; 0: not valid
+  std::int64_t arrival_ns{0};  ///< server's monotonic clock; 0: no pose has come
+  std::uint32_t buttons{0};    ///< bit i: button i is held down
+
+  [[nodiscard]] bool operator==(const PoseFacts&) const noexcept = default;
+};
+
 /// What went into one tick's step() and what came out. Plain: it crosses threads.
 struct RecordedTick {
   std::uint64_t index{0};  ///< ticks run before this one
   StepInput input;
   StepResult result;
+  std::int64_t woke_ns{0};  ///< server's monotonic clock when the tick woke
+  std::array<PoseFacts, kMaxTools> poses{};
 };
 
 static_assert(std::is_trivially_copyable_v<RecordedTick>);

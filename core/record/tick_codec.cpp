@@ -13,12 +13,14 @@ constexpr std::uint8_t kPeriod = 1;    // period_ns: it changed
 constexpr std::uint8_t kShutting = 2;  // shutting_down: it changed
 constexpr std::uint8_t kSettings = 4;  // has_settings, and the settings of all tools
 constexpr std::uint8_t kOverflow = 8;  // field_overflowed is 1
-constexpr std::uint8_t kTickBits = 15;
+constexpr std::uint8_t kWoke = 16;     // woke_ns: it is not dt_ns after that of the record before
+constexpr std::uint8_t kTickBits = 31;
 // and for a tool of it.
 constexpr std::uint8_t kInput = 1;   // there is a tool: present, age_ns, flags; without, ToolInput{}
 constexpr std::uint8_t kPose = 2;    // position and orientation: they changed
 constexpr std::uint8_t kResult = 4;  // all fields of the result: one changed
-constexpr std::uint8_t kToolBits = 7;
+constexpr std::uint8_t kFacts = 8;   // seq, stamp_ns, arrival_ns, buttons: they changed
+constexpr std::uint8_t kToolBits = 15;
 
 // Bit for bit: -0.0 is not 0.0, and a NaN is itself.
 template <class T>
@@ -36,6 +38,11 @@ Bytes bytesOf(const ToolResult& result) {
   return bytes;
 }
 
+// Wraps, since a file may hold any numbers.
+std::int64_t sum(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
 void refuseUnknown(std::uint8_t bits, std::uint8_t known, const char* what) {
   if ((bits & ~known) != 0)
     throw RecordError("a record's " + std::string(what) + " has unknown bits " + std::to_string(bits));
@@ -50,22 +57,27 @@ void TickCodec::encode(const RecordedTick& tick, Bytes& out) {
   if (input.shutting_down != last_.input.shutting_down) bits |= kShutting;
   if (input.has_settings != 0) bits |= kSettings;
   if (input.field_overflowed != 0) bits |= kOverflow;
+  if (tick.woke_ns != sum(last_.woke_ns, input.dt_ns)) bits |= kWoke;
   put(out, tick.index);
   put(out, input.dt_ns);
   put(out, bits);
+  if ((bits & kWoke) != 0) put(out, tick.woke_ns);
   if ((bits & kPeriod) != 0) put(out, input.period_ns);
   if ((bits & kShutting) != 0) put(out, input.shutting_down);
   if ((bits & kSettings) != 0) {
     put(out, input.has_settings);
     forEachSetting(input.settings, [&](const char*, const double& field) { put(out, field); });
   }
-  for (std::size_t tool = 0; tool < input.tools.size(); ++tool)
-    encodeTool(input.tools[tool], tick.result.tools[tool], tool, out);
+  for (std::size_t tool = 0; tool < input.tools.size(); ++tool) encodeTool(tick, tool, out);
+  last_.woke_ns = tick.woke_ns;
   last_.input.period_ns = input.period_ns;
   last_.input.shutting_down = input.shutting_down;
 }
 
-void TickCodec::encodeTool(const ToolInput& input, const ToolResult& result, std::size_t tool, Bytes& out) {
+void TickCodec::encodeTool(const RecordedTick& tick, std::size_t tool, Bytes& out) {
+  const ToolInput& input = tick.input.tools[tool];
+  const ToolResult& result = tick.result.tools[tool];
+  const PoseFacts& facts = tick.poses[tool];
   const bool there = input.present != 0 || input.flags != 0;
   ToolInput& known = last_.input.tools[tool];  // what the reader has by now
   const Bytes result_bytes = bytesOf(result);
@@ -73,6 +85,7 @@ void TickCodec::encodeTool(const ToolInput& input, const ToolResult& result, std
   if (there) bits |= kInput;
   if (there && !samePose(input, known)) bits |= kPose;
   if (result_bytes != bytesOf(last_.result.tools[tool])) bits |= kResult;
+  if (facts != last_.poses[tool]) bits |= kFacts;
   put(out, bits);
   if (there) {
     put(out, input.present);
@@ -85,7 +98,9 @@ void TickCodec::encodeTool(const ToolInput& input, const ToolResult& result, std
     known = input;
   }
   if ((bits & kResult) != 0) putBytes(out, result_bytes.data(), result_bytes.size());
+  if ((bits & kFacts) != 0) forEachFact(facts, [&](const auto& field) { put(out, field); });
   last_.result.tools[tool] = result;
+  last_.poses[tool] = facts;
 }
 
 void TickCodec::decode(ByteSource& in, RecordedTick& tick) {
@@ -94,6 +109,8 @@ void TickCodec::decode(ByteSource& in, RecordedTick& tick) {
   in.get(input.dt_ns);
   const auto bits = in.get<std::uint8_t>();
   refuseUnknown(bits, kTickBits, "tick");
+  last_.woke_ns = sum(last_.woke_ns, input.dt_ns);
+  if ((bits & kWoke) != 0) in.get(last_.woke_ns);
   if ((bits & kPeriod) != 0) in.get(input.period_ns);
   if ((bits & kShutting) != 0) in.get(input.shutting_down);
   input.field_overflowed = (bits & kOverflow) != 0 ? 1 : 0;
@@ -122,8 +139,9 @@ void TickCodec::decodeTool(ByteSource& in, std::size_t tool) {
     in.get(input.position);
     in.get(input.orientation);
   }
-  if ((bits & kResult) == 0) return;
-  forEachResultField(last_.result.tools[tool], [&](const char*, auto& field) { in.get(field); });
+  if ((bits & kResult) != 0)
+    forEachResultField(last_.result.tools[tool], [&](const char*, auto& field) { in.get(field); });
+  if ((bits & kFacts) != 0) forEachFact(last_.poses[tool], [&](auto& field) { in.get(field); });
 }
 
 }  // namespace palpate::record

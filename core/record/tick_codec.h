@@ -15,7 +15,7 @@ class TickCodec {
   void decode(ByteSource& in, RecordedTick& tick);
 
  private:
-  void encodeTool(const ToolInput& input, const ToolResult& result, std::size_t tool, Bytes& out);
+  void encodeTool(const RecordedTick& tick, std::size_t tool, Bytes& out);
   void decodeTool(ByteSource& in, std::size_t tool);
 
   RecordedTick last_{};

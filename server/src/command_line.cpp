@@ -44,6 +44,7 @@ struct Given {
   std::optional<std::string> device;
   std::vector<std::string> own;
   LiveOverrides live;
+  std::optional<double> rendered_stiffness;
   std::optional<std::string> parameters;
   std::vector<std::string> limits;
   bool check_realtime{false};
@@ -71,10 +72,12 @@ void declareContact(program::Options line, Given& given) {
     line.add(info.option, &(given.live.*kLiveFields<LiveOverrides>[i]),
              std::string(info.help) + ", default " + defaultOf(i));
   }
+  line.add("--rendered-stiffness", &given.rendered_stiffness,
+           "Organ and coupling in series render at most this, N/m, 1 to 1e5, default and most the device's; "
+           "its damping goes down in proportion");
   line.add("--tool", &given.own,
-           "What one tool has of its own: device, tip-radius, friction, coupling, coupling-damping, "
-           "force-limit, "
-           "force-rate-limit, e.g. --tool 1:device=omni,tip-radius=0.004")
+           "What one tool has of its own: device, tip-radius, friction, coupling, rendered-stiffness, "
+           "coupling-damping, force-limit, force-rate-limit, e.g. --tool 1:device=omni,tip-radius=0.004")
       .oneWordEach()
       .valueName("ID:NAME=VALUE,...");
   line.add("--parameters", &given.parameters,
@@ -160,6 +163,7 @@ void combineDevice(const Given& given, ServerConfig& config) {
   overwrite(given.device, config.device);
   for (const auto field : kLiveFields<LiveOverrides>)
     if (given.live.*field) config.said.*field = given.live.*field;
+  if (given.rendered_stiffness) config.rendered_stiffness = given.rendered_stiffness;
 }
 
 void combineContact(const Given& given, StepConfig& step) {

@@ -27,8 +27,8 @@ bool takeOwn(const std::string& name, const std::string& value, OwnOptions& own)
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
   if (value.empty() || *end != '\0') return false;
-  if (name == kTipRadius) {
-    own.tip_radius = number;
+  if (name == kTipRadius || name == "rendered-stiffness") {
+    (name == kTipRadius ? own.tip_radius : own.rendered_stiffness) = number;
     return true;
   }
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {

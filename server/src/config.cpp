@@ -71,18 +71,38 @@ std::string deviceNames() {
   return names + "or " + std::string(kCustomDevice);
 }
 
+// A rendered stiffness that was named above what the device is given.
+std::optional<Complaint> renderedComplaint(const ServerConfig& config, std::size_t tool) {
+  const OwnOptions& own = config.own[tool];
+  const auto named = own.rendered_stiffness ? own.rendered_stiffness : config.rendered_stiffness;
+  const auto preset = findDevicePreset(deviceOf(config, tool));
+  if (!named || !preset || *named <= preset->rendered_stiffness) return std::nullopt;
+  const bool alone = own.device || own.rendered_stiffness;
+  std::ostringstream text;
+  text << "is " << *named << ", expected at most " << preset->rendered_stiffness << " N/m, what device "
+       << preset->name << " is given (device custom has no such limit)";
+  return Complaint{(alone ? "tool." + std::to_string(tool) : "tool") + ".rendered_stiffness", text.str()};
+}
+
 }  // namespace
 
-StepConfig withDevice(StepConfig step, const std::string& device, const LiveOverrides& said) {
+StepConfig withDevice(StepConfig step, const std::string& device, const LiveOverrides& said,
+                      std::optional<double> rendered) {
   const StepConfig own;
   step.force_limit = own.force_limit;
   step.coupling_stiffness = own.coupling_stiffness;
   step.coupling_damping = own.coupling_damping;
   step.rendered_stiffness = own.rendered_stiffness;
   if (const auto preset = findDevicePreset(device)) apply(*preset, step);
+  if (rendered) {
+    if (std::isfinite(step.rendered_stiffness) && std::isfinite(*rendered) && *rendered > 0.0)
+      step.coupling_damping *= *rendered / step.rendered_stiffness;
+    step.rendered_stiffness = *rendered;
+  }
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     if (const auto& value = said.*kLiveFields<LiveOverrides>[i]) step.*kLiveFields<StepConfig>[i] = *value;
-  if (said.coupling_stiffness) step.rendered_stiffness = own.rendered_stiffness;  // it holds as it was named
+  if (said.coupling_stiffness && !rendered)
+    step.rendered_stiffness = own.rendered_stiffness;  // it holds as it was named
   if (!said.coupling_damping)
     step.coupling_damping = std::min(step.coupling_damping, kLongestCouplingTime * step.coupling_stiffness);
   return step;
@@ -94,13 +114,15 @@ const std::string& deviceOf(const ServerConfig& config, std::size_t tool) {
 }
 
 void settleTools(ServerConfig& config) {
-  config.step = withDevice(config.step, config.device, config.said);
+  config.step = withDevice(config.step, config.device, config.said, config.rendered_stiffness);
   for (std::size_t tool = 0; tool < config.own.size(); ++tool) {
     const OwnOptions& own = config.own[tool];
     LiveOverrides said = config.said;
     for (const auto field : kLiveFields<LiveOverrides>)
       if (own.said.*field) said.*field = own.said.*field;
-    const StepConfig alone = withDevice(config.step, deviceOf(config, tool), said);
+    const StepConfig alone =
+        withDevice(config.step, deviceOf(config, tool), said,
+                   own.rendered_stiffness ? own.rendered_stiffness : config.rendered_stiffness);
     config.step.own[tool] = {own.tip_radius.value_or(config.step.tip_radius), liveParameters(alone),
                              alone.rendered_stiffness};
   }
@@ -122,6 +144,7 @@ void checkDevice(const std::string& word) {
 
 std::optional<Complaint> deviceComplaint(const ServerConfig& config) {
   for (std::size_t tool = 0; tool < config.own.size(); ++tool) {
+    if (auto complaint = renderedComplaint(config, tool)) return complaint;
     const ToolSettings settings = toolSettings(config.step)[tool];
     const double stiffness = settings.live.coupling_stiffness;
     const std::string& device = deviceOf(config, tool);

@@ -140,6 +140,7 @@ void readDevice(KeyReader& keys, ServerConfig& config) {
   keys.read("device", config.device);
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i)
     keys.read(kLiveParameters[i].key, config.said.*kLiveFields<LiveOverrides>[i]);
+  keys.read("tool.rendered_stiffness", config.rendered_stiffness);
 }
 
 // [tool.1]: what tool 1 has of its own.
@@ -149,6 +150,7 @@ void readOwn(KeyReader& keys, std::size_t tool, OwnOptions& own) {
   keys.read(table + "device", device);
   if (!device.empty()) own.device = device;
   keys.read(table + "tip_radius", own.tip_radius);
+  keys.read(table + "rendered_stiffness", own.rendered_stiffness);
   for (std::size_t i = 0; i < kLiveParameters.size(); ++i) {
     const std::string key = kLiveParameters[i].key;
     if (key.rfind("tool.", 0) == 0) keys.read(table + key.substr(5), own.said.*kLiveFields<LiveOverrides>[i]);

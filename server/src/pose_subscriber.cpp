@@ -119,6 +119,7 @@ void PoseIntake::acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
   newest.seq = pose.seq;
   newest.stamp_ns = pose.stamp_ns;
   newest.arrival_ns = arrival_ns;
+  newest.buttons = pose.buttons;
   std::copy(std::begin(pose.position), std::end(pose.position), newest.position.begin());
   std::copy(std::begin(pose.orientation), std::end(pose.orientation), newest.orientation.begin());
   // The engine judges poses, and knows no velocity.

@@ -198,7 +198,12 @@ void Tick::writeSurface(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 
 void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   if (!channels_.recording) return;
-  if (!channels_.recording->push({{cycle.index - engine_began_, input_, result_}, engine_->number}))
+  record::RecordedTick tick{cycle.index - engine_began_, input_, result_, cycle.woke_ns, {}};
+  for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
+    const PoseSample& pose = ledgers_[tool].pose;
+    tick.poses[tool] = {pose.seq, pose.stamp_ns, pose.arrival_ns, pose.buttons};
+  }
+  if (!channels_.recording->push({tick, engine_->number}))
     channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 

@@ -221,6 +221,25 @@ TEST(Tool, ForcesOfAnotherServerAreLeftOutAndToldByName) {
   EXPECT_NE(result.err.find("note: held on to server 0"), std::string::npos) << result.err;
 }
 
+TEST(Tool, ARecordingIsRefusedBeforeAServerIsLookedFor) {
+  const auto refused = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--wait", "0"});
+    const auto result = runProgram("palpate-tool", onDomain(arguments));
+    return std::pair(result.exit_code, result.err);
+  };
+  const TemporaryFile no_recording("no.rec");
+  std::ofstream(no_recording.path()) << "poses";
+  EXPECT_EQ(refused({"--script", "recording", no_recording.path().string()}),
+            std::pair(1, "palpate-tool: " + no_recording.path().string() +
+                             ": is no recording of palpate-server\n"));
+  EXPECT_EQ(refused({"--script", "recording"}),
+            std::pair(2, std::string("palpate-tool: --script recording: which? --script recording FILE\n")));
+  EXPECT_EQ(refused({"session.rec"}).second,
+            "palpate-tool: session.rec: only --script recording plays a file\n");
+  EXPECT_EQ(refused({"--within", "1"}).first, 2);
+  EXPECT_EQ(refused({"--script", "recording", "session.rec", "--at", "0,0,0"}).first, 2);
+}
+
 TEST(Tool, TableGoesToStandardOutputWithoutJson) {
   const FakeServer server(exclusiveDomain(), {});
   const auto result =

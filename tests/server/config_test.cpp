@@ -153,6 +153,45 @@ TEST_F(ConfigFile, ADeviceBringsItsLimitsAndWhatIsNamedWinsInAnyOrder) {
   EXPECT_TRUE(std::isinf(custom.step.coupling_stiffness));
 }
 
+TEST_F(ConfigFile, AStiffnessToRenderSoftensTheDevicesCouplingAndItsDamping) {
+  const ServerConfig config = read(
+      "[tool]\nrendered_stiffness = 150\n[tool.1]\ndevice = \"omni\"\n[tool.2]\nrendered_stiffness = 60\n"
+      "coupling_damping = 0.1\n[tool.3]\ncoupling_stiffness = 100");
+  EXPECT_EQ(config.step.rendered_stiffness, 150.0);
+  EXPECT_TRUE(std::isinf(config.step.coupling_stiffness)) << "it follows the organ";
+  EXPECT_NEAR(config.step.coupling_damping, 0.15, 1e-12) << "half of a touch's";
+  const AllToolSettings tools = toolSettings(config.step);
+  EXPECT_EQ(tools[1].rendered_stiffness, 150.0);
+  EXPECT_NEAR(tools[1].live.coupling_damping, 0.9 * 150.0 / 400.0, 1e-12);
+  EXPECT_EQ(tools[2].rendered_stiffness, 60.0);
+  EXPECT_EQ(tools[2].live.coupling_damping, 0.1) << "named";
+  EXPECT_EQ(tools[3].live.coupling_stiffness, 100.0);
+  EXPECT_EQ(tools[3].rendered_stiffness, 150.0) << "both bounds hold";
+  EXPECT_EQ(refusal("[tool]\nrendered_stiffness = -5")
+                .find(":2: tool.rendered_stiffness is -5, expected 1 to 100000"),
+            0U)
+      << refusal("[tool]\nrendered_stiffness = -5");
+  EXPECT_EQ(refusal("[tool.1]\nrendered_stiffness = nan").find(":2: tool.1.rendered_stiffness is nan"), 0U)
+      << refusal("[tool.1]\nrendered_stiffness = nan");
+}
+
+TEST(DeviceComplaint, AStiffnessToRenderBeyondTheDevicesIsRefusedUnlessItIsCustom) {
+  ServerConfig config;
+  config.rendered_stiffness = 301.0;
+  settleTools(config);
+  const auto complaint = deviceComplaint(config);
+  ASSERT_TRUE(complaint.has_value());
+  EXPECT_EQ(complaint->key, "tool.rendered_stiffness");
+  EXPECT_EQ(complaint->text.find("is 301, expected at most 300 N/m, what device touch is given"), 0U)
+      << complaint->text;
+  config.device = "custom";
+  settleTools(config);
+  EXPECT_FALSE(deviceComplaint(config).has_value());
+  config.own[2].device = "touch";
+  settleTools(config);
+  EXPECT_EQ(deviceComplaint(config).value_or(Complaint{}).key, "tool.2.rendered_stiffness");
+}
+
 TEST_F(ConfigFile, TakesInfinityWhereItSwitchesOff) {
   const ServerConfig config = read(
       "device = \"custom\"\n[tool]\nfriction = inf\ncoupling_stiffness = inf\nforce_limit = inf\n"

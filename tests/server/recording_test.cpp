@@ -2,7 +2,9 @@
 // A session over DDS, recorded by palpate-server and replayed by palpate-replay.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -99,6 +101,23 @@ TEST_F(RecordedSession, OfAServerThatWasKilledIsReplayedAsFarAsItGoes) {
   const json report = json::parse(partial.out);
   EXPECT_TRUE(report["truncated"]);
   EXPECT_GT(report["ticks"], 500);
+  // As a table, without a model.
+  const palpate::testing::TemporaryFile table("session.csv");
+  const auto exported = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), file_.path().string());
+    return palpate::testing::runProgram("palpate-replay", arguments);
+  };
+  EXPECT_EQ(exported({"--export", "csv", "-o", table.path().string()}).exit_code, 1) << "it has no end";
+  EXPECT_FALSE(std::filesystem::exists(table.path()));
+  const auto rows = exported({"--export", "csv", "-o", table.path().string(), "--partial", "--json"});
+  ASSERT_EQ(rows.exit_code, 0) << rows.err;
+  const std::string text = palpate::testing::contentOf(table.path());
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), json::parse(rows.out)["rows"].get<long>() + 1);
+  EXPECT_EQ(json::parse(rows.out)["ticks"], report["ticks"]);
+  EXPECT_EQ(exported({"--export", "csv"}).err,
+            "palpate-replay: --export and -o belong together: --export csv -o FILE\n");
+  EXPECT_EQ(exported({"--export", "csv", "-o", file_.path().string()}).exit_code, 2) << "onto itself";
+  EXPECT_EQ(exported({}).exit_code, 2) << "no model";
 }
 
 TEST_F(RecordedSession, NeedsAFileThatCanBeWritten) {

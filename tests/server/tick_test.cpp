@@ -217,6 +217,24 @@ TEST_F(TickTest, AFullRecordingRingCostsTheNewestTicksAndTheCounterShowsIt) {
   EXPECT_EQ(tick.input.dt_ns, 0);
 }
 
+TEST_F(TickTest, RecordsWhenAPoseWasSentWhenItCameAndItsButtons) {
+  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
+  dds::ToolPose pose = poseAtDepth(2, -0.01);
+  pose.stamp_ns = -5;  // a clock of its own
+  pose.buttons = 6;
+  const std::int64_t arrival_ns = now_ns_;
+  send(pose);
+  runOneTick();
+  runOneTick();
+  record::RecordedTick tick;
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(channels_->recording->pop(tick));
+    EXPECT_EQ(tick.poses[2], (record::PoseFacts{pose.seq, -5, arrival_ns, 6}));
+    EXPECT_EQ(tick.poses[0], record::PoseFacts{}) << "no pose has come";
+  }
+  EXPECT_EQ(tick.woke_ns, cycle_.woke_ns);
+}
+
 TEST_F(TickTest, WritesTheSurfaceAsOftenAsAskedInTheMeanAndTheForceEveryTick) {
   Tick seldom(engine_, *channels_, {kPeriod, 16'666'667});  // 60 Hz: no whole number of ticks
   std::int64_t last_ns = 0;

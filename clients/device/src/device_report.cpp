@@ -55,6 +55,14 @@ std::string energyText(const EnergyVerdict& energy) {
   return text + '\n';
 }
 
+Json delaysJson(const Session& s) {
+  if (s.delays == nullptr) return nullptr;
+  return {{"file", s.delay_from},           {"poses", s.delays->poses()},
+          {"lost", s.delays->lost()},       {"reordered", s.delays->reordered()},
+          {"periods", s.delays->size()},    {"left_out", s.delays->stalled()},
+          {"mean_ms", s.delays->meanLag()}, {"largest_ms", s.delays->largestLag()}};
+}
+
 Json energyJson(const EnergyVerdict& energy) {
   Json contacts = Json::array();
   for (const ContactEnergy& contact : energy.contacts)
@@ -80,6 +88,9 @@ std::string textOf(const Session& s) {
       printed("%s of a %s (%.3f kg, %.3f N s/m, %.2f N) held by a hand (%.3f kg, %.2f N s/m, %.0f N/m)\n",
               s.kind.c_str(), s.preset.c_str(), s.mechanics.mass, s.mechanics.damping, s.mechanics.friction,
               s.hand.mass, s.hand.damping, s.hand.stiffness);
+  if (s.delays != nullptr)
+    text += printed("answers delayed as in %s: %.2f ms in the mean, %zu ms at most\n", s.delay_from.c_str(),
+                    s.delays->meanLag(), s.delays->largestLag());
   std::vector<double> t, depth;
   for (std::size_t i = 0; i < recording.trace.position.size(); ++i) {
     t.push_back(static_cast<double>(i) * recording.trace.dt);
@@ -133,6 +144,7 @@ Json jsonOf(const Session& s) {
       {"flag_names", report::flagNames(recording.flags)},
       {"waited_periods", recording.waited},
       {"model_changes", recording.model_changes},
+      {"delays", delaysJson(s)},
       {"server_left", recording.server_left},
       {"interrupted", recording.interrupted},
       {"tip_m", recording.trace.position},

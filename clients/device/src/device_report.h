@@ -24,6 +24,8 @@ struct Session {
   Trace without_organ;
   Verdict verdict;
   EnergyVerdict energy;
+  std::string delay_from{};       ///< file of the delays; empty: none
+  const Delays* delays{nullptr};  ///< of that file
 
   /// Whether the run was seen to its end.
   [[nodiscard]] bool complete() const { return !recording.server_left && !recording.interrupted; }

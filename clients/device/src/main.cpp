@@ -7,6 +7,7 @@
 
 #include "core/devices/path/path.h"
 #include "core/devices/sim/closed_loop.h"
+#include "core/devices/sim/delays.h"
 #include "device_report.h"
 #include "palpate/client/error.h"
 #include "palpate/client/parameter_exchange.h"
@@ -30,6 +31,7 @@ struct Arguments {
   std::string hand{"0.1,2,200"};
   std::string motion{"press"};
   MotionOptions path;
+  std::string delay_from;
   std::string at;
   std::uint32_t tool_id{0};
   std::uint32_t domain{0};
@@ -61,6 +63,9 @@ void addOptions(program::Options line, Arguments& arguments) {
       .range(1e-6, 0.05, "m");
   line.add("--at", &arguments.at,
            "touch the accessible node nearest to x,y,z, m; refused off the organ; default: the highest one");
+  line.add("--delay-from", &arguments.delay_from,
+           "delay, lose and reorder the answers as palpate-latency --samples measured it, where it was worst")
+      .valueName("FILE");
   line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
   line.add("--server-id", &arguments.wanted.server_id,
@@ -69,7 +74,9 @@ void addOptions(program::Options line, Arguments& arguments) {
   line.add("--wait", &arguments.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &arguments.json, "print one JSON object on standard output");
   line.add("--plot", &arguments.plot, "write the depth over time to this SVG file");
-  line.example("palpate-device --preset touch --hand 0.1,2,200 --motion tap --plot tap.svg");
+  line.example(
+      "palpate-device --preset touch --hand 0.1,2,200 --motion tap --plot tap.svg\n"
+      "         palpate-device --preset touch --delay-from delays.csv");
 }
 
 Mechanics mechanicsOf(const Arguments& arguments) {
@@ -122,13 +129,13 @@ void noteOtherDevice(const dds::Participant& participant, const Arguments& argum
 }
 
 Session play(const dds::Participant& participant, const Arguments& arguments, const Mechanics& mechanics,
-             const Hand& hand, const client::ServerInfo& server) {
+             const Hand& hand, const client::ServerInfo& server, const Delays* delays) {
   noteOtherDevice(participant, arguments, server);
   const client::Spot spot = spotOf(arguments, server.surface);
   const Motion motion = makeMotion(arguments.motion, spot.position, spot.normal, arguments.path);
   HeldDevice device(mechanics, hand, motion.path);
   const Trace without = withoutOrgan(device, motion);
-  const Recording recording = run(participant, arguments.tool_id, device, runOf(server));
+  const Recording recording = run(participant, arguments.tool_id, device, runOf(server), delays);
   return {arguments.preset,
           mechanics,
           hand,
@@ -139,7 +146,9 @@ Session play(const dds::Participant& participant, const Arguments& arguments, co
           recording,
           without,
           judge(recording.trace, without, motion),
-          judgeEnergy(recording.trace)};
+          judgeEnergy(recording.trace),
+          arguments.delay_from,
+          delays};
 }
 
 // Refuses bad values before anything waits.
@@ -172,6 +181,8 @@ int body(int argc, char** argv) {
   if (!arguments.at.empty()) (void)program::parseVector("--at", arguments.at);
   arguments.path.lead = leadOf(mechanics, hand);
   checkMotion(arguments);
+  std::optional<Delays> delays;
+  if (!arguments.delay_from.empty()) delays = Delays::read(arguments.delay_from);
   client::catchStopSignals();
 
   // 2. Find the server and its organ.
@@ -180,7 +191,7 @@ int body(int argc, char** argv) {
 
   // 3. The motion there, once without the organ and once against the server.
   arguments.path.tip_radius = server.status.tip_radius[arguments.tool_id];
-  const Session session = play(participant, arguments, mechanics, hand, server);
+  const Session session = play(participant, arguments, mechanics, hand, server, delays ? &*delays : nullptr);
 
   // 4. Tell.
   tell(session, arguments);

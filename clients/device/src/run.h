@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/devices/sim/contact_energy.h"
+#include "core/devices/sim/delays.h"
 #include "core/devices/sim/held_device.h"
 #include "palpate/client/tool_client.h"
 
@@ -31,8 +32,11 @@ inline constexpr std::uint64_t kStall = 20;
 /// is its steps. While that answer is missing, or the server fades the force because poses came late, the device
 /// stands still and keeps sending. So a stall of a process is neither felt nor taken for an instability. A wait of kStall
 /// periods, or for a force that the server faded, is noted in Trace::stalled: the server's contact may be another one after it.
+/// @param[in] delays  measured ones, from where they are worst for as long as the run is, which the answers get on top of being computed: in each step the answer acts that acted in
+///                    that period of the measurement, and where no pose went out then, the one before goes out again. Nothing:
+///                    the answer to the previous pose acts
 /// @throw client::ClientError  no server takes poses, or none answers for a second
 [[nodiscard]] Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device,
-                            const client::ServerRun& server);
+                            const client::ServerRun& server, const Delays* delays = nullptr);
 
 }  // namespace palpate::device

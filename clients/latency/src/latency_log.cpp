@@ -34,6 +34,7 @@ void LatencyLog::finish(std::int64_t end_ns) noexcept {
 }
 
 void LatencyLog::add(const dds::ToolForce& force, std::int64_t received_ns) noexcept {
+  if (samples_ != nullptr) samples_->answered(force.pose_seq, received_ns);
   const bool known = force.pose_seq <= newest_pose_;
   if (!known) newest_pose_ = force.pose_seq;
   newest_answer_ns_ = received_ns;

@@ -7,6 +7,7 @@
 #include "palpate/client/gap_counter.h"
 #include "palpate/idl/types.h"
 #include "palpate/rt/cycle_stats.h"
+#include "sample_log.h"
 
 namespace palpate::latency {
 
@@ -16,6 +17,9 @@ class LatencyLog {
  public:
   /// @param[in] period_ns  of the poses; an answer to a pose older than two periods is late
   explicit LatencyLog(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
+
+  /// Tells it of every answer, measured or not. Before receiving starts; it outlives the log.
+  void keepSamples(SampleLog* samples) noexcept { samples_ = samples; }
 
   /// Starts and ends the measurement; answers before and after do not count. Threads: any.
   void record(bool on) noexcept { recording_.store(on, std::memory_order_relaxed); }
@@ -65,6 +69,7 @@ class LatencyLog {
   };
 
   std::int64_t period_ns_;
+  SampleLog* samples_{nullptr};
   std::atomic<bool> recording_{false};  // orders nothing else
   rt::CycleStats pose_to_force_;
   rt::CycleStats answered_;

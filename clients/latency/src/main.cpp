@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct Options {
   client::WantedServer wanted;
   double wait_s{10.0};
   bool json{false};
-  std::string plot, hdr, junit;
+  std::string plot, hdr, junit, samples;
   std::vector<std::string> assertions;
 };
 
@@ -62,7 +63,20 @@ void addOptions(program::Options line, Options& options) {
       .oneWordEach()
       .valueName("BOUND");
   line.add("--hdr", &options.hdr, "write the distributions as an HdrHistogram log, values in ns");
+  line.add(
+      "--samples", &options.samples,
+      "write when each pose was sent and answered as CSV, for palpate-device and palpate-feel --delay-from");
   line.add("--junit", &options.junit, "write what --assert found as JUnit XML");
+}
+
+// Room for all poses, or nothing. @throw program::UsageError  too many
+std::optional<SampleLog> samplesOf(const Options& options) {
+  if (options.samples.empty()) return std::nullopt;
+  const auto poses = static_cast<std::size_t>(options.measure.seconds * options.measure.rate_hz) + 1000;
+  if (poses > SampleLog::kMost)
+    throw program::UsageError("--samples " + options.samples + ": " + std::to_string(poses) +
+                              " poses, at most " + std::to_string(SampleLog::kMost) + " are kept");
+  return SampleLog(poses);
 }
 
 std::vector<Assertion> readAssertions(const Options& options) {
@@ -144,9 +158,14 @@ int body(int argc, char** argv) {
   if (options.measure.tool_id + static_cast<std::uint32_t>(options.tools) > 4)
     throw program::UsageError("--tools " + std::to_string(options.tools) + " with --tool " +
                               std::to_string(options.measure.tool_id) + ": ids end at 3");
+  if (options.tools > 1 && !options.samples.empty())
+    throw program::UsageError("--samples " + options.samples + ": keeps the poses of one tool, --tools is " +
+                              std::to_string(options.tools));
   program::checkOutput("--plot", options.plot);
   program::checkOutput("--hdr", options.hdr);
   program::checkOutput("--junit", options.junit);
+  program::checkOutput("--samples", options.samples);
+  std::optional<SampleLog> samples = samplesOf(options);
   if (!options.at.empty()) (void)program::parseVector("--at", options.at);  // before it waits
   client::catchStopSignals();
 
@@ -161,7 +180,9 @@ int body(int argc, char** argv) {
 
   // 3. Measure.
   const dds::LateTicks late_before = server.status.late;
+  if (samples) options.measure.samples = &*samples;
   const auto tools = measureTogether(participant, server, spots, options.measure);
+  if (samples) program::writeFile(options.samples, samples->csv());
   const bool realtime =
       std::all_of(tools.begin(), tools.end(), [](const auto& tool) { return tool->sender.realtime; });
   if (!realtime) std::cerr << client::kNotRealtime;

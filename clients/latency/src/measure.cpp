@@ -35,12 +35,15 @@ device::Path gentlePress(const client::Spot& spot, const MeasureOptions& options
 
 // Sends the path from time `from` to time `to`; the pacer's grid continues over the calls.
 void send(client::ToolClient& tool, const device::Path& path, double from, double to, rt::Pacer& pacer,
-          SenderStats& stats) {
+          SenderStats& stats, SampleLog* samples = nullptr) {
   const std::int64_t start_ns = rt::monotonicNow();
   const double direction = from <= to ? 1.0 : -1.0;
   for (double t = 0.0; t < std::abs(to - from);
        t = static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9) {
-    if (tool.publish(path.at(from + direction * t)) > 0) ++stats.sent;
+    const std::int64_t sent_ns = rt::monotonicNow();
+    const std::uint64_t seq = tool.publish(path.at(from + direction * t));
+    if (seq > 0) ++stats.sent;
+    if (seq > 0 && samples != nullptr) samples->sent(seq, sent_ns);
     stats.wakeup.add(pacer.wait());
     if (client::stopRequested()) break;
   }
@@ -94,7 +97,7 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   send(*tool, path, 0.0, kApproachSeconds, pacer, unmeasured);
   stats.start_ms = millisecondsSince1970();
   log.record(true);
-  send(*tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats);
+  send(*tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats, options.samples);
   log.record(false);
   const std::int64_t end_ns = rt::monotonicNow();
   stats.interrupted = client::stopRequested();

@@ -7,6 +7,7 @@
 #include "palpate/client/server_hold.h"
 #include "palpate/client/surface.h"
 #include "palpate/idl/participant.h"
+#include "sample_log.h"
 
 namespace palpate::latency {
 
@@ -16,8 +17,9 @@ struct MeasureOptions {
   double rate_hz{1000.0};    ///< of the poses, in [10, 4000]
   double tip_radius{0.005};  ///< R, m; the server's
   std::uint32_t tool_id{0};
-  bool fields{false};        ///< reads the surface too
-  client::ServerRun server;  ///< to be measured
+  bool fields{false};           ///< reads the surface too
+  client::ServerRun server;     ///< to be measured
+  SampleLog* samples{nullptr};  ///< keeps each pose that is measured; nothing: none are kept
 };
 
 /// The sender's side of the measurement.

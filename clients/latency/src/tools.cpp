@@ -45,6 +45,7 @@ std::vector<std::unique_ptr<ToolMeasurement>> measureTogether(const dds::Partici
     own.server = runOf(server);
     auto& tool = *tools.emplace_back(std::make_unique<ToolMeasurement>(std::llround(1e9 / options.rate_hz)));
     tool.tool_id = own.tool_id;
+    if (own.samples != nullptr) tool.log.keepSamples(own.samples);
     senders.push_back(std::async(std::launch::async, [&participant, &log = tool.log, spot = spots[i], own] {
       return measure(participant, spot, own, log);
     }));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "play.h"
 
-#include <atomic>
 #include <chrono>
 #include <iostream>
 #include <thread>
 
+#include "answer_log.h"
 #include "palpate/client/error.h"
 #include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
@@ -19,40 +19,19 @@ using namespace std::chrono_literals;
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
 
-// The receive thread writes it; it is read after the ToolClient, and so the receiving, has ended.
-struct AnswerLog {
-  explicit AnswerLog(std::size_t capacity) { first_answers.reserve(capacity); }
-
-  static void onForce(const dds::ToolForce& force, std::int64_t, void* context) noexcept {
-    auto& self = *static_cast<AnswerLog*>(context);
-    self.answers.add(force.session, force.seq);
-    if ((force.flags & dds::flag::kShuttingDown) != 0)
-      self.server_left.store(true, std::memory_order_relaxed);
-    const bool first = force.pose_seq > self.newest_pose;
-    if (!first || self.first_answers.size() == self.first_answers.capacity()) return;
-    self.newest_pose = force.pose_seq;
-    self.first_answers.push_back(force);
-  }
-
-  std::vector<dds::ToolForce> first_answers;
-  client::GapCounter answers;
-  std::uint64_t newest_pose{0};
-  std::atomic<bool> server_left{false};  // orders nothing else while receiving
-};
-
 struct SentPose {
   std::uint64_t seq;
   double t_s;
   device::Point position;
 };
 
-std::vector<Sample> join(const std::vector<SentPose>& sent, const std::vector<dds::ToolForce>& answers) {
+std::vector<Sample> join(const std::vector<SentPose>& sent, const std::vector<AnswerLog::Answer>& answers) {
   std::vector<Sample> samples;
   auto pose = sent.begin();
-  for (const dds::ToolForce& answer : answers) {
-    while (pose != sent.end() && pose->seq < answer.pose_seq) ++pose;
-    if (pose != sent.end() && pose->seq == answer.pose_seq)
-      samples.push_back({pose->t_s, pose->position, answer});
+  for (const AnswerLog::Answer& answer : answers) {
+    while (pose != sent.end() && pose->seq < answer.force.pose_seq) ++pose;
+    if (pose != sent.end() && pose->seq == answer.force.pose_seq)
+      samples.push_back({pose->t_s, pose->position, answer.force});
   }
   return samples;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/devices/path/path.h"
+#include "core/devices/sim/delays.h"
 #include "core/devices/sim/held_device.h"
 #include "core/devices/sim/verdict.h"
 
@@ -27,6 +28,29 @@ template <class ForceAt>
     pending[(i + delay) % pending.size()] = force_at(device.position());
     const Point force = pending[i % pending.size()];
     device.step(force, period);
+    trace.position.push_back(device.position());
+    trace.force.push_back(force);
+    trace.energy.push_back(device.alongForce());
+  }
+  return trace;
+}
+
+/// The same with measured delays. @param[in] force_at  Point(const Point& position, bool is_new): the answer of the tick that
+/// knows this pose; not new: no pose went out, and the tick has the one before again
+/// @param[in] first  period of the measurement with which the run begins
+template <class ForceAt>
+[[nodiscard]] Trace closedLoop(HeldDevice& device, const Motion& motion, ForceAt&& force_at,
+                               const Delays& delays, std::size_t first) {
+  Trace trace{Delays::kPeriod, {device.position()}, {Point{}}, {device.alongForce()}};
+  std::array<Point, Delays::kStall> answers{};  // of the last periods
+  Point sent = device.position();
+  const auto count = static_cast<std::size_t>(motion.path.seconds() / Delays::kPeriod + 0.5);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Delays::Period& period = delays.at(first + i);
+    if (period.sends) sent = device.position();
+    answers[i % answers.size()] = force_at(sent, period.sends);
+    const Point force = period.lag > i ? Point{} : answers[(i - period.lag) % answers.size()];
+    device.step(force, Delays::kPeriod);
     trace.position.push_back(device.position());
     trace.force.push_back(force);
     trace.energy.push_back(device.alongForce());

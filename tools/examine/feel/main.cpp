@@ -36,6 +36,17 @@ int body(int argc, char** argv) {
   slides.add("--speed", &study.speed, "of the slides").unit("m/s");
   coupling.flag("--no-device-friction", &study.frictionless,
                 "without the device's Coulomb friction, which hides small instabilities");
+  coupling
+      .add("--delay-from", &study.delay_from,
+           "under the delays of palpate-latency --samples: the largest coupling that is stable")
+      .valueName("FILE");
+  coupling.add("--preset", &study.preset, "this device only; default: all")
+      .oneOf({"touch", "omni", "desktop", "premium15", "premium30"});
+  coupling
+      .add("--settings", &study.settings,
+           "with --delay-from: write a configuration of palpate-server for each device, e.g. touch.toml, "
+           "into this folder")
+      .valueName("FOLDER");
   contrast
       .add("without", &study.without,
            "model of the same organ without what lies in it: its case file without [[region]] tables, solved")
@@ -46,10 +57,15 @@ int body(int argc, char** argv) {
   line.options().example("palpate-feel coupling liver.h5");
   loops.example("palpate-feel loops liver.h5 --loops 20");
   slides.example("palpate-feel slides liver.h5 --paths 20 --speed 0.05");
-  coupling.example("palpate-feel coupling liver.h5 --no-device-friction");
+  coupling.example(
+      "palpate-feel coupling liver.h5 --no-device-friction\n"
+      "         palpate-feel coupling liver.h5 --delay-from delays.csv --settings couplings");
   contrast.example("palpate-feel contrast with_nodule.h5 without.h5 --map contrast.svg");
   if (!line.read(argc, argv)) return program::kDone;
   program::checkOutput("--map", study.map);
+  if (!study.settings.empty() && study.delay_from.empty())
+    throw program::UsageError("--settings " + study.settings + ": needs --delay-from FILE");
+  if (!study.settings.empty()) program::checkOutputFolder("--settings", study.settings);
   if (loops.chosen()) return runLoops(study);
   if (slides.chosen()) return runSlides(study);
   if (contrast.chosen()) return runContrast(study);

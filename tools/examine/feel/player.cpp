@@ -7,7 +7,14 @@ namespace palpate::feel {
 
 const ToolResult& Player::at(const Vec3& c) {
   input_.tools[0].present = 1;
+  input_.tools[0].age_ns = 0;
   input_.tools[0].position = {c.x(), c.y(), c.z()};
+  (void)step(model_, work_, input_, result_);
+  return result_.tools[0];
+}
+
+const ToolResult& Player::again() {
+  input_.tools[0].age_ns += input_.dt_ns;
   (void)step(model_, work_, input_, result_);
   return result_.tools[0];
 }

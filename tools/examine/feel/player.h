@@ -16,6 +16,8 @@ class Player {
 
   /// One tick with the tip's centre at c, m.
   const ToolResult& at(const Vec3& c);
+  /// One tick without a new pose.
+  const ToolResult& again();
   [[nodiscard]] const Workspace& work() const noexcept { return work_; }
 
  private:

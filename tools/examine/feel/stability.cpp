@@ -48,9 +48,12 @@ device::Verdict press(const MetaModel& model, const StabilityCase& which,
   device::HeldDevice held(mechanics, which.hand, motion.path);
   const device::HeldDevice other = held;
   Player player(model, config);
-  const device::Trace with = device::closedLoop(held, motion, [&](const device::Point& c) {
-    return pointOf(forceOf(player.at(Vec3(c[0], c[1], c[2]))));
-  });
+  const auto force_at = [&](const device::Point& c, bool is_new = true) {
+    return pointOf(forceOf(is_new ? player.at(Vec3(c[0], c[1], c[2])) : player.again()));
+  };
+  const device::Trace with =
+      which.delays == nullptr ? device::closedLoop(held, motion, force_at)
+                              : device::closedLoop(held, motion, force_at, *which.delays, which.first_delay);
   return device::judge(with, device::withoutOrgan(other, motion), motion);
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/contact_point.h"
 #include "core/devices/device_preset.h"
+#include "core/devices/sim/delays.h"
 #include "core/devices/sim/held_device.h"
 #include "core/devices/sim/mechanics.h"
 #include "core/devices/sim/verdict.h"
@@ -20,9 +21,11 @@ struct StabilityCase {
   DevicePreset preset;
   double youngs_modulus;  ///< E, Pa
   device::Hand hand;
-  ContactPoint s;          ///< where it presses
-  double organ_stiffness;  ///< K_max, N/m
-  bool friction{true};     ///< of the device; without it only hand and coupling damp
+  ContactPoint s;                         ///< where it presses
+  double organ_stiffness;                 ///< K_max, N/m
+  bool friction{true};                    ///< of the device; without it only hand and coupling damp
+  const device::Delays* delays{nullptr};  ///< of the answers; nothing: one period
+  std::size_t first_delay{0};             ///< period of their measurement with which the press begins
 };
 
 /// Where the search for the largest stable coupling ends, N/m: thirty times what the stiffest device renders. Damping in
@@ -37,7 +40,7 @@ struct StabilityResult {
   double largest_stable{0.0};
 };
 
-/// One press through step(), closed loop at 1 kHz; the answer arrives one period later.
+/// One press through step(), closed loop at 1 kHz; the answer arrives one period later, or as was measured.
 /// @param[in] coupling_stiffness  N/m, damped for as long as the preset's; nothing: the default, which follows the organ
 [[nodiscard]] device::Verdict press(const MetaModel& model, const StabilityCase& which,
                                     std::optional<double> coupling_stiffness);

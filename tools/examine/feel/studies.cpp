@@ -5,15 +5,22 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <vector>
 
 #include "core/base/contact_point.h"
 #include "core/devices/device_preset.h"
+#include "core/devices/sim/delays.h"
 #include "core/response/largest_stiffness.h"
 #include "tools/examine/feel/loops.h"
+#include "tools/examine/feel/safe_coupling.h"
 #include "tools/examine/feel/slides.h"
 #include "tools/examine/feel/stability.h"
+#include "tools/program/exit_code.h"
 #include "tools/program/json.h"
+#include "tools/program/printed.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::feel {
 
@@ -99,6 +106,54 @@ ContactPoint ordinaryPlace(const MetaModel& model, unsigned seed) {
   return places[49].second;
 }
 
+// All of them, or the one that was asked for.
+std::vector<DevicePreset> presetsOf(const Study& study) {
+  if (const auto preset = findDevicePreset(study.preset)) return {*preset};
+  return {devicePresets().begin(), devicePresets().end()};
+}
+
+/// The largest coupling of each device under measured delays, as a table and as files.
+int runSafeCoupling(const Study& study) {
+  const device::Delays delays = device::Delays::read(study.delay_from);
+  const MetaModel model = MetaModel::load(study.model);
+  const ContactPoint s = ordinaryPlace(model, study.seed);
+  const double organ_stiffness = largestStiffness(model);
+  std::cerr << program::printed(
+      "%s: %zu poses, %zu without an answer, %zu answers out of order; %zu periods of 1 ms, delay %.2f ms in "
+      "the mean, "
+      "%zu at most; %zu periods left out in which the server would fade the force\n",
+      study.delay_from.c_str(), delays.poses(), delays.lost(), delays.reordered(), delays.size(),
+      delays.meanLag(), delays.largestLag(), delays.stalled());
+  Json rows = Json::array();
+  bool all = true;
+  for (const DevicePreset& preset : presetsOf(study)) {
+    const SafeCoupling safe = safeCoupling(model, delays, preset, s, organ_stiffness);
+    const bool found = safe.rendered_stiffness > 0.0;
+    all = all && found;
+    rows.push_back(
+        {{"preset", preset.name},
+         {"safe_rendered_N_per_m", safe.rendered_stiffness},
+         {"safe_damping_Ns_per_m", safe.damping},
+         {"preset_rendered_N_per_m", preset.rendered_stiffness},
+         {"largest_stable_N_per_m", safe.largest_stable},
+         {"bound", safe.by_device ? "device" : "delays"},
+         {"unstable_at_N_per_m", safe.by_device ? Json(nullptr) : Json(safe.unstable_at)},
+         {"rings_with_hand_N_per_m", safe.rings ? Json(safe.rings->hand.stiffness) : Json(nullptr)},
+         {"rings_with_friction", safe.rings ? Json(safe.rings->friction) : Json(nullptr)},
+         {"mean_delay_ms", delays.meanLag()},
+         {"largest_delay_ms", delays.largestLag()}});
+    if (!study.json) std::cerr << rows.back() << '\n';
+    if (study.settings.empty() || !found) continue;
+    std::filesystem::create_directories(study.settings);
+    program::writeFile(
+        std::filesystem::path(study.settings) / (std::string(preset.name) + ".toml"),
+        settingOf(preset, safe,
+                  "palpate-feel coupling " + study.model + " --delay-from " + study.delay_from));
+  }
+  print(rows, study.json);
+  return all ? program::kDone : program::kNotHeld;
+}
+
 }  // namespace
 
 int runLoops(const Study& study) {
@@ -129,14 +184,12 @@ int runSlides(const Study& study) {
 }
 
 int runCoupling(const Study& study) {
-  constexpr std::array kModuli{5e3, 20e3, 160e3, 1e6};  // Pa
-  constexpr std::array kHands{device::Hand{0.02, 0.5, 50.0}, device::Hand{0.1, 2.0, 200.0},
-                              device::Hand{0.2, 5.0, 500.0}};
+  if (!study.delay_from.empty()) return runSafeCoupling(study);
   const MetaModel model = MetaModel::load(study.model);
   const ContactPoint s = ordinaryPlace(model, study.seed);
   const double organ_stiffness = largestStiffness(model);
   Json rows = Json::array();
-  for (const DevicePreset& preset : devicePresets())
+  for (const DevicePreset& preset : presetsOf(study))
     for (const double E : kModuli)
       for (const device::Hand& hand : kHands) {
         const StabilityCase which{preset, E, hand, s, organ_stiffness, !study.frictionless};

@@ -14,6 +14,9 @@ struct Study {
   double depth{0.002};        ///< m
   double speed{0.05};         ///< m/s
   bool frictionless{false};   ///< devices without their own Coulomb friction
+  std::string delay_from;     ///< coupling: file of palpate-latency --samples; empty: one period
+  std::string preset;         ///< coupling: one device; empty: all
+  std::string settings;       ///< coupling under delays: folder for the servers' configurations; empty: none
   std::string without;        ///< contrast: model of the same organ without its regions
   double press_depth{0.005};  ///< contrast, m
   std::string map;            ///< contrast: .svg or .vtu; empty: none

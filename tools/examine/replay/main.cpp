@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// palpate-replay: runs a recorded session through the engine again, and says whether it gives the same bits.
+// palpate-replay: runs a recorded session through the engine again, and says whether it gives the same bits; or writes it as a
+// table.
 #include <iostream>
 
+#include "tools/examine/replay/export_table.h"
 #include "tools/examine/replay/replay.h"
 #include "tools/program/command_line.h"
 #include "tools/program/json.h"
 #include "tools/program/run.h"
+#include "tools/program/write_file.h"
 
 namespace palpate::replay {
 namespace {
@@ -13,17 +16,26 @@ namespace {
 struct Options {
   std::string file;
   std::string model;
+  std::string format;
+  std::string output;
   bool partial{false};
   bool json{false};
 };
 
 void addOptions(program::Options line, Options& options) {
   line.add("FILE", &options.file, "recording of palpate-server --record").required();
-  line.add("--model", &options.model, "the model file that the session ran on").required().valueName("FILE");
+  line.add("--model", &options.model,
+           "the model file that the session ran on; needed unless --export is there")
+      .valueName("FILE");
+  line.add("--export", &options.format, "write poses and forces as a table, csv or h5, into the file of -o")
+      .oneOf({"csv", "h5"});
+  line.add("-o,--output", &options.output, "the table's file").valueName("FILE");
   line.flag("--partial", &options.partial,
-            "replay what is there, although ticks or the end are missing, or of another engine");
+            "take what is there, although ticks or the end are missing, or of another engine");
   line.flag("--json", &options.json, "print one JSON object on standard output");
-  line.example("palpate-replay session.rec --model liver.h5");
+  line.example(
+      "palpate-replay session.rec --model liver.h5\n"
+      "         palpate-replay session.rec --export csv -o session.csv");
 }
 
 program::Json jsonOf(const Findings& findings, const record::SessionFacts& facts) {
@@ -66,21 +78,55 @@ void print(const Findings& findings) {
             << "\n";
 }
 
+void check(const Options& options) {
+  if (options.format.empty() != options.output.empty())
+    throw program::UsageError("--export and -o belong together: --export csv -o FILE");
+  if (options.model.empty() && options.format.empty())
+    throw program::UsageError("--model is required: the model file that the session ran on");
+  program::checkOutput("-o", options.output);
+  if (!options.output.empty() && program::isSameFile(options.output, options.file))
+    throw program::UsageError("-o " + options.output + ": is the recording itself");
+}
+
+// Writes the table. The report goes to standard output unless a replay's JSON follows there.
+void writeTable(const Options& options, Demand demand) {
+  record::RecordReader recording(options.file);
+  const TableSize size = exportTable(recording, options.format, options.output, demand);
+  std::ostream& out = options.json ? std::cerr : std::cout;
+  out << size.rows << " rows of " << size.ticks << " ticks written to " << options.output << "\n";
+  if (size.missing > 0) out << size.missing << " ticks are missing in it\n";
+  if (size.truncated) out << "the recording has no end: written as far as it goes\n";
+  if (options.json && options.model.empty())
+    std::cout << program::Json{{"table", options.output},
+                               {"rows", size.rows},
+                               {"ticks", size.ticks},
+                               {"missing", size.missing},
+                               {"truncated", size.truncated}}
+                     .dump(2)
+              << '\n';
+}
+
 int body(int argc, char** argv) {
   // 1. What to replay.
-  program::CommandLine line(
-      "palpate-replay",
-      "Runs a recorded session through the engine again and compares the answers bit for bit.",
-      std::string("palpate-replay ") + PALPATE_VERSION);
+  program::CommandLine line("palpate-replay",
+                            "Runs a recorded session through the engine again and compares the answers bit "
+                            "for bit, or writes it as a "
+                            "table.",
+                            std::string("palpate-replay ") + PALPATE_VERSION);
   Options options;
   addOptions(line.options(), options);
   if (!line.read(argc, argv)) return program::kDone;
-  // 2. The recording and its model.
+  check(options);
+  const Demand demand = options.partial ? Demand::kPartial : Demand::kWhole;
+  // 2. The table, if one is wanted.
+  if (!options.format.empty()) writeTable(options, demand);
+  if (options.model.empty()) return program::kDone;
+  // 3. The recording and its model.
   record::RecordReader recording(options.file);
   const MetaModel model = MetaModel::load(options.model);
-  // 3. All its ticks.
-  const Findings findings = replay(recording, model, options.partial ? Demand::kPartial : Demand::kWhole);
-  // 4. Tell.
+  // 4. All its ticks.
+  const Findings findings = replay(recording, model, demand);
+  // 5. Tell.
   if (options.json) {
     std::cout << jsonOf(findings, recording.facts()).dump(2) << '\n';
   } else {

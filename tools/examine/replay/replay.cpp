@@ -80,18 +80,6 @@ void compare(const record::RecordedTick& tick, const StepResult& replayed, Findi
   findings.differing += differs ? 1 : 0;
 }
 
-// @return false at the end, or where the file ends early if that is allowed
-bool nextTick(record::RecordReader& recording, Demand demand, record::RecordedTick& tick,
-              Findings& findings) {
-  try {
-    return recording.next(tick);
-  } catch (const record::TruncatedError&) {
-    if (demand == Demand::kWhole) throw;
-    findings.truncated = true;
-    return false;
-  }
-}
-
 // A recording is a file like any other: what the server refuses on the wire is no input here either.
 void requireFit(const record::SessionFacts& facts, const MetaModel& model) {
   if (facts.model != model.digest())
@@ -123,15 +111,33 @@ void requireRange(const record::RecordedTick& tick) {
                         ", expected that of tool 0, " + std::to_string(modulus(0)) + ": it is the organ's");
 }
 
-void noteGap(std::uint64_t expected, std::uint64_t found, Demand demand, Findings& findings) {
+}  // namespace
+
+bool nextTick(record::RecordReader& recording, Demand demand, record::RecordedTick& tick, bool& truncated) {
+  try {
+    return recording.next(tick);
+  } catch (const record::TruncatedError&) {
+    if (demand == Demand::kWhole) throw;
+    truncated = true;
+    return false;
+  }
+}
+
+void noteGap(std::uint64_t expected, std::uint64_t found, Demand demand, std::uint64_t& missing) {
   if (found == expected) return;
   if (demand == Demand::kWhole)
     throw RecordError("ticks " + std::to_string(expected) + " to " + std::to_string(found - 1) +
-                      " are missing: without them the state is not known (--partial replays all the same)");
-  findings.missing += found - expected;
+                      " are missing: without them the state is not known (--partial takes what is there)");
+  missing += found - expected;
 }
 
-}  // namespace
+void noteEnd(const record::RecordReader& recording, Demand demand, bool truncated, std::uint64_t& missing) {
+  if (truncated || recording.end().missing <= missing) return;
+  if (demand == Demand::kWhole)
+    throw RecordError(std::to_string(recording.end().missing) +
+                      " ticks are missing (--partial takes what is there)");
+  missing = recording.end().missing;
+}
 
 Findings replay(record::RecordReader& recording, const MetaModel& model, Demand demand) {
   // 1. The same model and parameters, and a new state.
@@ -144,8 +150,8 @@ Findings replay(record::RecordReader& recording, const MetaModel& model, Demand 
   StepResult result;
   record::RecordedTick tick;
   std::uint64_t expected = 0;
-  while (nextTick(recording, demand, tick, findings)) {
-    noteGap(expected, tick.index, demand, findings);
+  while (nextTick(recording, demand, tick, findings.truncated)) {
+    noteGap(expected, tick.index, demand, findings.missing);
     expected = tick.index + 1;
     requireRange(tick);
     (void)step(model, work, tick.input, result);
@@ -155,12 +161,7 @@ Findings replay(record::RecordReader& recording, const MetaModel& model, Demand 
   }
   if (findings.ticks == 0) throw RecordError("the recording holds no ticks: there is nothing to compare");
   // 3. Ticks missing at the end show in nothing else.
-  if (!findings.truncated && recording.end().missing > findings.missing) {
-    if (demand == Demand::kWhole)
-      throw RecordError(std::to_string(recording.end().missing) +
-                        " ticks are missing (--partial replays all the same)");
-    findings.missing = recording.end().missing;
-  }
+  noteEnd(recording, demand, findings.truncated, findings.missing);
   return findings;
 }
 

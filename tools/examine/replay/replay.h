@@ -37,6 +37,14 @@ enum class Demand {
   kPartial  ///< any part of it, of any engine; after a gap, or of another engine, differences are expected
 };
 
+/// The next tick. @return false at the end, or where the file ends early if that is allowed  @throw record::RecordError
+[[nodiscard]] bool nextTick(record::RecordReader& recording, Demand demand, record::RecordedTick& tick,
+                            bool& truncated);
+/// Counts the ticks that are missing before one that was found, or refuses them. @throw record::RecordError
+void noteGap(std::uint64_t expected, std::uint64_t found, Demand demand, std::uint64_t& missing);
+/// The same of what the end tells of, once nextTick() returned false. @throw record::RecordError
+void noteEnd(const record::RecordReader& recording, Demand demand, bool truncated, std::uint64_t& missing);
+
 /// Runs a session's inputs through step() again, from a new Workspace, without threads or clocks, and compares each
 /// result with the recorded one bit for bit, field by field.
 /// @throw record::RecordError  damaged; another model; under kWhole also another engine, a missing tick or a missing end

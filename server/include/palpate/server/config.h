@@ -28,8 +28,9 @@ using LiveOverrides = LiveFields<std::optional<double>>;
 /// What one tool has of its own, as the file and the command line named it.
 struct OwnOptions {
   std::optional<std::string> device;
-  std::optional<double> tip_radius;  ///< m
-  LiveOverrides said;                ///< E is not looked at: it is the organ's
+  std::optional<double> tip_radius;          ///< m
+  std::optional<double> rendered_stiffness;  ///< N/m
+  LiveOverrides said;                        ///< E is not looked at: it is the organ's
 };
 
 /// Lowest and highest value that a request may set while the server runs.
@@ -43,7 +44,10 @@ using LiveBounds = LiveFields<std::optional<Bounds>>;
 /// `step` with the force limit and the coupling of a device, and what was named over both.
 /// "custom" (or an unknown device) leaves StepConfig's own defaults under what was named. A coupling that was named does not
 /// follow the organ. A device's damping is cut to what a softer one allows (kLongestCouplingTime).
-[[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const LiveOverrides& said);
+/// @param[in] rendered  what organ and coupling in series render at most, N/m, and the device's damping in proportion; nothing:
+///                      the device's
+[[nodiscard]] StepConfig withDevice(StepConfig step, const std::string& device, const LiveOverrides& said,
+                                    std::optional<double> rendered = std::nullopt);
 
 /// A surface rate: with each tick.
 inline constexpr double kEveryTick = std::numeric_limits<double>::infinity();
@@ -71,8 +75,9 @@ struct ServerConfig {
   std::filesystem::path record;        ///< where to record the session; empty: nowhere. Command line only
   std::string device{kDefaultDevice};  ///< a preset of device_preset.h, or custom
   LiveOverrides said;                  ///< of the file and the command line
-  bool parameters{true};               ///< requests may change live parameters
-  LiveBounds limits;                   ///< within these; what is not named: liveLimits()
+  std::optional<double> rendered_stiffness;  ///< of organ and coupling in series at most, N/m; the file's
+  bool parameters{true};                     ///< requests may change live parameters
+  LiveBounds limits;                         ///< within these; what is not named: liveLimits()
   std::optional<Bounds>
       tip_limits;  ///< of the tip that a driver may name, m: [limits] tip_radius; tipLimits()
   /// parameters of the engine, the device's included: withDevice() was applied. [tool] and [organ] in the file
@@ -109,7 +114,7 @@ void checkDevice(const std::string& word);
 /// Whether organ and device choose the coupling, within what was asked for: no stiffness was named.
 [[nodiscard]] bool followsOrgan(const ToolSettings& settings);
 
-/// @return the coupling's stiffness when one was named above what the device renders stably
+/// @return the coupling's stiffness when one was named above what the device renders stably, or a rendered one above the device's
 [[nodiscard]] std::optional<Complaint> deviceComplaint(const ServerConfig& config);
 
 /// The largest coupling stiffness that a device allows, N/m; infinity for "custom".

@@ -22,7 +22,8 @@ struct PoseSample {
   std::int64_t arrival_ns{0};                             ///< our monotonic clock; decides about staleness
   std::array<double, 3> position{};                       ///< p_WT, m
   std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< q_WT, x y z w
-  std::uint64_t received{0};                              ///< poses of this tool so far, this one included
+  std::uint32_t buttons{0};    ///< bit i: button i is held down; recorded, else unused
+  std::uint64_t received{0};   ///< poses of this tool so far, this one included
   std::uint64_t unordered{0};  ///< those of them whose seq went back or repeated, or whose stamp went back
   std::uint64_t foreign{
       0};  ///< poses of a second publisher, between those of the tool's own: counted, not used

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/contact_point.h"
+#include "core/devices/device_preset.h"
+#include "core/devices/sim/delays.h"
+#include "core/devices/sim/mechanics.h"
+#include "core/model/meta_model.h"
+#include "tools/examine/feel/stability.h"
+
+namespace palpate::feel {
+
+/// Hands of `palpate-feel coupling`: loose, ordinary, firm; kg, N s/m, N/m.
+inline constexpr std::array<device::Hand, 3> kHands{
+    {{0.02, 0.5, 50.0}, {0.1, 2.0, 200.0}, {0.2, 5.0, 500.0}}};
+/// Organs of `palpate-feel coupling`: E, Pa.
+inline constexpr std::array<double, 4> kModuli{5e3, 20e3, 160e3, 1e6};
+
+/// Of the largest stable coupling this share is safe: what is tried has three hands, real ones differ.
+inline constexpr double kSafeShare = 0.8;
+
+/// The largest safe coupling of a device under measured delays.
+struct SafeCoupling {
+  /// Of organ and coupling in series, N/m: tool.rendered_stiffness of the server. kSafeShare of largest_stable, and at most the
+  /// preset's; 0: none is stable.
+  double rendered_stiffness{0.0};
+  double damping{0.0};         ///< b of the coupling, N s/m, in proportion: tool.coupling_damping
+  bool by_device{false};       ///< the preset is the bound, the delays are not
+  double largest_stable{0.0};  ///< N/m; where the device is the bound at least this
+  /// The least that was tried and is not stable, N/m; 0 where the device is the bound.
+  double unstable_at{0.0};
+  std::optional<StabilityCase> rings;  ///< a case that is not stable there
+};
+
+/// The preset with another rendered stiffness, its damping in proportion.
+[[nodiscard]] DevicePreset withRendered(DevicePreset preset, double stiffness) noexcept;
+
+/// Cases that judge a coupling under delays: each hand, with and without the device's friction, over the beginning of the
+/// measurement and over its worst stretch. @param[in] youngs_modulus  Pa
+[[nodiscard]] std::vector<StabilityCase> casesUnder(const device::Delays& delays, const DevicePreset& preset,
+                                                    const ContactPoint& s, double organ_stiffness,
+                                                    double youngs_modulus);
+
+/// The first case that is unstable; nothing where all are stable.
+[[nodiscard]] std::optional<StabilityCase> firstUnstable(const MetaModel& model,
+                                                         std::span<const StabilityCase> cases);
+
+/// From a fiftieth of the preset's stiffness upward in steps of 1.25 to the first that is unstable on the stiffest organ, then by
+/// bisection to 3 %; lowered further where a softer organ is unstable with it. It ends where the preset is the bound.
+[[nodiscard]] SafeCoupling safeCoupling(const MetaModel& model, const device::Delays& delays,
+                                        const DevicePreset& preset, const ContactPoint& s,
+                                        double organ_stiffness);
+
+/// The server's configuration with it, as TOML. @param[in] origin  what was computed from which file, one line
+[[nodiscard]] std::string settingOf(const DevicePreset& preset, const SafeCoupling& coupling,
+                                    const std::string& origin);
+
+}  // namespace palpate::feel
