@@ -2,6 +2,7 @@
 // A haptic device driver in one file. Copy it, fill in the four places marked FILL IN, build it against palpate::haptic.
 // Unchanged, it drives a fake device, a point that moves up and down, so that it runs without hardware.
 #include <palpate/haptic/haptic_tool.h>
+#include <palpate_haptic_flags.h>
 
 #include <chrono>
 #include <cmath>
@@ -106,6 +107,19 @@ Arguments parse(int argc, char** argv) {
   return arguments;
 }
 
+// Why there was no contact. nearest: of the tip's centre to the organ, m; infinite when no pose was used
+void sayWhyNot(const Arguments& arguments, std::uint32_t flags, double nearest) {
+  if ((flags & (PALPATE_HAPTIC_FLAG_TOOL_NOT_CONFIGURED | PALPATE_HAPTIC_FLAG_UNKNOWN_TOOL)) != 0)
+    std::printf("the server has no tool %u: palpate-server --tools says how many it has\n",
+                arguments.tool.tool_id);
+  else if (!std::isfinite(nearest))
+    std::printf("the server used no pose: force.flags is 0x%x, PALPATE_HAPTIC_FLAG_* says why\n",
+                static_cast<unsigned>(flags));
+  else
+    std::printf("the tool never touched the organ: it stayed at least %.3g m from it; poses are in metres\n",
+                nearest);
+}
+
 int run(const Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
   Device device;
@@ -119,6 +133,7 @@ int run(const Arguments& arguments) {
   constexpr auto kPeriod = std::chrono::microseconds(500);
   double largest = 0.0;
   long answered = 0;
+  std::uint32_t flags = 0;  // of the newest force
   const auto start = Clock::now();
   for (auto next = start + kPeriod; stop == 0; next += kPeriod) {
     const Pose pose = device.read();
@@ -128,7 +143,10 @@ int run(const Arguments& arguments) {
     // FILL IN 4: what else the device shows, e.g. force.flags on a lamp.
     device.write(arguments.workspace.toDevice(force.force));
     largest = std::fmax(largest, std::hypot(force.force[0], force.force[1], force.force[2]));
-    answered += force.gain > 0.0 ? 1 : 0;
+    if (force.gain > 0.0) {
+      ++answered;
+      flags = force.flags;
+    }
     if (arguments.seconds > 0.0 && Clock::now() - start >= std::chrono::duration<double>(arguments.seconds))
       break;
     std::this_thread::sleep_until(next);
@@ -136,11 +154,10 @@ int run(const Arguments& arguments) {
   if (tool.leftOut() > 0)
     std::printf("%llu forces of another server were left out\n",
                 static_cast<unsigned long long>(tool.leftOut()));
-  if (answered > 0 && tool.nearest() > 0.0)
-    std::printf("the tool never touched the organ: it stayed at least %.3g m from it; poses are in metres\n",
-                tool.nearest());
+  const bool touched = answered > 0 && tool.nearest() == 0.0;
+  if (answered > 0 && !touched) sayWhyNot(arguments, flags, tool.nearest());
   std::printf("largest force %.4f N; %ld periods with a force\n", largest, answered);
-  return answered > 0 ? 0 : 1;
+  return touched || (answered > 0 && stop != 0) ? 0 : 1;
 }
 
 }  // namespace

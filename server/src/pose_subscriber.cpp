@@ -107,6 +107,9 @@ void PoseIntake::acceptServed(const dds::ToolPose& pose, dds::WriterId writer,
     newest.foreign_ns = foreign.last_ns;
   }
   foreign = {};
+  // DDS lost the owner for a while and found it again: it keeps the tool until it is lost once more.
+  if (same_sender && arrival_ns - newest.arrival_ns > silence_ns_)
+    left_[pose.tool_id].store(0, std::memory_order_relaxed);
   const bool at_once = newest.received > 0 && !same_sender && arrival_ns - newest.arrival_ns <= silence_ns_;
   newest.handed_over += at_once ? 1 : 0;
   owner_[pose.tool_id] = writer;

@@ -87,6 +87,12 @@ bool Tick::rejected(std::size_t tool) const noexcept PALPATE_NONBLOCKING {
   return (result_.tools[tool].flags & (kNonFinitePose | kNonUnitQuaternion)) != 0;
 }
 
+// The engine was given an old pose of a tool that changed hands, but nobody's poses stopped.
+std::uint32_t Tick::told(std::size_t tool) const noexcept PALPATE_NONBLOCKING {
+  const std::uint32_t flags = result_.tools[tool].flags;
+  return ledgers_[tool].changed_hands ? flags & ~kStalePose : flags;
+}
+
 void Tick::countRejectedPoses() noexcept PALPATE_NONBLOCKING {
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
     if (ledgers_[tool].came > 0 && rejected(tool)) ++rejected_;
@@ -105,6 +111,7 @@ void Tick::writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     record.superseded = ledger.superseded;
     record.pose_wait_ns = cycle.woke_ns - ledger.pose.arrival_ns;
     record.result = result_.tools[tool];
+    record.result.flags = told(tool);
     push(record, cycle);
   }
   answerStranger(cycle);
@@ -203,8 +210,7 @@ void Tick::reportTick(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     const Stranger& stranger = strangers_[tool];  // a tool that is not configured is never seen()
     const bool recent = stranger.flags != 0 && cycle.woke_ns - stranger.arrival_ns <= kRecent;
     record.seen[tool] = seen(tool) || stranger.flags != 0 ? 1 : 0;
-    record.flags[tool] = result_.tools[tool].flags | (recent ? stranger.flags : 0);
-    if (ledgers_[tool].changed_hands) record.flags[tool] &= ~kStalePose;  // nobody's poses stopped
+    record.flags[tool] = told(tool) | (recent ? stranger.flags : 0);
   }
   if (!channels_.ticks.push(record)) ++dropped_;
 }

@@ -76,7 +76,7 @@ void FakeServer::run() {
 }
 
 void FakeServer::answer(const dds::ToolPose& pose, std::uint64_t seq) {
-  const double depth = std::max(0.0, 0.05 + options_.tip_radius - pose.position[2]);
+  const double depth = options_.far ? 0.0 : std::max(0.0, 0.05 + options_.tip_radius - pose.position[2]);
   dds::ToolForce force{};
   force.server_id = options_.server_id;
   force.session = options_.session;

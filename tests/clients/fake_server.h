@@ -16,6 +16,7 @@ namespace palpate::testing {
 struct FakeServerOptions {
   double stiffness{500.0};   ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
   double tip_radius{0.005};  ///< m
+  bool far{false};           ///< the organ lies where no tool comes: no contact
   std::uint32_t server_id{0};
   std::uint64_t session{1};
   std::uint64_t first_seq{1};      ///< of its forces

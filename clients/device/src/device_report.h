@@ -27,8 +27,10 @@ struct Session {
 
   /// Whether the run was seen to its end.
   [[nodiscard]] bool complete() const { return !recording.server_left && !recording.interrupted; }
+  /// Whether there was a contact: without one nothing is known of the loop.
+  [[nodiscard]] bool touched() const { return (recording.flags & dds::flag::kInContact) != 0; }
   /// By its motion in the hold, and by the energy of each contact.
-  [[nodiscard]] bool stable() const { return verdict.stable && energy.holds(); }
+  [[nodiscard]] bool stable() const { return touched() && verdict.stable && energy.holds(); }
 };
 
 /// For people: the run, a chart of the depth, and the verdict.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-device: a simulated haptic device in a hand touches the organ, driven by the server's forces.
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <iostream>
-#include <limits>
 #include <optional>
 
 #include "core/devices/path/path.h"
@@ -19,6 +17,7 @@
 #include "tools/program/command_line.h"
 #include "tools/program/json.h"
 #include "tools/program/numbers.h"
+#include "tools/program/printed.h"
 #include "tools/program/run.h"
 #include "tools/program/write_file.h"
 
@@ -92,15 +91,6 @@ client::Spot spotOf(const Arguments& arguments, const client::Surface& surface) 
   return client::chooseSpot(surface, report::askedPlace(surface, "--at", arguments.at));
 }
 
-/// How near the tip's centre came to the organ at rest, m.
-double nearestOf(const Trace& trace, const client::Surface& surface) {
-  constexpr std::size_t kLookedAt = 10;  // every so manieth step, 10 ms apart
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < trace.position.size(); i += kLookedAt)
-    nearest = std::min(nearest, client::distanceTo(surface, trace.position[i]));
-  return nearest;
-}
-
 // A status names tool 0's device only. Nothing when the server does not say it.
 std::string deviceOf(const dds::Participant& participant, std::uint32_t tool_id,
                      const client::ServerInfo& server) {
@@ -137,9 +127,6 @@ Session play(const dds::Participant& participant, const Arguments& arguments, co
   HeldDevice device(mechanics, hand, motion.path);
   const Trace without = withoutOrgan(device, motion);
   const Recording recording = run(participant, arguments.tool_id, device, runOf(server));
-  if ((recording.flags & dds::flag::kInContact) == 0 && !recording.interrupted && !recording.server_left)
-    std::cerr << "palpate-device: " << report::neverTouchedText(nearestOf(recording.trace, server.surface))
-              << '\n';
   return {arguments.preset,
           mechanics,
           hand,
@@ -155,6 +142,11 @@ Session play(const dds::Participant& participant, const Arguments& arguments, co
 
 // Refuses bad values before anything waits.
 void checkMotion(const Arguments& arguments) {
+  if (arguments.path.lead > kLongestLead)
+    throw program::UsageError(
+        program::printed("--friction by the stiffness of --hand is %g m, by which the hand would lead the "
+                         "device, expected at most %g m",
+                         arguments.path.lead, kLongestLead));
   program::orUsageError([&] { (void)makeMotion(arguments.motion, {}, {0, 0, 1}, arguments.path); }, "--");
 }
 
@@ -191,6 +183,12 @@ int body(int argc, char** argv) {
   // 4. Tell.
   tell(session, arguments);
   if (!session.complete()) return program::kFailed;
+  if (!session.touched()) {
+    const double nearest = client::nearestOf(server.surface, session.recording.trace.position,
+                                             [](const Point& position) { return position; });
+    std::cerr << "palpate-device: " << report::neverTouchedText(nearest) << '\n';
+    return program::kFailed;
+  }
   return session.stable() ? program::kDone : program::kNotHeld;
 }
 

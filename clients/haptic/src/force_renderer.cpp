@@ -54,9 +54,11 @@ bool ForceRenderer::answered(const Answer& answer) noexcept PALPATE_NONBLOCKING 
   return true;
 }
 
-// Of a free tool the anchor is the nearest point of the surface at rest.
+// Of a free tool the anchor is the nearest point of the surface at rest; of a pose that was not used there is none.
 void ForceRenderer::comeNear() noexcept PALPATE_NONBLOCKING {
-  if ((answer_.flags & PALPATE_HAPTIC_FLAG_TOOL_NOT_CONFIGURED) != 0) return;
+  constexpr std::uint32_t kNotUsed = PALPATE_HAPTIC_FLAG_TOOL_NOT_CONFIGURED |
+                                     PALPATE_HAPTIC_FLAG_UNKNOWN_TOOL | PALPATE_HAPTIC_FLAG_NON_FINITE_POSE;
+  if ((answer_.flags & kNotUsed) != 0) return;
   constexpr std::uint32_t kFree = 0;  // Force::state
   if (answer_.state != kFree) nearest_ = 0.0;
   const SentPose& pose = poses_[answer_.pose_seq % kPoses];

@@ -50,6 +50,8 @@ class LatencyLog {
   [[nodiscard]] std::uint64_t lost() const noexcept { return answers_.lost(); }
   [[nodiscard]] std::uint64_t restarts() const noexcept { return answers_.restarts(); }
   [[nodiscard]] std::uint64_t late() const noexcept { return late_; }
+  /// When the newest answer came, measured or not; 0: none did.
+  [[nodiscard]] std::int64_t newestAnswerNs() const noexcept { return newest_answer_ns_; }
   /// The server's counts during the measurement.
   [[nodiscard]] std::uint64_t overruns() const noexcept { return last_.overruns - first_.overruns; }
   [[nodiscard]] std::uint64_t superseded() const noexcept { return last_.superseded - first_.superseded; }
@@ -72,6 +74,7 @@ class LatencyLog {
   rt::CycleStats tick_;
   client::GapCounter answers_;
   std::uint64_t newest_pose_{0};
+  std::int64_t newest_answer_ns_{0};
   std::int64_t answered_stamp_ns_{0};   // of the newest pose with an answer, in the measurement; 0: none yet
   rt::CycleStats pose_to_field_;        // addField()'s,
   std::uint64_t newest_field_pose_{0};  // and this

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-latency: how long a pose takes to become a force, and how steadily the server ticks.
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -73,16 +72,22 @@ std::vector<Assertion> readAssertions(const Options& options) {
   return read;
 }
 
-// One line for each assertion that fails. Returns the program's exit code.
+// One line for each assertion that fails. What was not measured to its end holds none. Returns the program's exit code.
 int judgeAll(const std::vector<Assertion>& assertions, const std::vector<program::Json>& tools,
-             const std::string& junit) {
+             const program::Json& worst, const std::string& junit) {
+  const bool server_left = worst["server_left"].get<bool>(), interrupted = worst["interrupted"].get<bool>();
+  const bool complete = !server_left && !interrupted;
   std::vector<Outcome> outcomes;
-  for (const Assertion& assertion : assertions) outcomes.push_back(judgeEach(assertion, tools));
-  if (!junit.empty()) program::writeFile(junit, junitOf(outcomes, tools.front()["seconds"].get<double>()));
+  for (const Assertion& assertion : assertions)
+    outcomes.push_back(complete ? judgeEach(assertion, tools)
+                                : Outcome{assertion, false, "not measured to the end"});
+  if (!junit.empty()) program::writeFile(junit, junitOf(outcomes, worst["seconds"].get<double>()));
   for (const Outcome& outcome : outcomes)
     if (!outcome.held) std::cerr << "palpate-latency: " << failureLine(outcome) << '\n';
+  if (server_left) std::cerr << "palpate-latency: the server left before the end\n";
+  if (server_left || (interrupted && !assertions.empty())) return program::kFailed;
   const bool all = std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& one) { return one.held; });
-  return all ? 0 : program::kNotHeld;
+  return all ? program::kDone : program::kNotHeld;
 }
 
 struct Told {
@@ -107,6 +112,20 @@ Told toldOf(const std::vector<std::unique_ptr<ToolMeasurement>>& tools, const dd
     told.logs.emplace_back(tool->tool_id, &tool->log);
   }
   return told;
+}
+
+// @return the program's exit code
+int tell(const Options& options, const std::vector<Assertion>& assertions,
+         const std::vector<std::unique_ptr<ToolMeasurement>>& tools, const dds::ServerStatus& server) {
+  const Told told = toldOf(tools, server);
+  (options.json ? std::cerr : std::cout) << told.text << std::flush;
+  const program::Json worst = worstOf(told.reports);
+  if (options.json) program::printJson(worst);
+  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(told.logs));
+  const SenderStats& first = tools.front()->sender;
+  if (!options.hdr.empty())
+    program::writeFile(options.hdr, hdrLogOf(told.times, {first.start_ms, first.seconds}));
+  return judgeAll(assertions, told.reports, worst, options.junit);
 }
 
 int body(int argc, char** argv) {
@@ -141,10 +160,6 @@ int body(int argc, char** argv) {
                  static_cast<std::size_t>(options.tools));
 
   // 3. Measure.
-  const Interval interval{std::chrono::duration_cast<std::chrono::milliseconds>(
-                              std::chrono::system_clock::now().time_since_epoch())
-                              .count(),
-                          options.measure.seconds};
   const auto tools = measureTogether(participant, server, spots, options.measure);
   const bool realtime =
       std::all_of(tools.begin(), tools.end(), [](const auto& tool) { return tool->sender.realtime; });
@@ -152,12 +167,7 @@ int body(int argc, char** argv) {
   server.status = statuses.find(runOf(server)).value_or(server.status);
 
   // 4. Tell.
-  const Told told = toldOf(tools, server.status);
-  (options.json ? std::cerr : std::cout) << told.text << std::flush;
-  if (options.json) program::printJson(worstOf(told.reports));
-  if (!options.plot.empty()) program::writeFile(options.plot, plotOf(told.logs));
-  if (!options.hdr.empty()) program::writeFile(options.hdr, hdrLogOf(told.times, interval));
-  return judgeAll(assertions, told.reports, options.junit);
+  return tell(options, assertions, tools, server.status);
 }
 
 }  // namespace

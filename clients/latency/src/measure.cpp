@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure.h"
 
+#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -16,6 +17,7 @@ namespace palpate::latency {
 namespace {
 
 constexpr double kApproachSeconds = 1.0;
+constexpr std::int64_t kGoneAfter = 1'000'000'000;  // ns without an answer
 
 // Moves between 1 and 2 mm deep and 3 mm aside, one second per cycle, so that the force keeps changing and the tip slides.
 device::Path gentlePress(const client::Spot& spot, const MeasureOptions& options) {
@@ -43,6 +45,12 @@ void send(client::ToolClient& tool, const device::Path& path, double from, doubl
     if (client::stopRequested()) break;
   }
   stats.seconds = static_cast<double>(rt::monotonicNow() - start_ns) * 1e-9;
+}
+
+std::int64_t millisecondsSince1970() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 // Reads the fields of one run of a server into a log.
@@ -84,15 +92,20 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   stats.realtime = client::prepareToSend(*tool);
   rt::Pacer pacer(std::llround(1e9 / options.rate_hz));
   send(*tool, path, 0.0, kApproachSeconds, pacer, unmeasured);
+  stats.start_ms = millisecondsSince1970();
   log.record(true);
   send(*tool, path, kApproachSeconds, kApproachSeconds + options.seconds, pacer, stats);
   log.record(false);
   const std::int64_t end_ns = rt::monotonicNow();
+  stats.interrupted = client::stopRequested();
+  dds::ToolForce newest{};
+  stats.server_left = tool->latest(newest) && (newest.flags & dds::flag::kShuttingDown) != 0;
   send(*tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
   stats.left_out = tool->hold().leftOut();
   stats.left_out_text = client::leftOutText(stats.left_out, statuses);
   tool.reset();  // no answer comes after this
   log.finish(end_ns);
+  stats.server_left = stats.server_left || end_ns - log.newestAnswerNs() > kGoneAfter;
   return stats;
 }
 

@@ -22,8 +22,11 @@ struct MeasureOptions {
 
 /// The sender's side of the measurement.
 struct SenderStats {
-  rt::CycleStats wakeup;  ///< lateness of the sending thread's wake-ups
-  double seconds{0.0};    ///< duration of the measurement
+  rt::CycleStats wakeup;     ///< lateness of the sending thread's wake-ups
+  std::int64_t start_ms{0};  ///< of the measurement, since 1970, UTC
+  double seconds{0.0};       ///< its duration
+  bool server_left{false};   ///< before its end: it said so, or answered nothing for a second
+  bool interrupted{false};   ///< before its end
   std::uint64_t sent{0};
   client::LeftOut left_out;   ///< forces of other servers
   std::string left_out_text;  ///< whose; empty: none

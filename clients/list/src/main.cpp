@@ -61,6 +61,7 @@ int body(int argc, char** argv) {
   else
     std::cout << textOf(listing) << std::flush;
   if (!listing.servers.empty()) return program::kDone;
+  if (client::stopRequested()) throw client::ClientError("interrupted");
   const std::string found = "no server" + client::where(options.domain, millisecondsOf(options.timeout_s));
   const std::string mismatch = survey.mismatch();
   throw client::ClientError(mismatch.empty() ? found + client::kNoServerHint : found + "; " + mismatch);

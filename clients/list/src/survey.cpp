@@ -9,6 +9,7 @@
 
 #include "palpate/client/error.h"
 #include "palpate/client/parameter_exchange.h"
+#include "palpate/idl/error.h"
 #include "palpate/idl/printable.h"
 #include "palpate/rt/clock.h"
 
@@ -57,6 +58,7 @@ void askForDevices(const dds::Participant& participant, std::chrono::millisecond
     for (std::size_t tool = 0; tool < server.devices.size(); ++tool)
       server.devices[tool] = dds::printable(answer.tools[tool].device);
   } catch (const client::ClientError&) {  // it is listed all the same
+  } catch (const dds::DdsError&) {        // likewise
   }
 }
 
@@ -113,6 +115,12 @@ std::vector<Publisher> Survey::publishers() const {
     heard = heard_;
   }
   std::sort(heard.begin(), heard.end(), [](const Heard& a, const Heard& b) { return a.tool_id < b.tool_id; });
+  const auto present = dds::writersOf(poses_.handle(), kMostPublishers);
+  // One that ended meanwhile sends no more. Of too many the rest is not known.
+  if (present.size() < kMostPublishers)
+    std::erase_if(heard, [&](const Heard& each) {
+      return std::find(present.begin(), present.end(), each.writer) == present.end();
+    });
   std::vector<Publisher> found;
   for (const Heard& each : heard) {
     const double seconds = 1e-9 * static_cast<double>(each.last_ns - each.first_ns);
@@ -120,7 +128,7 @@ std::vector<Publisher> Survey::publishers() const {
     found.push_back({true, each.tool_id, each.server_id, each.poses, rate,
                      processes_.processOf(poses_.handle(), each.writer)});
   }
-  for (const dds::WriterId writer : dds::writersOf(poses_.handle(), kMostPublishers))
+  for (const dds::WriterId writer : present)
     if (std::none_of(heard.begin(), heard.end(), [&](const Heard& each) { return each.writer == writer; }))
       found.push_back({false, 0, 0, 0, 0.0, processes_.processOf(poses_.handle(), writer)});
   return found;

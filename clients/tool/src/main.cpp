@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <limits>
 #include <optional>
 #include <thread>
 
@@ -23,7 +22,6 @@ namespace {
 
 /// A server keeps a tool for its sender until it has been silent for at most this long (StepConfig::zero_after).
 constexpr std::chrono::milliseconds kLetGo{50};
-constexpr std::size_t kLookedAt = 10;  // every so manieth pose, 10 ms apart, when the nearest is looked for
 
 struct Options {
   std::string script{"press"};
@@ -76,17 +74,17 @@ Played prepare(const Options& options, const std::optional<device::Point>& place
   return {options.script, path_options, spot, std::move(path), server};
 }
 
-/// Scripts touch the organ. @return exit code 1, with a line that says how near the tool came, when none of the answers was of a
-/// contact; a script that was stopped is no failure
+/// Scripts touch the organ. @return kFailed when none of the answers was of a contact, with a line that says how near the tool
+/// came, and when the server left; a script that was stopped is no failure
 int verdictOn(const Recording& recording, const client::Surface& surface) {
-  if (client::stopRequested() || recording.server_left) return 0;
+  if (recording.server_left) return program::kFailed;
+  if (client::stopRequested()) return program::kDone;
   const auto touches = [](const Sample& sample) { return (sample.force.flags & dds::flag::kInContact) != 0; };
-  if (std::any_of(recording.samples.begin(), recording.samples.end(), touches)) return 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < recording.samples.size(); i += kLookedAt)
-    nearest = std::min(nearest, client::distanceTo(surface, recording.samples[i].pose));
+  if (std::any_of(recording.samples.begin(), recording.samples.end(), touches)) return program::kDone;
+  const double nearest =
+      client::nearestOf(surface, recording.samples, [](const Sample& sample) { return sample.pose; });
   std::cerr << "palpate-tool: " << report::neverTouchedText(nearest) << '\n';
-  return 1;
+  return program::kFailed;
 }
 
 int body(int argc, char** argv) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct ToolRecord {
   float domain_radius{0.0F};
 };
 
+inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
 /// One answer of the server, for the strip chart and what is saved of it; world frame W.
 struct AnswerRecord {
   std::uint32_t tool_id{0};
@@ -53,7 +56,8 @@ struct AnswerRecord {
   float wakeup_us{0.0F};                ///< lateness of the tick's wake-up
   float stiffness{0.0F};                ///< -n.K n, N/m, along the outward normal n; 0 when free
   std::array<float, 3> force_vector{};  ///< on the tool, N
-  std::array<float, 3> tip{};           ///< centre of the tip in the newest pose known then, m
+  std::array<float, 3> tip{kUnknown, kUnknown,
+                           kUnknown};  ///< centre of the tip in the newest pose known then, m; NaN: none
 };
 
 /// The content of one binary FRAME message.

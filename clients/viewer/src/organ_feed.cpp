@@ -184,7 +184,7 @@ void OrganFeed::addAnswer(const TimedForce& timed) {
   const ToolView& view = tools_[force.tool_id];
   answer.stiffness = static_cast<float>(normalStiffness(force, view.normal));
   answer.force_vector = narrow(pointOf(force.force));
-  answer.tip = narrow(view.tip_known ? view.tip : pointOf(force.proxy));
+  if (view.tip_known) answer.tip = narrow(view.tip);
   answers_.add(answer);
 }
 

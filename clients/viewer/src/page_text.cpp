@@ -98,7 +98,7 @@ Json regionsOf(const client::Surface& surface) {
 std::string helloText(std::uint64_t page_id, double rate_hz) {
   return Json({{"type", "hello"},
                {"version", PALPATE_VERSION},
-               {"protocol", 1},
+               {"protocol", 2},
                {"page_id", page_id},
                {"rate_hz", rate_hz},
                {"max_message", kMaxMessage}})

@@ -16,7 +16,7 @@ constexpr auto& requireRange = inRange<std::invalid_argument, double>;
 void check(const MotionOptions& options) {
   constexpr double kLeast = 1e-6;  // m
   requireRange("depth (m)", options.depth, kLeast, 0.05);
-  requireRange("lead (m)", options.lead, 0.0, 0.2);
+  requireRange("lead (m)", options.lead, 0.0, kLongestLead);
   requireRange("clearance (m)", options.clearance, kLeast, 0.2);
   requireRange("drag distance (m)", options.drag_distance, kLeast, 0.1);
   requireRange("number of taps", options.taps, 1, 1000);

@@ -8,10 +8,12 @@
 
 namespace palpate::device {
 
+inline constexpr double kLongestLead = 0.2;  // m
+
 /// How the hand moves.
 struct MotionOptions {
   double depth{0.003};  ///< wanted depth of the tip below the rest surface, m, in (0, 0.05]
-  /// How much farther the hand goes each way because friction holds the tip back, m, in [0, 0.2]:
+  /// How much farther the hand goes each way because friction holds the tip back, m, in [0, kLongestLead]:
   /// leadOf(device, hand). Without it a loose hand cannot bring a device with much friction to the organ.
   double lead{0.0};
   double clearance{0.005};      ///< of the tip from the surface at the start and the end, m, in (0, 0.2]

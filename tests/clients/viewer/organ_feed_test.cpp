@@ -31,6 +31,11 @@ TEST_F(FeedOfManyServers, TheServerThatIsHeldIsNotMixedWithAnotherOfTheSameIdAnd
   EXPECT_EQ(feed_.parameters()->model_youngs_modulus, 100e3);
   EXPECT_EQ(feed_.watch().session(), 7U);
   EXPECT_EQ(feed_.answers().end(), 20U);
+  std::uint64_t place = 0;
+  std::vector<AnswerRecord> answers;
+  feed_.answers().since(place, 100, answers);
+  ASSERT_EQ(answers.size(), 20U);
+  for (const float x : answers.back().tip) EXPECT_TRUE(std::isnan(x)) << "nobody sent a pose";
 }
 
 TEST_F(FeedOfManyServers, AFloodOfSessionsHidesNoWordOfTheServerThatIsFollowed) {
@@ -188,6 +193,11 @@ TEST_F(FeedOfManyServers, NonFiniteAnswersAndPosesAreNotShown) {
     answer(3, good);
     return shown(3) == nullptr || shown(3)->tip[0] != 0.25;
   }));
+  std::uint64_t place = 0;
+  std::vector<AnswerRecord> answers;
+  feed_.answers().since(place, AnswerLog::kCapacity, answers);
+  ASSERT_FALSE(answers.empty());
+  EXPECT_EQ(answers.back().tip[0], 0.25F);
   for (const std::uint32_t id : {0U, 1U, 2U}) EXPECT_EQ(shown(id), nullptr) << id;
 }
 

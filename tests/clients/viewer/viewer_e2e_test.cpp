@@ -51,7 +51,7 @@ class AnswersOnTheWire {
 
 TEST_F(ViewerEndToEnd, APageSeesTheOrganAndFeelsItPushBack) {
   const auto page = openServedPage();
-  EXPECT_EQ(page->texts["hello"]["protocol"], 1);
+  EXPECT_EQ(page->texts["hello"]["protocol"], 2);
   EXPECT_EQ(page->texts["mesh"]["nodes"], 642);
   const auto regions = page->texts["mesh"]["regions"];
   ASSERT_EQ(regions.size(), 2U);

@@ -118,6 +118,8 @@ TEST(CommandLine, RefusesByName) {
   says({"a.h5", "--node", "1", "--seconds", "0.1"}, "--seconds: 0.1 is out of range, expected 0.5 to 10 s");
   says({"a.h5", "--node", "1", "--seconds", "short"},
        "--seconds: short is not a number, expected 0.5 to 10 s");
+  says({"a.h5", "--node", "1", "--steps", "2.5"}, "--steps: 2.5 is not a whole number, expected 1 to 9");
+  says({"a.h5", "--node", "1", "--steps", "99999999999"}, "--steps: 99999999999 is out of range, expected 1");
   says({"a.h5", "--node", "1", "--radius", "wide"}, "--radius: wide is not a number, expected one in m");
   says({"a.h5", "--node", "one"}, "--node: one is not a number");
   says({"a.h5", "--node", "1.5"}, "--node: 1.5 is not a whole number in range");

@@ -15,11 +15,26 @@ export async function atEverySize(seen, look) {
   }
 }
 
+/** Asserts what is to hold once the page has come to its new size: until it does, for at most 10 s. */
+export async function laidOut(page, holds) {
+  for (const end = Date.now() + 10_000; Date.now() < end; await page.waitForTimeout(100))
+    try {
+      return await holds();
+    } catch (error) {
+      if (error.code !== 'ERR_ASSERTION') throw error;
+    }
+  await holds();
+}
+
 const overlap = (a, b) =>
   a && b && a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
-/** @throws AssertionError where two of these are over each other, by selector; those not seen are over nothing */
-export async function assertApart(page, pairs) {
+/**
+ * @param there  selectors of what must be seen; other things that are not seen are over nothing
+ * @throws AssertionError where two of a pair are over each other
+ */
+export async function assertApart(page, pairs, there) {
+  for (const selector of there) assert.ok(await page.locator(selector).isVisible(), `${selector} is not seen`);
   for (const [a, b] of pairs) {
     const [one, other] = await Promise.all([a, b].map((selector) => page.locator(selector).boundingBox()));
     assert.ok(!overlap(one, other), `${a} ${JSON.stringify(one)} is over ${b} ${JSON.stringify(other)}`);

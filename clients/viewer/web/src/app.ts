@@ -18,6 +18,7 @@ import { Notice } from './notice';
 import type { Colouring } from './organ';
 import { OrganView } from './organ_view';
 import { element, followInputKind, numberIn, setText } from './page';
+import { isOfThisVersion } from './page_version';
 import { Panel } from './panel';
 import { Parameters } from './parameters';
 import { Pictures } from './pictures';
@@ -138,12 +139,18 @@ export class App implements LineListener {
   }
 
   said(message: Said): void {
-    if (message.type === 'hello') this.usualHz = numberIn(message, 'rate_hz') || this.usualHz;
+    if (message.type === 'hello') this.greeted(message);
     else if (message.type === 'mesh') this.announced(message);
     else if (message.type === 'tool') this.hand.said(message);
     else if (message.type === 'parameters') this.parameters.answered(message);
     else if (message.type === 'status') this.status(message);
     else if (message.type === 'state') this.heardState(message);
+  }
+
+  private greeted(hello: Said): void {
+    this.usualHz = numberIn(hello, 'rate_hz') || this.usualHz;
+    if (!isOfThisVersion(hello, sessionStorage, () => location.reload()))
+      this.setState('bad', 'this page is not of this version of palpate-viewer: load it again', 'line');
   }
 
   mesh(mesh: Mesh): void {

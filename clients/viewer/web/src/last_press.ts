@@ -13,6 +13,7 @@ export interface Pressed {
 export class LastPress {
   private now: Pressed | undefined;
   private touching = false;
+  private toolId: number | undefined; // of the frame before
   newest: Pressed | undefined;
 
   /** @param began, ended  told of each contact of this page's tool with the organ */
@@ -24,10 +25,15 @@ export class LastPress {
   /** @return this page's answers in the frame */
   frame(frame: Frame): readonly Answer[] {
     const mine = frame.tools.find((tool) => tool.mine);
-    const touches = mine !== undefined && mine.state !== STATE_FREE;
-    const answers = mine ? frame.answers.filter((answer) => answer.toolId === mine.id) : [];
-    if (touches) this.goOn(mine.anchor, answers);
-    else this.end();
+    const toolId = mine ? mine.id : this.toolId; // the last answers of a tool come in the frame that shows it free, or no more
+    this.toolId = mine?.id;
+    const answers = frame.answers.filter((answer) => answer.toolId === toolId);
+    if (mine && mine.state !== STATE_FREE) {
+      this.goOn(mine.anchor, answers);
+    } else {
+      if (this.now) this.goOn(this.now.spot, answers);
+      this.end();
+    }
     return answers;
   }
 

@@ -34,5 +34,6 @@ export class Practice {
   /** Nobody answers any more. */
   end(): void {
     this.press.end();
+    this.card.end();
   }
 }

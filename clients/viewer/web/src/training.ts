@@ -40,6 +40,12 @@ export class Contact {
   }
 }
 
+/** What to do before a place can be named; undefined: a press counted. */
+export function adviceOf(contact: Contact): string | undefined {
+  if (contact.seconds > 0) return undefined;
+  return contact.strongest > 0 ? `Press harder: with more than ${(LEAST_SHARE * contact.limit).toFixed(1)} N.` : 'Press on the organ first.';
+}
+
 /** What is to be found: the region with the fewest nodes of those that end inside the organ. */
 export function noduleOf(mesh: Mesh): Shape | undefined {
   const closed = mesh.regions.filter((region) => region.triangles.length > 0);

@@ -2,7 +2,7 @@
 import { element, setText } from './page';
 import type { Pressed } from './last_press';
 import type { Answer, Mesh, Shape } from './protocol';
-import { Contact, noduleOf, scoreOf, TRAIN_S } from './training';
+import { adviceOf, Contact, noduleOf, scoreOf, TRAIN_S } from './training';
 
 type Goal = 'nodule' | 'below';
 
@@ -46,6 +46,11 @@ export class TrainingCard {
     this.write();
   }
 
+  /** Nobody answers any more: what is left of a goal would be none. */
+  end(): void {
+    if (this.goal) this.stop('The server is gone.');
+  }
+
   /** Call with this page's answers. */
   feel(answers: readonly Answer[]): void {
     if (!this.goal || answers.length === 0) return;
@@ -72,7 +77,8 @@ export class TrainingCard {
 
   private named(): void {
     const last = this.lastPress();
-    if (!this.mesh || !this.nodule || this.contact.seconds === 0 || !last) return this.tell('Press on the organ first.');
+    const advice = adviceOf(this.contact);
+    if (!this.mesh || !this.nodule || !last || advice) return this.tell(advice ?? 'Press on the organ first.');
     const { off, points } = scoreOf(this.mesh, this.nodule, last.spot, this.contact);
     const seconds = Math.round((performance.now() - this.sinceMs) / 1000);
     this.stop(`${points} of 100 points: ${(1000 * off).toFixed(0)} mm off, in ${seconds} s, at most ${this.most()}.`);

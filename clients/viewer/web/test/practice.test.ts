@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { endOfModel } from '../src/depth_slider';
 import { LastPress, type Pressed } from '../src/last_press';
-import type { Answer, Frame, Mesh, Tool } from '../src/protocol';
-import { Contact, noduleOf, scoreOf } from '../src/training';
+import { STATE_FREE, type Answer, type Frame, type Mesh, type Tool } from '../src/protocol';
+import { adviceOf, Contact, noduleOf, scoreOf } from '../src/training';
 import type { Vec3 } from '../src/vec';
 import { ballMesh, frameOf } from './messages';
 
@@ -66,6 +66,28 @@ test('a press is told when it begins and ends, with its largest force and where 
   press.end();
   assert.equal(told.length, 2);
   assert.equal(press.newest?.force, 4);
+});
+
+test('the answers of the frame that shows the tool free, or no more, are of the press', () => {
+  for (const last of [[tool(STATE_FREE, [0, 0, R])], []]) {
+    const told: Pressed[] = [];
+    const press = new LastPress(() => {}, (pressed) => told.push(pressed));
+    const frame = (tools: Tool[], some: Answer[]): Frame => ({ ...frameOf(ballMesh(1, R), () => [0, 0, 0]), tools, answers: some });
+    press.frame(frame([tool(1, [0, 0, R])], [answer(1, 2)]));
+    assert.equal(press.frame(frame(last, [answer(2, 5), answer(3, 0)])).length, 2);
+    assert.deepEqual(told, [{ force: 5, depth: 0.005, spot: [0, 0, R] }]);
+    press.frame(frame([], [answer(4, 9)]));
+    assert.equal(press.newest?.force, 5, 'later answers are another\'s');
+  }
+});
+
+test('who names a place is told to press, or to press harder, until a press counts', () => {
+  const contact = new Contact(2);
+  assert.match(adviceOf(contact) ?? '', /Press on the organ first/);
+  contact.add(answers(0, 1000, 0.3));
+  assert.match(adviceOf(contact) ?? '', /Press harder: with more than 0\.4 N/);
+  contact.add(answers(2_000_000, 100, 0.5));
+  assert.equal(adviceOf(contact), undefined);
 });
 
 test('the model ends as deep as d_max of the touched point', () => {

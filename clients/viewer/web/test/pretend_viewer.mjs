@@ -109,7 +109,7 @@ const http = createServer(async (request, response) => {
 new WebSocketServer({ server: http, path: '/ws' }).on('connection', (socket) => {
   const say = (message) => socket.send(JSON.stringify(message));
   let [seq, target, unacknowledged] = [0, undefined, 0];
-  say({ type: 'hello', version: 'pretended', protocol: 1, page_id: 1, rate_hz: 60, max_message: 4096 });
+  say({ type: 'hello', version: 'pretended', protocol: 2, page_id: 1, rate_hz: 60, max_message: 4096 });
   say({ type: 'mesh', revision: 1, model_id: 'bean', nodes, triangles: organ.triangles.length / 3, tip_radius: TIP });
   say({ type: 'state', server: 'serving', text: 'a pretended organ' });
   socket.send(meshMessage());

@@ -95,8 +95,9 @@ class Reader {
     if (callback != nullptr) {
       listener = dds_create_listener(nullptr);
       dds_lset_data_available_arg(listener, &Reader::onData, binding_.get(), false);
+      // true: each call has the change since the last one. With false Cyclone adds them up until somebody asks for the status.
       if (gone != nullptr)
-        dds_lset_subscription_matched_arg(listener, &Reader::onMatched, binding_.get(), false);
+        dds_lset_subscription_matched_arg(listener, &Reader::onMatched, binding_.get(), true);
     }
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> owner(listener,
                                                                                 &dds_delete_listener);

@@ -52,7 +52,7 @@ class PoseIntake {
   void accept(const dds::ToolPose& pose, dds::WriterId writer,
               std::int64_t arrival_ns) noexcept PALPATE_NONBLOCKING;
 
-  /// The writer is gone: a tool of its goes to whoever sends the next pose.
+  /// The writer is gone: its tools go to the publisher of the next pose.
   void left(dds::WriterId writer) noexcept;
 
   /// Whether DDS shall keep a pose for us: it is for this server, and its tool is known or there is room to answer it. One call at a time, but possibly during an accept().
@@ -73,7 +73,8 @@ class PoseIntake {
   std::int64_t silence_ns_;
   std::array<PoseSample, kMaxTools> newest_{};
   std::array<dds::WriterId, kMaxTools> owner_{};
-  // DDS's discovery thread writes, accept() reads: an owner that is gone. Relaxed, it orders nothing.
+  // An owner that is gone. DDS's discovery thread sets it; accept() reads it, and clears it when the owner sends again after
+  // a silence. Relaxed, it orders nothing.
   std::array<std::atomic<dds::WriterId>, kMaxTools> left_{};
   struct Foreign {
     std::uint64_t count{0};

@@ -58,6 +58,7 @@ class Tick {
   [[nodiscard]] std::uint32_t noticed(const PoseSample& pose, std::uint64_t unordered_before,
                                       std::int64_t now_ns) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] bool rejected(std::size_t tool) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] std::uint32_t told(std::size_t tool) const noexcept PALPATE_NONBLOCKING;
   void countRejectedPoses() noexcept PALPATE_NONBLOCKING;
   void writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
   void answerStranger(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING;
