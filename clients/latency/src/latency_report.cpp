@@ -51,7 +51,10 @@ program::Json worse(std::string_view key, const program::Json& a, const program:
     return all;
   }
   if (a.isNull() || b.isNull()) return {};
-  if (a.isBool()) return a.get<bool>() && b.get<bool>();
+  if (a.isBool()) {
+    const bool true_is_worse = key == "server_left" || key == "interrupted";
+    return true_is_worse ? a.get<bool>() || b.get<bool>() : a.get<bool>() && b.get<bool>();
+  }
   if (!a.isNumber()) return a;
   const bool a_is_less = a.get<double>() < b.get<double>();
   return a_is_less == isWorstAtLeast(key) ? a : b;

@@ -24,7 +24,8 @@ namespace palpate::latency {
                                    const dds::ServerStatus& server);
 
 /// Of several tools' reports each figure at its worst: the longest time, the fewest sent, received and counted, the most of
-/// all else; false where one of them is. Under `tools` the reports themselves.
+/// all else; false where one of them is, but true
+/// where the server left or the user interrupted. Under `tools` the reports themselves.
 [[nodiscard]] program::Json worstOf(const std::vector<program::Json>& tools);
 
 /// What --hdr writes. The log must outlive the result.

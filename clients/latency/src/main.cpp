@@ -90,17 +90,18 @@ std::vector<Assertion> readAssertions(const Options& options) {
 
 // One line for each assertion that fails. What was not measured to its end holds none. Returns the program's exit code.
 int judgeAll(const std::vector<Assertion>& assertions, const std::vector<program::Json>& tools,
-             const SenderStats& sender, const std::string& junit) {
-  const bool complete = !sender.server_left && !sender.interrupted;
+             const program::Json& worst, const std::string& junit) {
+  const bool server_left = worst["server_left"].get<bool>(), interrupted = worst["interrupted"].get<bool>();
+  const bool complete = !server_left && !interrupted;
   std::vector<Outcome> outcomes;
   for (const Assertion& assertion : assertions)
     outcomes.push_back(complete ? judgeEach(assertion, tools)
                                 : Outcome{assertion, false, "not measured to the end"});
-  if (!junit.empty()) program::writeFile(junit, junitOf(outcomes, sender.seconds));
+  if (!junit.empty()) program::writeFile(junit, junitOf(outcomes, worst["seconds"].get<double>()));
   for (const Outcome& outcome : outcomes)
     if (!outcome.held) std::cerr << "palpate-latency: " << failureLine(outcome) << '\n';
-  if (sender.server_left) std::cerr << "palpate-latency: the server left before the end\n";
-  if (sender.server_left || (sender.interrupted && !assertions.empty())) return program::kFailed;
+  if (server_left) std::cerr << "palpate-latency: the server left before the end\n";
+  if (server_left || (interrupted && !assertions.empty())) return program::kFailed;
   const bool all = std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& one) { return one.held; });
   return all ? program::kDone : program::kNotHeld;
 }
@@ -133,13 +134,14 @@ Told toldOf(const std::vector<std::unique_ptr<ToolMeasurement>>& tools, const dd
 int tell(const Options& options, const std::vector<Assertion>& assertions,
          const std::vector<std::unique_ptr<ToolMeasurement>>& tools, const dds::ServerStatus& server) {
   const Told told = toldOf(tools, server);
-  const SenderStats& sender = tools.front()->sender;  // one measurement: all end together
   (options.json ? std::cerr : std::cout) << told.text << std::flush;
-  if (options.json) program::printJson(worstOf(told.reports));
+  const program::Json worst = worstOf(told.reports);
+  if (options.json) program::printJson(worst);
   if (!options.plot.empty()) program::writeFile(options.plot, plotOf(told.logs));
+  const SenderStats& first = tools.front()->sender;
   if (!options.hdr.empty())
-    program::writeFile(options.hdr, hdrLogOf(told.times, {sender.start_ms, sender.seconds}));
-  return judgeAll(assertions, told.reports, sender, options.junit);
+    program::writeFile(options.hdr, hdrLogOf(told.times, {first.start_ms, first.seconds}));
+  return judgeAll(assertions, told.reports, worst, options.junit);
 }
 
 int body(int argc, char** argv) {
@@ -188,6 +190,8 @@ int body(int argc, char** argv) {
   if (!realtime) std::cerr << client::kNotRealtime;
   server.status = statuses.find(runOf(server)).value_or(server.status);
   server.status.late = report::lateSince(late_before, server.status.late);
+
+  // 4. Tell.
   return tell(options, assertions, tools, server.status);
 }
 

@@ -52,10 +52,11 @@ std::vector<std::unique_ptr<ToolMeasurement>> measureTogether(const dds::Partici
   }
   for (std::size_t i = 0; i < tools.size(); ++i) {
     tools[i]->sender = senders[i].get();  // a thread that threw is told when all have ended: futures wait
-    if (tools[i]->log.received() > 0) continue;
-    if (tools[i]->sender.interrupted) throw client::ClientError("interrupted before a force came back");
-    throw client::ClientError("no force came back for " + std::to_string(tools[i]->sender.sent) +
-                              " poses of tool " + std::to_string(tools[i]->tool_id));
+    if (tools[i]->log.received() == 0 && tools[i]->sender.interrupted)
+      throw client::ClientError("interrupted before a force came back");
+    if (tools[i]->log.received() == 0)
+      throw client::ClientError("no force came back for " + std::to_string(tools[i]->sender.sent) +
+                                " poses of tool " + std::to_string(tools[i]->tool_id));
   }
   return tools;
 }
