@@ -52,7 +52,8 @@ struct TickCounts {
 
 inline constexpr const char* kCountsVariable =
     "PALPATE_TICK_COUNTS";  ///< names the shared memory's file descriptor
-inline constexpr const char* kMistakeVariable = "PALPATE_TICK_MISTAKE";  ///< malloc, lock, fault, sleep or spin
-inline constexpr const char* kTickThread = "tick";                       ///< the thread's name
+inline constexpr const char* kMistakeVariable =
+    "PALPATE_TICK_MISTAKE";                         ///< malloc, lock, fault, sleep or spin
+inline constexpr const char* kTickThread = "tick";  ///< the thread's name
 
 }  // namespace palpate::proof
