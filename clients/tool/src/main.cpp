@@ -140,7 +140,7 @@ int playBack(const Options& options) {
   client::catchStopSignals();
   // 2. The server.
   const dds::Participant participant(options.domain);
-  const client::ServerInfo server = client::findServer(participant, options.wait_s, options.server_id);
+  const client::ServerInfo server = client::findServer(participant, options.wait_s, options.wanted);
   std::cerr << notesOf(options.recording, session, asId(options.tool_id), server);
   // 3. Play, and tell.
   const Playback playback = playRecording(participant, session, asId(options.tool_id), runOf(server));
