@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which forces of a recording and of its playback are compared, and how far they are apart. The rest needs a server:
-// real_server_test.cpp.
+// played_session_test.cpp.
 #include "play_recording.h"
 
 #include <gtest/gtest.h>
