@@ -218,7 +218,7 @@ TEST_F(TickTest, AFullRecordingRingCostsTheNewestTicksAndTheCounterShowsIt) {
 }
 
 TEST_F(TickTest, RecordsWhenAPoseWasSentWhenItCameAndItsButtons) {
-  channels_->recording = std::make_unique<rt::SpscQueue<record::RecordedTick, 16384>>();
+  channels_->recording = std::make_unique<rt::SpscQueue<SessionTick, 16384>>();
   dds::ToolPose pose = poseAtDepth(2, -0.01);
   pose.stamp_ns = -5;  // a clock of its own
   pose.buttons = 6;
@@ -226,9 +226,10 @@ TEST_F(TickTest, RecordsWhenAPoseWasSentWhenItCameAndItsButtons) {
   send(pose);
   runOneTick();
   runOneTick();
-  record::RecordedTick tick;
+  SessionTick newest;
+  const record::RecordedTick& tick = newest.tick;
   for (int i = 0; i < 2; ++i) {
-    ASSERT_TRUE(channels_->recording->pop(tick));
+    ASSERT_TRUE(channels_->recording->pop(newest));
     EXPECT_EQ(tick.poses[2], (record::PoseFacts{pose.seq, -5, arrival_ns, 6}));
     EXPECT_EQ(tick.poses[0], record::PoseFacts{}) << "no pose has come";
   }
