@@ -156,8 +156,8 @@ int body(int argc, char** argv) {
   line.footer(
       "The server's operator sets which values are allowed; by default none above that of its start. Without "
       "values it says what is in force, and what is allowed.\n"
-      "Examples: palpate-parameters --friction 0.1 --youngs-modulus 5e4\n          palpate-parameters "
-      "--model kidney.h5");
+      "Example: palpate-parameters --friction 0.1 --youngs-modulus 5e4\n"
+      "Example: palpate-parameters --model kidney.h5");
   if (!line.read(argc, argv)) return program::kDone;
   dds::ParameterRequest request = requestOf(options);
   checkModel(options, request);

@@ -103,7 +103,7 @@ TEST(Bench, RunsWithThePriorityOfTheTickOrSaysThatItMayNot) {
 
 TEST(Bench, RefusesAProcessorAndAModelThatAreNotThere) {
   const ProgramResult cpu = bench({"--cpu", "1000", "--benchmark_list_tests"});
-  EXPECT_EQ(cpu.exit_code, 1);
+  EXPECT_EQ(cpu.exit_code, 2);
   EXPECT_THAT(cpu.err, HasSubstr("palpate-bench: --cpu is 1000, where this process may not run"));
   const ProgramResult model = bench({"/no/such.h5", "--benchmark_list_tests"});
   EXPECT_EQ(model.exit_code, 1);
