@@ -8,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "recording_report.h"
+
 namespace palpate::tool {
 namespace {
 
@@ -74,6 +76,7 @@ TEST(StallMemory, AShortStallIsForgottenSoon) {
 // Answers to a press of 2 N with one that is off, and one of a stall that is further off.
 ReplayedTool someTool(const std::vector<RecordedPose>& poses) {
   ReplayedTool tool;
+  tool.sent = poses.size();
   for (const RecordedPose& pose : poses) tool.poses.push_back({&pose, {}, true});
   for (ReplayedPose& pose : tool.poses)
     for (std::size_t k = 0; k < 3; ++k) pose.now.force[k] = pose.recorded->force[k];
@@ -101,11 +104,43 @@ TEST(ReplayedTool, IsNotCalledTheSameWhereLessThanHalfIsCompared) {
   ReplayedTool tool = someTool(poses);
   tool.poses[0].compared = false;
   EXPECT_TRUE(tool.within(0.016)) << "half of them are";
+  tool.sent = 5;
+  EXPECT_FALSE(tool.within(0.016)) << "a pose without an answer counts";
+  tool.sent = 4;
   tool.poses[1].compared = false;
   EXPECT_FALSE(tool.within(1.0));
   tool.poses.clear();
   EXPECT_FALSE(tool.within(1.0));
   EXPECT_EQ(tool.worst(), nullptr);
+}
+
+TEST(PlayedBack, IsJudgedWhenOneOrganAnsweredAllOfASessionThatTouchedIt) {
+  std::vector<RecordedPose> poses(4);
+  for (RecordedPose& pose : poses) pose.force = {0.0, 0.0, 2.0};
+  const RecordedSession session;
+  const client::ServerInfo server;
+  Playback whole;
+  whole.tools.push_back(someTool(poses));
+  const auto holds = [&](const Playback& playback) {
+    const PlayedBack played{"session.rec", session, playback, server, 0.016};
+    EXPECT_TRUE(played.isJudged() || !played.holds());
+    return played.holds();
+  };
+  EXPECT_TRUE(holds(whole));
+  Playback early = whole;
+  early.interrupted = true;
+  EXPECT_FALSE(holds(early));
+  Playback left = whole;
+  left.server_left = true;
+  EXPECT_FALSE(holds(left));
+  Playback swapped = whole;
+  swapped.model_changes = 1;
+  EXPECT_FALSE(holds(swapped));
+  for (RecordedPose& pose : poses) pose.force = {};
+  Playback in_air;
+  in_air.tools.push_back(someTool(poses));
+  in_air.tools[0].poses[1].now = {};
+  EXPECT_FALSE(holds(in_air));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(PlayedSession, AnswersARecordedSessionAsItDidWhenItIsPlayedBack) {
         EXPECT_LT(tool["summary"]["largest_difference"].get<double>(), 0.01) << tool["summary"];
       }
   }
-  EXPECT_TRUE(report["holds"]) << "at least half of the answers are compared";
+  EXPECT_TRUE(report["holds"]) << "the answers to at least half of the poses are compared";
   EXPECT_EQ(report["recorded_model_id"], report["model_id"]);
   EXPECT_NEAR(report["seconds"].get<double>(), 5.0, 1.0);
   for (const json& tool : report["tools"]) {

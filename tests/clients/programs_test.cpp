@@ -96,7 +96,8 @@ TEST(Programs, RefuseBadOptionsByName) {
   EXPECT_NE(preset.err.find("--preset"), std::string::npos);
   const auto vtk = runProgram("palpate-watch", {"--vtk", "field.stl"});
   EXPECT_EQ(vtk.exit_code, 2);
-  EXPECT_EQ(vtk.err, "palpate-watch: --vtk: cannot write field.stl: expected a name that ends in .vtu or .vtk\n");
+  EXPECT_EQ(vtk.err,
+            "palpate-watch: --vtk: cannot write field.stl: expected a name that ends in .vtu or .vtk\n");
 }
 
 // --wait is long: a program that looked for a server first would not end in time.

@@ -130,6 +130,21 @@ std::optional<std::uint32_t> asId(const std::optional<int>& tool) {
   return tool ? std::optional(static_cast<std::uint32_t>(*tool)) : std::nullopt;
 }
 
+// @return the program's exit code
+int verdictOn(const PlayedBack& played) {
+  if (played.playback.server_left) return program::kFailed;
+  if (!played.within || played.holds()) return program::kDone;
+  if (!played.isJudged()) {
+    std::cerr << "palpate-tool: nothing is judged: "
+              << (played.playback.isWhole() ? "no recorded force can be compared\n"
+                                            : "the session was not played to its end on one organ\n");
+    return program::kFailed;
+  }
+  std::cerr << "palpate-tool: forces differ by more than " << 100.0 * *played.within
+            << " % of the largest, or the answers to less than half of the poses can be compared\n";
+  return program::kNotHeld;
+}
+
 int playBack(const Options& options) {
   // 1. The recording, before anything waits.
   const RecordedSession session =
@@ -150,10 +165,7 @@ int playBack(const Options& options) {
   (options.json ? std::cerr : std::cout) << tableOf(played) << std::flush;
   if (options.json) program::printJson(jsonOf(played));
   if (!options.plot.empty()) program::writeFile(options.plot, plotOf(played));
-  if (played.holds()) return program::kDone;
-  std::cerr << "palpate-tool: forces differ by more than " << *options.within
-            << " % of the largest, or less than half of them can be compared\n";
-  return program::kNotHeld;
+  return verdictOn(played);
 }
 
 int body(int argc, char** argv) {

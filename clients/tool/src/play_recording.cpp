@@ -163,7 +163,7 @@ const ReplayedPose* ReplayedTool::worst() const noexcept {
 
 bool ReplayedTool::within(double share) const noexcept {
   const ReplayedPose* differs = worst();
-  return 2 * compared() >= poses.size() && differs != nullptr &&
+  return 2 * compared() >= sent && differs != nullptr &&
          differs->difference() <= share * largestRecorded();  // false for NaN
 }
 
@@ -177,11 +177,13 @@ Playback playRecording(const dds::Participant& participant, const RecordedSessio
     for (const auto& sender : senders)
       playback.realtime = client::prepareToSend(*sender->client) && playback.realtime;
     sendAll(session, senders, playback);
+    playback.interrupted = client::stopRequested();
     std::this_thread::sleep_for(20ms);  // the last answers are on their way
     for (const auto& sender : senders) {
       const client::LeftOut left_out = sender->client->hold().leftOut();
       playback.left_out += left_out.count;
       if (playback.left_out_text.empty()) playback.left_out_text = client::leftOutText(left_out, statuses);
+      playback.model_changes = std::max(playback.model_changes, sender->client->modelChanges());
       sender->client.reset();
       playback.server_left = playback.server_left || sender->log.server_left;
       playback.tools.push_back(joined(*sender));

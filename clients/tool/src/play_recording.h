@@ -42,7 +42,8 @@ struct ReplayedTool {
   [[nodiscard]] std::uint64_t compared() const noexcept;
   /// The pose whose forces differ most; nothing where none is compared.
   [[nodiscard]] const ReplayedPose* worst() const noexcept;
-  /// Whether no force differs by more than this share of the largest recorded one. False where less than half can be compared.
+  /// Whether no force differs by more than this share of the largest recorded one. False where the answers to less than half of
+  /// the poses that were sent can be compared.
   [[nodiscard]] bool within(double share) const noexcept;
 };
 
@@ -70,7 +71,12 @@ struct Playback {
   std::uint64_t left_out{0};
   std::string left_out_text;  ///< forces of other servers; empty: none
   bool realtime{false};
-  bool server_left{false};  ///< the server said that it shuts down
+  bool server_left{false};         ///< the server said that it shuts down
+  bool interrupted{false};         ///< by a stop signal
+  std::uint64_t model_changes{0};  ///< how often the server took another model
+
+  /// Whether one organ answered the session from its beginning to its end.
+  [[nodiscard]] bool isWhole() const noexcept { return !server_left && !interrupted && model_changes == 0; }
 };
 
 /// Sends the session's poses to a server at their own times, from one thread, with new numbers and stamps, and keeps the first

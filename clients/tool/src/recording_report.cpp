@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "palpate/client/model_changes.h"
 #include "palpate/client/time_summary.h"
 #include "palpate/idl/printable.h"
 #include "palpate/report/program.h"
@@ -108,9 +109,17 @@ Json jsonOf(const ReplayedTool& tool, const RecordedSession& session) {
 
 }  // namespace
 
+bool PlayedBack::isJudged() const noexcept {
+  constexpr double kNoForce = 1e-3;  // N
+  return playback.isWhole() &&
+         std::any_of(playback.tools.begin(), playback.tools.end(),
+                     [](const ReplayedTool& tool) { return tool.largestRecorded() > kNoForce; });
+}
+
 bool PlayedBack::holds() const noexcept {
-  return !within || std::all_of(playback.tools.begin(), playback.tools.end(),
-                                [this](const ReplayedTool& tool) { return tool.within(*within); });
+  return within && isJudged() &&
+         std::all_of(playback.tools.begin(), playback.tools.end(),
+                     [this](const ReplayedTool& tool) { return tool.within(*within); });
 }
 
 std::string notesOf(const std::string& file, const RecordedSession& session, std::optional<std::uint32_t> as,
@@ -145,7 +154,7 @@ std::string tableOf(const PlayedBack& played) {
   const client::TimeSummary late = client::summaryOf(played.playback.lateness);
   text += printed("poses were sent late by %.1f us (p50), %.1f us (p99), %.1f us at most\n", late.p50,
                   late.p99, late.max);
-  text += played.playback.left_out_text;
+  text += played.playback.left_out_text + client::modelChangesText(played.playback.model_changes);
   if (played.playback.server_left) text += "the server shut down before the recording's end\n";
   return text;
 }
@@ -164,7 +173,9 @@ Json jsonOf(const PlayedBack& played) {
           {"truncated", played.session.truncated},
           {"send_lateness_us", report::toJson(client::summaryOf(played.playback.lateness))},
           {"left_out", played.playback.left_out},
+          {"model_changes", played.playback.model_changes},
           {"server_left", played.playback.server_left},
+          {"interrupted", played.playback.interrupted},
           {"within", played.within ? Json(*played.within) : Json()},
           {"holds", played.within ? Json(played.holds()) : Json()},
           {"tools", tools}};

@@ -18,7 +18,9 @@ struct PlayedBack {
   const client::ServerInfo& server;
   std::optional<double> within;  ///< share of the largest recorded force that forces may differ by
 
-  /// Whether all tools' forces are within that; true where it was not asked.
+  /// Whether there is anything to judge: the session was played whole, and a tool touched the organ when it was recorded.
+  [[nodiscard]] bool isJudged() const noexcept;
+  /// Whether all tools' forces are within that. False where nothing is judged or it was not asked.
   [[nodiscard]] bool holds() const noexcept;
 };
 
