@@ -88,7 +88,7 @@ TEST(PlayedSession, OfAnotherStiffnessAnswersARecordedSessionOtherwise) {
 
 // Of delays in a file palpate-feel makes a server's configuration; palpate-device, with the same delays, is stable with it and with a
 // fifth less, and rings with two fifths more than the largest stable one.
-TEST(PlayedSession, UnderDelaysADeviceIsStableWithTheCouplingThatWasFoundForThem) {
+TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
   const TemporaryFolder folder;
   const std::string delays = (folder / "delays.csv").string();
   {
