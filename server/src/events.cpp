@@ -70,11 +70,11 @@ void Events::drain(std::int64_t now_ns) {
     if (isDue(kChangedKind, now_ns)) info(*news.changed);
     noteParameters();
   }
-  noteDelays(now_ns);
   if (news.model) {
     info(*news.model);
     noteParameters();
   }
+  noteDelays(now_ns);
   TickRecord record;
   while (channels_.ticks.pop(record)) noteTick(record, now_ns);
   noteLateTicks(now_ns);

@@ -64,7 +64,9 @@ TEST_F(SpinGuard, AThreadThatNeverSleepsIsSignalledAndFound) {
   const Spinner threads;
   if (!threads.realtime()) GTEST_SKIP() << "SCHED_FIFO is not granted here";
   ASSERT_TRUE(signalComes(milliseconds(20'000)));
-  const std::vector<ThreadFacts> found = spinningThreads(milliseconds(100));
+  std::vector<ThreadFacts> found;
+  for (int look = 0; look < 50 && found.empty(); ++look)  // others of a higher priority may keep it from spinning
+    found = spinningThreads(milliseconds(100));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].name, "spinner");
   ASSERT_EQ(lowerThread(found[0]), 0);

@@ -48,8 +48,9 @@ TEST(LateWatch, EveryLateTickGetsOneCauseAndThoseThatComputedTheirOwn) {
     EXPECT_TRUE(tick.cause == rt::LateCause::kPreempted || tick.by[0] == '\0');
   }
   EXPECT_GE(total, static_cast<int>(kTicks / 20)) << "each that computed for 8 ms was late";
-  // Without a priority, other threads may keep each of them longer than it computes.
-  const int least = thread.realtime() ? static_cast<int>(kTicks / 20) * 8 / 10 : 1;
+  // Other threads and the host may keep each of them longer than it computes.
+  const int kept = told[rt::LateCause::kPreempted] + told[rt::LateCause::kHostSteal];
+  const int least = thread.realtime() ? static_cast<int>(kTicks / 20) * 8 / 10 - kept : 1;
   EXPECT_GE(told[rt::LateCause::kOwnWork], least);
 }
 

@@ -111,7 +111,7 @@ TEST_F(Swap, AViewerWithoutAScreenGoesOnWithTheNewSurface) {
   std::string watched;
   std::thread watch([&] {
     const auto result =
-        runProgram("palpate-watch", {"--seconds", "5", "--json", "--domain", std::to_string(domain_)});
+        runProgram("palpate-watch", {"--seconds", "10", "--json", "--domain", std::to_string(domain_)});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.err.find("the server took another model"), std::string::npos) << result.err;
     watched = result.out;

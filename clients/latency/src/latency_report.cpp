@@ -81,8 +81,8 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
   if (log.poseToField().count() > 0) text += rowOf("pose to field", summaryOf(log.poseToField()));
   text += rowOf("tick, compute time", summaryOf(log.tick()));
   text += rowOf("tick, woke late by", summaryOf(log.wakeup()));
-  text += rowOf("server: pose received", report::summaryOf(server.receive_recent_us.minute));
-  text += rowOf("server: force sent", report::summaryOf(server.force_out_recent_us.minute));
+  text += rowOf("last minute, pose received", report::summaryOf(server.receive_recent_us.minute));
+  text += rowOf("last minute, force sent", report::summaryOf(server.force_out_recent_us.minute));
   text += rowOf("sender, woke late by", summaryOf(sender.wakeup));
   text += program::printed(
       "%.2f s at %g Hz: %llu poses, %llu forces, lost %llu, late %llu, superseded %llu, overruns %llu\n",
