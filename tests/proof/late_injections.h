@@ -14,4 +14,7 @@ inline constexpr std::string_view kWall = "wall";    ///< CLOCK_REALTIME is set 
 
 inline constexpr int kInjections = 60;
 
+/// What it writes to standard error after each: when it began, by the server's CLOCK_MONOTONIC, and for how long, us.
+inline constexpr const char* kInjectedLine = "injected at %lld us for %lld us\n";
+
 }  // namespace palpate::proof
