@@ -111,7 +111,10 @@ void inject() noexcept {
   if (cause == kWork) work();
   if (cause == kFault) touchFreshPages();
   if (cause == kLeap) leapt_ns.fetch_add(kLong);
-  if (cause == kWall) wall_ns.store(2'000'000'000);
+  if (cause == kWall) {
+    wall_ns.store(2'000'000'000);
+    work();
+  }
   tell(at_ns, cause == kLeap ? kLong : cpuTime() - ran_ns);
 }
 
