@@ -124,7 +124,7 @@ void declare(program::Options line, Given& given) {
   line.flag("--check-realtime", &given.check_realtime,
             "Say how kernel, CPUs, interrupts, limits and sleep states suit a punctual tick, and how to "
             "better it; then "
-            "end, with 3 where --realtime require would be refused");
+            "end; with --realtime require by 3 where the priority would be refused");
   line.flag("--json", &given.json, "With --check-realtime: print one JSON object on standard output");
   line.add("--tick-cpu", &given.tick_cpu,
            "CPU that the tick runs on, default -1: where the scheduler puts it");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/server/late_watch.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -96,6 +98,9 @@ void LateWatch::namePreempted(std::int64_t now_ns, bool at_once) {
 }
 
 void LateWatch::tell(const rt::LateVerdict& verdict, const std::string& by) {
+  spdlog::debug("a tick due at {} us ended {} us later: {}{}", verdict.cycle.deadline_ns / 1000,
+                verdict.facts.span_ns / 1000, rt::wordOf(verdict.cause),
+                by.empty() ? std::string() : " by " + by);
   LateTick tick{verdict.facts.span_ns, verdict.cycle.missed, verdict.cause, {}};
   std::copy_n(by.begin(), std::min(by.size(), tick.by.size() - 1), tick.by.begin());
   if (!channels_.late_ticks.push(tick)) channels_.unjudged.fetch_add(1, std::memory_order_relaxed);

@@ -243,7 +243,7 @@ std::vector<MachineCheck> checkMachine(const fs::path& root, std::int64_t tick_c
 
 bool grantsRealtime(const std::vector<MachineCheck>& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const MachineCheck& check) {
-    return check.suits == Suits::kOk || (check.key != "priority" && check.key != "memory_lock");
+    return check.suits == Suits::kOk || check.key != "priority";
   });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <spdlog/cfg/env.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -40,6 +41,7 @@ void prepareProcess() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // the reader of our log may close its end; the server goes on
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("palpate-server", std::make_shared<LogSink>()));
+  spdlog::cfg::load_env_levels();  // SPDLOG_LEVEL=debug
 }
 
 // A real-time thread has computed for kLongestComputation without a sleep. @return whether it is one of ours

@@ -5,10 +5,12 @@
 #include <pthread.h>
 #include <semaphore.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -90,11 +92,30 @@ void touchFreshPages() noexcept {
   munmap(pages, kPages * kPage);
 }
 
+std::int64_t now() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);  // as the server sees it
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+// In the server's log: when, and for how long.
+void tell(std::int64_t at_ns, std::int64_t for_ns) noexcept {
+  char line[80];
+  const int length = std::snprintf(line, sizeof line, kInjectedLine, static_cast<long long>(at_ns / 1000),
+                                   static_cast<long long>(for_ns / 1000));
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, static_cast<std::size_t>(length));
+}
+
 void inject() noexcept {
+  const std::int64_t at_ns = now(), ran_ns = cpuTime();
   if (cause == kWork) work();
   if (cause == kFault) touchFreshPages();
   if (cause == kLeap) leapt_ns.fetch_add(kLong);
-  if (cause == kWall) wall_ns.store(2'000'000'000);
+  if (cause == kWall) {
+    wall_ns.store(2'000'000'000);
+    work();
+  }
+  tell(at_ns, cause == kLeap ? kLong : cpuTime() - ran_ns);
 }
 
 bool isTickThread() noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes ticks of the real server late, for causes that are known: it names at least 95 % of them right.
+// Makes ticks of the real server late, for causes that are known: it names at least 95 % of these very ticks right.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "late_injections.h"
+#include "late_log.h"
 #include "palpate/idl/reader.h"
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
@@ -29,7 +30,6 @@ using palpate::testing::ServerProcess;
 using std::chrono::milliseconds;
 using Count = std::uint64_t;
 
-constexpr Count kNamedRight = kInjections * 95 / 100;
 constexpr milliseconds kStall{8};
 constexpr milliseconds kBetween{40};
 
@@ -37,9 +37,10 @@ void wait(milliseconds time) {
   std::this_thread::sleep_for(time);
 }
 
-Count totalOf(const dds::LateTicks& late) {
-  return late.unknown + late.own_work + late.page_fault + late.preempted + late.stopped + late.host_steal +
-         late.clock_step;
+std::int64_t nowUs() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000 + now.tv_nsec / 1000;
 }
 
 std::string text(const dds::LateTicks& late) {
@@ -66,17 +67,21 @@ class Hog {
 
   [[nodiscard]] bool granted() const { return granted_; }
 
-  void hog(int cpu, int bursts) {
-    thread_ = std::thread([cpu, bursts] {
+  // @return its bursts
+  std::vector<Injection> hog(int cpu) {
+    std::vector<Injection> bursts;
+    thread_ = std::thread([cpu, &bursts] {
       (void)settle(cpu);
-      for (int i = 0; i < bursts; ++i) {
+      for (int i = 0; i < kInjections; ++i) {
         wait(kBetween);
+        bursts.push_back({nowUs(), std::chrono::microseconds(kStall).count()});
         for (const std::int64_t end = ran() + kStall.count() * 1'000'000; ran() < end;) {
         }
       }
       wait(milliseconds(1500));  // still there when it is looked for
     });
     thread_.join();
+    return bursts;
   }
 
  private:
@@ -112,7 +117,9 @@ class LateTicks : public ::testing::Test {
       setenv("LD_PRELOAD", PALPATE_PROOF_DIR "/libpalpate_late_injector.so", 1);
       setenv(kLateCauseVariable, std::string(cause).c_str(), 1);
     }
+    setenv("SPDLOG_LEVEL", "debug", 1);  // each late tick
     server_ = std::make_unique<ServerProcess>(arguments);
+    unsetenv("SPDLOG_LEVEL");
     unsetenv("LD_PRELOAD");
     unsetenv(kLateCauseVariable);
     const auto first = waitFor([](const dds::ServerStatus& status) { return status.ticks > 100; });
@@ -128,28 +135,50 @@ class LateTicks : public ::testing::Test {
     return std::nullopt;
   }
 
-  // Injects and waits until all that is judged. Where the host took time meanwhile, a tick that was made late may be late by that
-  // for the most part: then once more, at most twice.
+  // Injects, waits until all that is judged, and looks how the tick of each injection was named. A tick that a busy machine made
+  // later than the injection is not held against the server; then it injects again.
+  // @param[in] inject  returns what it injected
   template <class Inject>
-  void expectNamed(Count dds::LateTicks::*cause, Inject inject) {
-    for (int tries = 1; tries <= 3; ++tries) {
-      inject();
+  void expectNamed(Count dds::LateTicks::*cause, const std::string& word, Inject inject) {
+    std::vector<Injection> injected;
+    Named named;
+    for (int tries = 0; tries < 5 && named.clear < kInjections / 2; ++tries) {
+      const std::vector<Injection> more = inject();
+      ASSERT_EQ(more.size(), static_cast<std::size_t>(kInjections)) << server_->log();
+      injected.insert(injected.end(), more.begin(), more.end());
       ASSERT_NO_FATAL_FAILURE(judge());
-      RecordProperty("after" + std::to_string(tries), text(after_.late));
-      if (after_.late.*cause - before_.late.*cause >= kNamedRight) return;
-      if (after_.late.host_steal == before_.late.host_steal) break;
-      before_ = after_;
+      named = compare(injected, toldTicks(server_->log()), word);
     }
-    ADD_FAILURE() << kInjections << " were injected\nbefore: " << text(before_.late)
-                  << "\nafter: " << text(after_.late);
+    RecordProperty("right", std::to_string(named.right) + " of " + std::to_string(named.clear));
+    EXPECT_GE(100 * named.right, 95 * named.clear) << named.wrongly;
+    EXPECT_GE(after_.late.*cause - before_.late.*cause, static_cast<Count>(named.right)) << text(after_.late);
+    if (named.clear < kInjections / 2 && !before_.realtime)
+      GTEST_SKIP()
+          << "without a real-time priority other threads kept the ticks for longer than the injections";
+    EXPECT_GE(named.clear, kInjections / 2) << text(after_.late);
   }
 
+  // By the library, which tells of each.
+  std::vector<Injection> injectInside() {
+    const auto before = static_cast<std::ptrdiff_t>(injections(server_->log()).size());
+    server_->signal(SIGUSR2);
+    std::vector<Injection> all = injections(server_->log());
+    for (int i = 0; i < 1500 && std::ssize(all) < before + kInjections; ++i) {
+      wait(milliseconds(20));
+      all = injections(server_->log());
+    }
+    return {all.begin() + before, all.end()};
+  }
+
+  // A status in which all late ticks of before are judged: some are held back for a second.
   void judge() {
-    const Count all = totalOf(before_.late) + kInjections;
-    const auto last = waitFor([all](const dds::ServerStatus& status) { return totalOf(status.late) >= all; });
-    ASSERT_TRUE(last.has_value()) << server_->log();
-    wait(milliseconds(1200));  // others held back for a second
-    after_ = waitFor([](const dds::ServerStatus&) { return true; }).value_or(*last);
+    wait(milliseconds(1200));
+    dds::ServerStatus older;
+    while (statuses_.take({&older, 1}) == 1) {
+    }
+    const auto status = waitFor([](const dds::ServerStatus&) { return true; });
+    ASSERT_TRUE(status.has_value()) << server_->log();
+    after_ = *status;
   }
 
   const std::uint32_t domain_ = palpate::testing::exclusiveDomain();
@@ -162,28 +191,32 @@ class LateTicks : public ::testing::Test {
 
 TEST_F(LateTicks, OfOwnWorkAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start(kWork));
-  expectNamed(&dds::LateTicks::own_work, [this] { server_->signal(SIGUSR2); });
+  expectNamed(&dds::LateTicks::own_work, "own work", [this] { return injectInside(); });
 }
 
 TEST_F(LateTicks, OfPageFaultsAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start(kFault));
-  expectNamed(&dds::LateTicks::page_fault, [this] { server_->signal(SIGUSR2); });
+  expectNamed(&dds::LateTicks::page_fault, "page fault", [this] { return injectInside(); });
 }
 
 TEST_F(LateTicks, OfAClockThatLeapsAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start(kLeap));
-  expectNamed(&dds::LateTicks::clock_step, [this] { server_->signal(SIGUSR2); });
+  expectNamed(&dds::LateTicks::clock_step, "clock step", [this] { return injectInside(); });
 }
 
 TEST_F(LateTicks, OfAStoppedProcessAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start({}));
-  expectNamed(&dds::LateTicks::stopped, [this] {
+  expectNamed(&dds::LateTicks::stopped, "stopped", [this] {
+    std::vector<Injection> stops;
     for (int i = 0; i < kInjections; ++i) {
       wait(kBetween);
+      const std::int64_t at_us = nowUs();
       server_->signal(SIGSTOP);
       wait(kStall);
       server_->signal(SIGCONT);
+      stops.push_back({at_us, nowUs() - at_us});
     }
+    return stops;
   });
 }
 
@@ -194,20 +227,16 @@ TEST_F(LateTicks, OfAThreadWithAHigherPriorityAreNamedAndSoIsTheThread) {
   if (!hog.granted()) GTEST_SKIP() << "SCHED_FIFO is not granted here: no thread can be put above the tick";
   ASSERT_NO_FATAL_FAILURE(start({}, {"--tick-cpu", std::to_string(cpu)}));
   if (!before_.realtime) GTEST_SKIP() << "the server's tick has no real-time priority here";
-  expectNamed(&dds::LateTicks::preempted, [&] { hog.hog(cpu, kInjections); });
-  EXPECT_NE(std::string(after_.late.preempted_by).find("cpu-hog"), std::string::npos)
-      << after_.late.preempted_by;
-  EXPECT_NE(server_->log().find("preempted by cpu-hog ("), std::string::npos) << server_->log();
+  expectNamed(&dds::LateTicks::preempted, "preempted by cpu-hog (", [&] { return hog.hog(cpu); });
+  EXPECT_NE(std::string(after_.late.preempted_by), "");
 }
 
 TEST_F(LateTicks, AreNotCausedByTheWallClockWhichIsReportedByItself) {
   ASSERT_NO_FATAL_FAILURE(start(kWall));
-  server_->signal(SIGUSR2);
-  const auto set = waitFor([](const dds::ServerStatus& status) { return status.clock_steps > 0; });
-  ASSERT_TRUE(set.has_value()) << server_->log();
-  EXPECT_EQ(set->clock_steps, 1U);
-  EXPECT_NEAR(set->clock_step_s, 2.0, 0.01);
-  EXPECT_EQ(set->late.clock_step, 0U) << text(set->late);
+  expectNamed(&dds::LateTicks::own_work, "own work", [this] { return injectInside(); });
+  EXPECT_EQ(after_.clock_steps, 1U);
+  EXPECT_NEAR(after_.clock_step_s, 2.0, 0.01);
+  EXPECT_EQ(after_.late.clock_step, 0U) << text(after_.late);
 }
 
 }  // namespace

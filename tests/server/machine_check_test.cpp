@@ -135,6 +135,20 @@ TEST(MachineCheck, LimitsBindWhereNoCapabilityDoesNot) {
   EXPECT_TRUE(grantsRealtime(machine.all()));
 }
 
+// The server starts without locked memory, and warns.
+TEST(MachineCheck, OnlyThePriorityIsRequired) {
+  const Machine machine;
+  machine.write("proc/self/limits",
+                "Max locked memory         8388608              8388608              bytes     \n"
+                "Max realtime priority     90                   90                   \n");
+  EXPECT_EQ(machine.check("memory_lock").suits, Suits::kCouldBeBetter);
+  EXPECT_TRUE(grantsRealtime(machine.all()));
+  machine.write("proc/self/limits",
+                "Max locked memory         unlimited            unlimited            bytes     \n"
+                "Max realtime priority     79                   79                   \n");
+  EXPECT_FALSE(grantsRealtime(machine.all()));
+}
+
 TEST(MachineCheck, TheTextHasALineForEachAndOneForEachRemedy) {
   const Machine machine;
   machine.write("sys/devices/system/cpu/isolated", "\n");

@@ -111,6 +111,9 @@ TEST(ServiceFiles, TheUnitGrantsWhatTheThreadsWant) {
   EXPECT_EQ(values["[Service]LimitMEMLOCK"], "infinity");
   EXPECT_EQ(values["[Service]DeviceAllow"], "/dev/cpu_dma_latency rw");
   EXPECT_EQ(values.count("[Service]RestrictRealtime"), 0U);
+  // who preempts the tick, and the host's steal (docs/decisions/late_ticks.md)
+  EXPECT_EQ(values["[Service]ProtectProc"], "default");
+  EXPECT_EQ(values.count("[Service]ProcSubset"), 0U);
   EXPECT_THAT(values["[Service]ExecStart"], HasSubstr("/palpate-server --config "));
   EXPECT_EQ(values["[Service]ExecStart"].find('@'), std::string::npos) << "a place that was not filled in";
 }

@@ -28,7 +28,8 @@ struct MachineCheck {
 [[nodiscard]] std::vector<MachineCheck> checkMachine(const std::filesystem::path& root,
                                                      std::int64_t tick_cpu);
 
-/// Whether a server with --realtime require would get its priorities and its memory locked.
+/// Whether a server with --realtime require would get its priorities: nothing else is required, and what cannot be read does
+/// not say so. Memory that is not locked is advice, as at the server's start.
 [[nodiscard]] bool grantsRealtime(const std::vector<MachineCheck>& checks);
 
 /// "ok", "could be better", "unknown"
