@@ -107,6 +107,27 @@ TEST_F(ModelExchangeTest, GoesThroughItsStepsAndFreesTheModelBeforeOnceNobodyLoo
   EXPECT_EQ(exchange_->ask("same.h5", 45, now_ns_ + 2 * kSecond), "");
 }
 
+TEST_F(ModelExchangeTest, SaysWhetherTheModelInUseIsLockedWhateverTheOneBeforeWas) {
+  facts_.process_locked = true;
+  facts_.memory_locked = false;  // the first could not be
+  ASSERT_EQ(exchange_->ask("next.h5", 42, now_ns_), "");
+  EXPECT_FALSE(settle());
+  channels_->engine_in_use = 1;
+  ASSERT_TRUE(exchange_->poll(now_ns_).has_value());
+  const Engine* const taken = channels_->next_engine.load();
+  if (!taken->model->locked()) GTEST_SKIP() << "no memory may be locked here";
+  EXPECT_TRUE(facts_.memory_locked);
+}
+
+TEST_F(ModelExchangeTest, ALockedModelIsNotAllWhereTheProcessIsNotLocked) {
+  facts_.process_locked = false;
+  ASSERT_EQ(exchange_->ask("next.h5", 42, now_ns_), "");
+  EXPECT_FALSE(settle());
+  channels_->engine_in_use = 1;
+  ASSERT_TRUE(exchange_->poll(now_ns_).has_value());
+  EXPECT_FALSE(facts_.memory_locked);
+}
+
 TEST_F(ModelExchangeTest, ARefusedModelChangesNothing) {
   const std::string before = facts_.model_id;
   for (const char* name : {"broken.h5", "none.h5"}) {
