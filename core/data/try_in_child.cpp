@@ -2,11 +2,13 @@
 #include "core/data/try_in_child.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -40,6 +42,10 @@ void setLimits([[maybe_unused]] std::size_t bytes) {
 [[noreturn]] void beChild(int answer, const std::string& name, std::size_t bytes,
                           const std::function<void()>& work) {
   setLimits(bytes);
+  // A server's threads block its signals but for one; here nobody would take them.
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
   std::string text(1, kDone);
   try {
     work();
@@ -52,20 +58,37 @@ void setLimits([[maybe_unused]] std::size_t bytes) {
   ::_exit(said ? 0 : 1);
 }
 
-std::string readAll(int from) {
+constexpr std::size_t kMostSaid = 16'384;  // bytes; a path and why it is refused are fewer
+
+/// What the child says until it closes its end, at most kMostSaid bytes of it. @throw LoadError when that takes too long
+std::string listen(int to, const std::string& name, const Patience& patience) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kLook{100};
+  const auto end = Clock::now() + patience.most;
   std::string text;
   std::array<char, 4096> part{};
-  for (;;) {
-    const ssize_t got = ::read(from, part.data(), part.size());
+  while (text.size() < kMostSaid) {
+    if (patience.given_up != nullptr && patience.given_up->load())
+      throw LoadError(name + ": nobody wants it any more");
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0)
+      throw LoadError(name + ": the process that had HDF5 look at it was not done in " +
+                      std::to_string(patience.most.count()) +
+                      " ms, the file is made to harm or the machine is too busy");
+    pollfd ready{to, POLLIN, 0};
+    if (::poll(&ready, 1, static_cast<int>(std::min(left, kLook).count())) <= 0) continue;
+    const ssize_t got = ::read(to, part.data(), std::min(part.size(), kMostSaid - text.size()));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return text;
+    if (got <= 0) break;
     text.append(part.data(), static_cast<std::size_t>(got));
   }
+  return text;
 }
 
-/// How a child ended that did not say.
+/// How a child ended that did not say. One that goes on is killed; how one ended that has is not changed by that.
 std::string endOf(pid_t child) {
   int status = 0;
+  ::kill(child, SIGKILL);
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return "without a word";
   return WIFSIGNALED(status) ? std::string("by ") + ::strsignal(WTERMSIG(status)) : "without a word";
@@ -77,7 +100,8 @@ std::string endOf(pid_t child) {
 
 /// Starts a child that says on the pipe's second end how it went, and hears it.
 /// @param start  what starts it, given that end; returns 0 and the child, or errno
-void hear(const std::string& name, const std::function<int(int answer, pid_t& child)>& start) {
+void hear(const std::string& name, const Patience& patience,
+          const std::function<int(int answer, pid_t& child)>& start) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) failToStart(name, errno);
   pid_t child = -1;
@@ -87,7 +111,14 @@ void hear(const std::string& name, const std::function<int(int answer, pid_t& ch
     ::close(ends[0]);
     failToStart(name, error);
   }
-  const std::string answer = readAll(ends[0]);
+  std::string answer;
+  try {
+    answer = listen(ends[0], name, patience);
+  } catch (...) {
+    ::close(ends[0]);
+    (void)endOf(child);
+    throw;
+  }
   ::close(ends[0]);
   const std::string end = endOf(child);
   if (answer.empty())
@@ -117,16 +148,18 @@ int spawnSelf(std::array<std::string, 4> arguments, int image, int answer, pid_t
 
 }  // namespace
 
-void tryInChild(const std::string& name, std::size_t bytes, const std::function<void()>& work) {
-  hear(name, [&](int answer, pid_t& child) {
+void tryInChild(const std::string& name, std::size_t bytes, const std::function<void()>& work,
+                const Patience& patience) {
+  hear(name, patience, [&](int answer, pid_t& child) {
     child = ::fork();
     if (child == 0) beChild(answer, name, bytes, work);
     return child < 0 ? errno : 0;
   });
 }
 
-void tryInProgram(const std::string& name, std::size_t bytes, const std::string& argument, int descriptor) {
-  hear(name, [&](int answer, pid_t& child) {
+void tryInProgram(const std::string& name, std::size_t bytes, const std::string& argument, int descriptor,
+                  const Patience& patience) {
+  hear(name, patience, [&](int answer, pid_t& child) {
     return spawnSelf({"palpate-model-trial", argument, name, std::to_string(bytes)}, descriptor, answer,
                      child);
   });

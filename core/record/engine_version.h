@@ -26,7 +26,7 @@ struct EngineVersion {
 
 /// This one's. Raise `answers` whenever step() answers any input with another bit.
 [[nodiscard]] inline EngineVersion thisEngine() noexcept {
-  constexpr std::uint32_t kAnswers = 3;
+  constexpr std::uint32_t kAnswers = 4;
   constexpr std::string_view kProject = PALPATE_VERSION;
   EngineVersion engine{{}, kAnswers};
   static_assert(kProject.size() <= engine.project.size());

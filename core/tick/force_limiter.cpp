@@ -61,7 +61,8 @@ LimitedForce ForceLimiter::limit(const LimiterInput& in,
   memory.blend = std::max(0.0, memory.blend - step);
   if (in.shutting_down) memory.fade = std::max(0.0, memory.fade - step);
   if (in.hands_over) memory.fade = std::max(0.0, memory.fade - std::min(step, shareOf(in, memory.mixed)));
-  memory.gain = memory.fade * freshness(in.age + in.period);
+  const double gain = memory.fade * freshness(in.age + in.period);
+  memory.gain = in.shutting_down || in.hands_over ? std::min(memory.gain, gain) : gain;
   Vec3 mixed = (1.0 - memory.blend) * memory.target + memory.blend * memory.from;
   if (in.hands_over) mixed = memory.mixed;
   if (follow(memory.mixed, in.force_rate_limit * in.dt, mixed, K)) out.flags |= kForceRateLimited;

@@ -52,7 +52,8 @@ struct LimitedForce {
 ///   fade  falls from 1 to 0 within ramp_time at the end; where another engine takes over, also within the rate limit
 ///   gain  = fade clamp((zero_after - age - period) / (zero_after - stale_timeout), 0, 1): judged by the age
 ///   that the force will have when the next one replaces it, so that after zero_after the force is zero
-///   at any rate of the loop. A jump keeps the force of the tick before as `from`
+///   at any rate of the loop. Once fade falls, the gain never rises: poses that come back then are not followed, so
+///   nothing would blend them in. A jump keeps the force of the tick before as `from`
 ///   and lets its weight fall from 1 to 0 within ramp_time. A convex mix, so that two forces that push never
 ///   add to one that pulls, and two within the limit never to one beyond it.
 class ForceLimiter {

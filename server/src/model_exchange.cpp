@@ -79,7 +79,7 @@ ExchangeOutcome ModelExchange::take(std::int64_t now_ns) {
   served_.facts.model_id = engine_->id;
   served_.facts.model_hash = engine_->hash;
   served_.facts.organ = loaded_.organ;
-  served_.facts.memory_locked = served_.facts.memory_locked && engine_->model->locked();
+  served_.facts.memory_locked = served_.facts.process_locked && engine_->model->locked();
   served_.parameters.take(loaded_.organ);
   if (!served_.surface.change(std::move(loaded_.shape)))
     channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);

@@ -48,15 +48,13 @@ ModelLoader::ModelLoader(const std::filesystem::path& folder, Trial trial)
 }
 
 ModelLoader::~ModelLoader() {
-  {
-    const std::lock_guard lock(mutex_);
-    ending_ = true;
-  }
+  ending_ = true;
   work_.post();
 }
 
-void ModelLoader::tryInThisProgram(const SealedImage& image, const std::string& name) {
-  tryInProgram(name, image.bytes().size(), kTrialArgument, image.descriptor());
+void ModelLoader::tryInThisProgram(const SealedImage& image, const std::string& name,
+                                   const Patience& patience) {
+  tryInProgram(name, image.bytes().size(), kTrialArgument, image.descriptor(), patience);
 }
 
 void ModelLoader::load(const std::string& name) {
@@ -96,8 +94,8 @@ void ModelLoader::run() noexcept {
     std::vector<std::unique_ptr<Engine>> engines;  // freed at the end of this turn, outside of the lock
     std::vector<LoadedModel> models;
     {
-      const std::lock_guard lock(mutex_);
       if (ending_) return;
+      const std::lock_guard lock(mutex_);
       wanted.swap(wanted_);
       engines.swap(engines_);
       models.swap(models_);
@@ -115,7 +113,8 @@ LoadedModel ModelLoader::read(const std::string& name) const {
   try {
     const auto image = copyOf(folder_, name);
     // Made in place: a model refers to its own parts.
-    loaded.model.reset(new const MetaModel(MetaModel::load(image, name, [&] { trial_(*image, name); })));
+    loaded.model.reset(new const MetaModel(
+        MetaModel::load(image, name, [&] { trial_(*image, name, {.given_up = &ending_}); })));
     loaded.shape = std::make_unique<const OrganShape>(*loaded.model);
     loaded.organ = {loaded.model->attributes().E, largestStiffness(*loaded.model)};
   } catch (const std::bad_alloc&) {

@@ -36,6 +36,12 @@ std::optional<std::size_t> UnknownIds::place(std::uint32_t tool_id) noexcept PAL
   return count_++;
 }
 
+std::optional<std::int64_t> delayOf(std::int64_t sent_ns, std::int64_t now_ns) noexcept {
+  constexpr std::int64_t kLongest = 10'000'000'000;  // ns
+  if (sent_ns <= 0 || sent_ns > now_ns || now_ns - sent_ns >= kLongest) return std::nullopt;
+  return now_ns - sent_ns;
+}
+
 bool PoseIntake::isForUs(const dds::ToolPose& pose) const noexcept PALPATE_NONBLOCKING {
   return pose.server_id == address_.server_id || (address_.answers_any && pose.server_id == dds::kServerAny);
 }
@@ -136,17 +142,17 @@ void PoseSubscriber::onPoses(dds::ReaderView<dds::ToolPose> reader, void* contex
   const std::int64_t now_ns = rt::monotonicNow();
   for (std::size_t i = 0; i < count; ++i) {
     self.intake_.accept(poses[i], writers[i], now_ns);
-    self.noteDelay(poses[i], sent_ns[i]);
+    self.noteDelay(poses[i], writers[i], sent_ns[i]);
   }
 }
 
-// What is no delay came while the wall clock was set.
-void PoseSubscriber::noteDelay(const dds::ToolPose& pose, std::int64_t sent_ns) noexcept {
-  constexpr std::int64_t kLongest = 10'000'000'000;  // ns
-  if (isUnknown(pose.tool_id) || !channels_.owner_is_here[pose.tool_id].load(std::memory_order_relaxed))
+// Only of the owner, of whom it is known where it runs.
+void PoseSubscriber::noteDelay(const dds::ToolPose& pose, dds::WriterId writer,
+                               std::int64_t sent_ns) noexcept {
+  if (isUnknown(pose.tool_id) || !channels_.owner_is_here[pose.tool_id].load(std::memory_order_relaxed) ||
+      channels_.owners[pose.tool_id].load(std::memory_order_relaxed) != writer)
     return;
-  const std::int64_t delay_ns = dds_time() - sent_ns;
-  if (delay_ns >= 0 && delay_ns < kLongest) (void)channels_.receive_delays.push(delay_ns);
+  if (const auto delay_ns = delayOf(sent_ns, dds_time())) (void)channels_.receive_delays.push(*delay_ns);
 }
 
 void PoseSubscriber::onGone(dds::WriterId writer, void* context) noexcept {

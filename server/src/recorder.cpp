@@ -43,7 +43,7 @@ void Recorder::run() noexcept {
       drain();
       if (polls % kPollsPerFlush == 0) writer_->flush();
     }
-    finish();
+    finish(channels_.unrecorded.load(std::memory_order_relaxed));
   } catch (const std::exception& error) {
     failure_ = error.what();
     channels_.recording_failed.store(true, std::memory_order_relaxed);
@@ -53,28 +53,29 @@ void Recorder::run() noexcept {
 void Recorder::drain() {
   SessionTick next;
   while (channels_.recording->pop(next)) {
-    if (next.engine != engine_) goOn(next.engine);
+    if (next.engine != engine_) goOn(next);
     writer_->write(next.tick);
   }
 }
 
-void Recorder::finish() {
-  const std::uint64_t unrecorded = channels_.unrecorded.load(std::memory_order_relaxed);
+// `unrecorded`: ticks lost before the end of this file.
+void Recorder::finish(std::uint64_t unrecorded) {
   writer_->finish(writer_->ticks() + unrecorded - unrecorded_);
   unrecorded_ = unrecorded;
 }
 
-// Another file for another model.
-void Recorder::goOn(std::uint64_t engine) {
-  finish();
+// Another file for another model. The ring is seconds deep, so what is lost by now may be of any engine: the first tick that
+// came of this one says how many were lost before it, and by its index how many of these were of this engine.
+void Recorder::goOn(const SessionTick& first) {
+  finish(first.unrecorded - first.tick.index);
   finished_ += path_.string() + " (" + std::to_string(writer_->ticks()) + " ticks), ";
   Next next;
   {
     const std::lock_guard lock(mutex_);
-    next = expected_.at(engine);
-    expected_.erase(expected_.begin(), expected_.upper_bound(engine));
+    next = expected_.at(first.engine);
+    expected_.erase(expected_.begin(), expected_.upper_bound(first.engine));
   }
-  engine_ = engine;
+  engine_ = first.engine;
   path_ = next.path;
   writer_.emplace(path_, next.facts);
 }

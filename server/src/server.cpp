@@ -37,16 +37,13 @@ const char* reasonNotLocked(const rt::MemoryLock& lock) {
   return lock.future ? "the model is not" : "under a limit, only what exists by now is";
 }
 
-// @return whether all that exists, what comes and the model are locked
-bool isLocked(const MetaModel& model, const rt::MemoryLock& lock) {
-  const bool locked = lock.present && lock.future && model.locked();
+void tellOfMemory(bool locked, const rt::MemoryLock& lock) {
   if (locked) {
     spdlog::info("memory: locked");
   } else {
     spdlog::warn("memory: not locked ({}), a tick may wait for a page; raise ulimit -l or grant CAP_IPC_LOCK",
                  reasonNotLocked(lock));
   }
-  return locked;
 }
 
 // What a tick's thread gets, tried once before any thread exists. @throw rt::RealtimeError under policy
@@ -91,7 +88,9 @@ Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig
     exchange_.recordBy(*recorder_);
   }
   Startup startup{config.realtime, rt::lockMemory(), model->locked(), false, {}};
-  facts_.memory_locked = isLocked(*model, startup.memory);
+  facts_.process_locked = startup.memory.present && startup.memory.future;
+  facts_.memory_locked = facts_.process_locked && model->locked();
+  tellOfMemory(facts_.memory_locked, startup.memory);
   settleRealtime(config.realtime);
   try {
     startThreads(config);

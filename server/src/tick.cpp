@@ -203,7 +203,8 @@ void Tick::writeRecording(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
     const PoseSample& pose = ledgers_[tool].pose;
     tick.poses[tool] = {pose.seq, pose.stamp_ns, pose.arrival_ns, pose.buttons};
   }
-  if (!channels_.recording->push({tick, engine_->number}))
+  const std::uint64_t lost = channels_.unrecorded.load(std::memory_order_relaxed);
+  if (!channels_.recording->push({tick, engine_->number, lost}))
     channels_.unrecorded.fetch_add(1, std::memory_order_relaxed);
 }
 

@@ -3,12 +3,15 @@
 #include "palpate/server/model_exchange.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
 #include "core/data/load_error.h"
 #include "core/data/sealed_image.h"
+#include "core/data/try_in_child.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
 
@@ -31,7 +34,9 @@ class ModelExchangeTest : public ::testing::Test {
     first_ = first;
     exchange_.emplace(*channels_, Served{facts_, book_, surface_, nullptr},
                       std::make_unique<Engine>(std::move(first), facts_.step),
-                      std::make_unique<ModelLoader>(folder_.path(), &MetaModel::tryToRead));
+                      std::make_unique<ModelLoader>(
+                          folder_.path(), [](const SealedImage& image, const std::string& name,
+                                             const Patience&) { MetaModel::tryToRead(image, name); }));
   }
 
   // Polls until the request has ended, or the tick is to go over.
@@ -107,6 +112,27 @@ TEST_F(ModelExchangeTest, GoesThroughItsStepsAndFreesTheModelBeforeOnceNobodyLoo
   EXPECT_EQ(exchange_->ask("same.h5", 45, now_ns_ + 2 * kSecond), "");
 }
 
+TEST_F(ModelExchangeTest, SaysWhetherTheModelInUseIsLockedWhateverTheOneBeforeWas) {
+  facts_.process_locked = true;
+  facts_.memory_locked = false;  // the first could not be
+  ASSERT_EQ(exchange_->ask("next.h5", 42, now_ns_), "");
+  EXPECT_FALSE(settle());
+  channels_->engine_in_use = 1;
+  ASSERT_TRUE(exchange_->poll(now_ns_).has_value());
+  const Engine* const taken = channels_->next_engine.load();
+  if (!taken->model->locked()) GTEST_SKIP() << "no memory may be locked here";
+  EXPECT_TRUE(facts_.memory_locked);
+}
+
+TEST_F(ModelExchangeTest, ALockedModelIsNotAllWhereTheProcessIsNotLocked) {
+  facts_.process_locked = false;
+  ASSERT_EQ(exchange_->ask("next.h5", 42, now_ns_), "");
+  EXPECT_FALSE(settle());
+  channels_->engine_in_use = 1;
+  ASSERT_TRUE(exchange_->poll(now_ns_).has_value());
+  EXPECT_FALSE(facts_.memory_locked);
+}
+
 TEST_F(ModelExchangeTest, ARefusedModelChangesNothing) {
   const std::string before = facts_.model_id;
   for (const char* name : {"broken.h5", "none.h5"}) {
@@ -158,7 +184,7 @@ TEST_F(ModelExchangeTest, AnOfferThatTheTickNeverTakesIsFreedAtTheEnd) {
 }
 
 TEST_F(ModelExchangeTest, WhatStopsHdf5IsARefusal) {
-  ModelLoader loader(folder_.path(), [](const SealedImage&, const std::string& name) {
+  ModelLoader loader(folder_.path(), [](const SealedImage&, const std::string& name, const Patience&) {
     throw LoadError(name + ": the process that had HDF5 look at it ended");
   });
   loader.load("next.h5");
@@ -168,6 +194,28 @@ TEST_F(ModelExchangeTest, WhatStopsHdf5IsARefusal) {
   ASSERT_TRUE(model.has_value());
   EXPECT_EQ(model->model, nullptr);
   EXPECT_EQ(model->refusal, "next.h5: the process that had HDF5 look at it ended");
+}
+
+TEST_F(ModelExchangeTest, AChildThatHangsDoesNotKeepTheLoaderFromEnding) {
+  std::atomic<bool> begun{false}, ended{false};
+  auto loader = std::make_unique<ModelLoader>(
+      folder_.path(), [&](const SealedImage&, const std::string& name, const Patience& patience) {
+        begun = true;
+        try {
+          tryInChild(
+              name, 0, [] { ::sleep(600); }, patience);
+        } catch (const LoadError&) {
+          ended = true;
+          throw;
+        }
+      });
+  loader->load("next.h5");
+  for (int i = 0; i < 2000 && !begun; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(begun);
+  const auto before = std::chrono::steady_clock::now();
+  loader.reset();
+  EXPECT_TRUE(ended);
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5)) << "it is waited for 30 s";
 }
 
 }  // namespace

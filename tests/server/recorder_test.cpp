@@ -83,6 +83,33 @@ TEST_F(RecorderTest, AnotherModelGoesIntoAnotherFileAndOverwritesNone) {
   }
 }
 
+TEST_F(RecorderTest, TicksLostToAFullRingAreToldInTheFileOfTheirModel) {
+  const palpate::testing::TemporaryFolder folder;
+  Recorder recorder(*channels_, folder / "session.rec", facts());
+  recorder.expect(1, facts());
+  recorder.expect(2, facts());
+  const auto push = [&](std::uint64_t index, std::uint64_t engine, std::uint64_t unrecorded) {
+    ASSERT_TRUE(channels_->recording->push({{index, {}, {}}, engine, unrecorded}));
+  };
+  push(0, 0, 0);  // nothing of the first is lost
+  push(1, 0, 0);
+  push(0, 1, 0);
+  push(4, 1, 3);  // 3 in between, then the last 2 of this one and the first 5 of the next
+  push(5, 2, 10);
+  channels_->unrecorded = 11;  // and one at the end
+  channels_->stopping = true;
+  recorder.run();
+  const std::pair<const char*, std::uint64_t> files[]{
+      {"session.rec", 0}, {"session-2.rec", 5}, {"session-3.rec", 6}};
+  for (const auto& [name, missing] : files) {
+    record::RecordReader reader(folder / name);
+    record::RecordedTick tick;
+    while (reader.next(tick)) {
+    }
+    EXPECT_EQ(reader.end().missing, missing) << name;
+  }
+}
+
 TEST_F(RecorderTest, AFileThatCannotGrowEndsTheRecordingAndNotTheServer) {
   Recorder recorder(*channels_, path_, facts());
   ASSERT_TRUE(channels_->recording->push({{5, {}, {}}, 0}));

@@ -44,6 +44,15 @@ class TickSwap : public TickTest {
       while (channels_->forces.pop(record)) forces_.push_back(record);
     }
   }
+  // Tool 0 of one sender, and tool 1 at 3 mm, which may pause.
+  void pressWithTwo(dds::WriterId sender, bool second = true) {
+    dds::ToolPose pose = poseAtDepth(0, kDepth);
+    // At once into another hand: the first sender is gone.
+    if (sender != kSender) intake_.left(kSender);
+    intake_.accept(pose, sender, now_ns_);
+    if (second) intake_.accept(poseAtDepth(1, 2.0 * kDepth), kThird, now_ns_);
+    runOneTick();
+  }
   void runOneTick() noexcept {
     now_ns_ += kPeriod;
     cycle_.deadline_ns = cycle_.woke_ns = now_ns_;
@@ -55,6 +64,7 @@ class TickSwap : public TickTest {
   [[nodiscard]] bool taken() const { return channels_->engine_in_use.load() == other_.number; }
 
   static constexpr double kDepth = 0.0015;
+  static constexpr dds::WriterId kThird = 3;
   Engine first_{{std::shared_ptr<const void>{}, &model_}, limited()};
   Engine other_{{std::shared_ptr<const void>{}, &otherModel()}, limited(), 1};
   std::vector<ForceRecord> forces_;
@@ -97,6 +107,34 @@ TEST_F(TickSwap, ForcesGoToZeroAndComeBackWithinTheRateLimitAndNoPoseIsUnanswere
   ASSERT_GT(at_zero, offered);
   EXPECT_EQ(sizeOf(forces_[at_zero - 1].result.force), 0.0) << "it was taken at zero force";
   EXPECT_NEAR(static_cast<double>(at_zero - offered), before / (kRate * 1e-3), 3.0);
+}
+
+TEST_F(TickSwap, PosesThatPauseOrChangeHandsMeanwhileRaiseNoForce) {
+  for (int i = 0; i < 300; ++i) pressWithTwo(kSender);
+  (void)takeForces();
+  offer();
+  std::array<double, kMaxTools> last{10.0, 10.0, 10.0, 10.0};
+  double before_pause = 0.0, after_pause = 0.0;
+  int ticks = 0;
+  for (; !taken() && ticks < 1000; ++ticks) {
+    // Tool 0 goes into another hand in the 10th tick, tool 1 pauses from the 20th on.
+    const bool pauses = ticks >= 20 && ticks < 55;
+    pressWithTwo(ticks < 10 ? kSender : kOther, !pauses);
+    for (const ForceRecord& record : takeForces()) {
+      if (record.model_hash != first_.hash) continue;
+      const double size = sizeOf(record.result.force);
+      ASSERT_LE(size, last[record.tool_id]) << "tool " << record.tool_id << ", tick " << ticks;
+      last[record.tool_id] = size;
+      if (ticks == 20 && record.tool_id == 1) before_pause = size;
+      if (ticks == 54 && record.tool_id == 1) after_pause = size;
+    }
+    if (ticks == 10) {
+      EXPECT_EQ(last[0], 0.0) << "a tool that changes hands";
+      EXPECT_GT(last[1], 0.1) << "the other one keeps the engine from being taken";
+    }
+  }
+  EXPECT_TRUE(taken());
+  EXPECT_LT(after_pause, before_pause - 1.2 * 35 * kRate * 1e-3) << "the pause was felt";
 }
 
 TEST_F(TickSwap, IsAtOnceWhereNobodyTouches) {

@@ -215,6 +215,12 @@ TEST_F(TickTest, AFullRecordingRingCostsTheNewestTicksAndTheCounterShowsIt) {
   EXPECT_EQ(tick.index, 0U);
   EXPECT_EQ(tick.input.tools[0].present, 1U);
   EXPECT_EQ(tick.input.dt_ns, 0);
+  EXPECT_EQ(first.unrecorded, 0U);
+  runOneTick();
+  SessionTick newest;
+  while (channels_->recording->pop(newest)) {
+  }
+  EXPECT_EQ(newest.unrecorded, 3U) << "the first that came after the gap";
 }
 
 TEST_F(TickTest, RecordsWhenAPoseWasSentWhenItCameAndItsButtons) {

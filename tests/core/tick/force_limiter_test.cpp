@@ -170,4 +170,25 @@ TEST(ForceLimiter, HandsOverWithinTheRampAndTheRateLimit) {
   }
 }
 
+TEST(ForceLimiter, PosesThatComeBackWhileTheForceEndsDoNotRaiseIt) {
+  for (const bool hands_over : {true, false}) {
+    const ForceLimiter limiter(StepConfig{.ramp_time = 0.2});
+    Rendering memory;
+    LimiterInput in = pushing(Vec3(0.0, 0.6, 0.8));
+    in.period = in.dt;
+    (void)limiter.limit(in, memory);
+    in.hands_over = hands_over;
+    in.shutting_down = !hands_over;
+    in.held = true;
+    double last = 1.0;
+    for (int ms = 1; ms <= 100; ++ms) {
+      in.age = ms > 5 && ms < 40 ? 1e-3 * (ms - 5) : 0.0;  // none came for 35 ms
+      const double size = limiter.limit(in, memory).force.norm();
+      ASSERT_LE(size, last) << ms << " ms";
+      last = size;
+    }
+    EXPECT_GT(last, 0.0) << "it fades on from where the poses left it";
+  }
+}
+
 }  // namespace palpate

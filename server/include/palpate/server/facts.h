@@ -32,7 +32,8 @@ struct Facts {
   bool parameters{true};                      ///< requests may change live parameters
   LiveBounds limits;                          ///< within these
   std::optional<Bounds> tip_limits;           ///< ServerConfig::tip_limits
-  bool memory_locked{false};
+  bool process_locked{false};                 ///< all but models: what is there and what comes
+  bool memory_locked{false};                  ///< and the model that answers
   bool realtime{false};
   std::string realtime_detail;  ///< what was obtained, or how to get it
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/data/try_in_child.h"
 #include "core/tick/coupling_choice.h"
 #include "palpate/rt/semaphore.h"
 #include "palpate/rt/thread.h"
@@ -34,8 +36,9 @@ struct LoadedModel {
 /// fork() of this one. Threads: the functions are called on one. Real-time: no.
 class ModelLoader {
  public:
-  /// Where HDF5 has a first look at a copy. @throw LoadError
-  using Trial = std::function<void(const SealedImage& image, const std::string& name)>;
+  /// Where HDF5 has a first look at a copy. @throw LoadError, also once the patience's `given_up` is set: the loader ends
+  using Trial =
+      std::function<void(const SealedImage& image, const std::string& name, const Patience& patience)>;
 
   /// Starts the thread. @param[in] trial  tryInProgram() of kTrialArgument, or another for tests. @throw ConfigError
   explicit ModelLoader(const std::filesystem::path& folder, Trial trial = &ModelLoader::tryInThisProgram);
@@ -52,18 +55,18 @@ class ModelLoader {
   void discard(LoadedModel model);
 
  private:
-  static void tryInThisProgram(const SealedImage& image, const std::string& name);
+  static void tryInThisProgram(const SealedImage& image, const std::string& name, const Patience& patience);
   void run() noexcept;
   [[nodiscard]] LoadedModel read(const std::string& name) const;
 
   ModelsFolder folder_;
   Trial trial_;
-  std::mutex mutex_;  // the next five
+  std::mutex mutex_;  // the next four
   std::optional<std::string> wanted_;
   std::optional<LoadedModel> loaded_;
   std::vector<std::unique_ptr<Engine>> engines_;  // to be freed, like the next
   std::vector<LoadedModel> models_;
-  bool ending_{false};
+  std::atomic<bool> ending_{false};
   rt::Semaphore work_;
   std::optional<rt::Thread> thread_;  // last: it uses the rest
 };

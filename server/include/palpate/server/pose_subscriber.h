@@ -86,6 +86,11 @@ class PoseIntake {
   UnknownIds admitted_;  // admits()'
 };
 
+/// How long a pose was on its way, ns. @param[in] sent_ns  the stamp from the wire, of the sender's wall clock: anything
+/// @param[in] now_ns  the same clock, if it runs on this host
+/// @return nothing where that is no delay: the clock was set, or no time was stamped
+[[nodiscard]] std::optional<std::int64_t> delayOf(std::int64_t sent_ns, std::int64_t now_ns) noexcept;
+
 /// Takes tool poses from DDS on its receive thread.
 class PoseSubscriber {
  public:
@@ -107,7 +112,7 @@ class PoseSubscriber {
   static void onGone(dds::WriterId writer, void* context) noexcept;
   static bool admits(const dds::ToolPose& pose, void* context) noexcept;
 
-  void noteDelay(const dds::ToolPose& pose, std::int64_t sent_ns) noexcept;
+  void noteDelay(const dds::ToolPose& pose, dds::WriterId writer, std::int64_t sent_ns) noexcept;
 
   Channels& channels_;
   PoseIntake intake_;

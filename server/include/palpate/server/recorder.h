@@ -36,8 +36,8 @@ class Recorder {
 
  private:
   void drain();
-  void goOn(std::uint64_t engine);
-  void finish();
+  void goOn(const SessionTick& first);
+  void finish(std::uint64_t unrecorded);
 
   Channels& channels_;
   std::filesystem::path first_path_;

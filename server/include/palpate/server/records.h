@@ -83,6 +83,7 @@ struct SurfaceSample {
 struct SessionTick {
   record::RecordedTick tick;
   std::uint64_t engine{0};
+  std::uint64_t unrecorded{0};  ///< ticks lost before it, of any engine
 };
 
 /// Tick to events: how one tick went. Counters are totals since the start.
