@@ -65,7 +65,8 @@ TEST_F(SpinGuard, AThreadThatNeverSleepsIsSignalledAndFound) {
   if (!threads.realtime()) GTEST_SKIP() << "SCHED_FIFO is not granted here";
   ASSERT_TRUE(signalComes(milliseconds(20'000)));
   std::vector<ThreadFacts> found;
-  for (int look = 0; look < 50 && found.empty(); ++look)  // others of a higher priority may keep it from spinning
+  for (int look = 0; look < 50 && found.empty();
+       ++look)  // others of a higher priority may keep it from spinning
     found = spinningThreads(milliseconds(100));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].name, "spinner");
