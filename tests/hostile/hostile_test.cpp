@@ -80,13 +80,13 @@ class Hostility : public ::testing::Test {
 };
 
 TEST_F(Hostility, TouchesNoToolThatBehaves) {
-  play(0.3, 14);
+  play(0.3, 20);
 }
 
 class LongHostility : public Hostility {};
 
 TEST_F(LongHostility, TouchesNoToolThatBehaves) {
-  play(1.0, 42);
+  play(1.0, 50);
 }
 
 }  // namespace
