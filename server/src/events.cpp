@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/base/status_flags.h"
+#include "event_kinds.h"
 #include "palpate/rt/clock.h"
 #include "palpate/rt/phase_lock.h"
 #include "palpate/rt/scheduling.h"
@@ -18,25 +19,6 @@ constexpr std::int64_t kStatusPeriod = 1000 * kMs;
 constexpr std::int64_t kChangePeriod = 100 * kMs;  // the shortest time between two status samples
 constexpr std::int64_t kWarnPeriod = 1000 * kMs;
 constexpr std::int64_t kRivalPeriod = 60'000 * kMs;
-
-// Kinds of warning, in addition to one per tool and flag (tool << 32 | flag).
-constexpr std::uint64_t kOverrunKind = 1ULL << 63;
-constexpr std::uint64_t kDropKind = kOverrunKind + 1;
-constexpr std::uint64_t kUnknownToolKind = kOverrunKind + 2;
-constexpr std::uint64_t kFailedWriteKind = kOverrunKind + 3;
-constexpr std::uint64_t kChangedKind = kOverrunKind + 4;
-constexpr std::uint64_t kRefusedKind = kOverrunKind + 7;
-constexpr std::uint64_t kRecordingFailedKind = kOverrunKind + 5;
-constexpr std::uint64_t kUnrecordedKind = kOverrunKind + 6;
-constexpr std::uint64_t kPhaseKind = kOverrunKind + 8;
-constexpr std::uint64_t kMisaddressedKind = kOverrunKind + 9;
-constexpr std::uint64_t kRequestFloodKind = kOverrunKind + 10;
-constexpr std::uint64_t kRivalKind = kOverrunKind + 11;
-constexpr std::uint64_t kMisfitKind = kOverrunKind + 12;
-constexpr std::uint64_t kAnnouncedKind = kOverrunKind + 13;
-constexpr std::uint64_t kAnnouncementFloodKind = kOverrunKind + 14;
-constexpr std::uint64_t kLateKind = kOverrunKind + 15;
-constexpr std::uint64_t kClockStepKind = kOverrunKind + 16;
 
 // Requests to other servers in a second that are no flood yet.
 constexpr std::uint64_t kManyRequests = 200;
@@ -193,57 +175,6 @@ void Events::noteRecording(std::int64_t now_ns) {
   if (unrecorded == unrecorded_ || recording_failed_) return;
   unrecorded_ = unrecorded;
   warn(kUnrecordedKind, "recording: the ring was full (" + std::to_string(unrecorded) + " ticks lost so far)",
-       now_ns);
-}
-
-// Where a pose's delay can be told: the owner of its tool runs here.
-void Events::noteOwners() {
-  if (processes_ == nullptr) return;
-  for (std::size_t tool = 0; tool < owners_.size(); ++tool) {
-    const std::uint64_t owner = channels_.owners[tool].load(std::memory_order_relaxed);
-    if (owner == owners_[tool]) continue;
-    owners_[tool] = owner;
-    const std::string host = processes_->processOf(poses_, owner).host;
-    channels_.owner_is_here[tool].store(host == status_.facts().host, std::memory_order_relaxed);
-  }
-}
-
-void Events::noteDelays(std::int64_t now_ns) {
-  for (Times* times : {&health_.tick, &health_.wakeup, &health_.receive, &health_.force_out})
-    times->recent.goOn(now_ns);
-  std::int64_t delay_ns = 0;
-  while (channels_.receive_delays.pop(delay_ns)) health_.receive.add(delay_ns);
-  while (channels_.force_delays.pop(delay_ns)) health_.force_out.add(delay_ns);
-}
-
-// Every late tick counts; of those that missed a period one a second is told.
-void Events::noteLateTicks(std::int64_t now_ns) {
-  const std::uint64_t unjudged = channels_.unjudged.load(std::memory_order_relaxed);
-  health_.late[static_cast<std::size_t>(rt::LateCause::kUnknown)] += unjudged - unjudged_;
-  unjudged_ = unjudged;
-  LateTick tick;
-  while (channels_.late_ticks.pop(tick)) {
-    ++health_.late[static_cast<std::size_t>(tick.cause)];
-    const std::string by = tick.by.data();
-    if (!by.empty()) health_.preempted_by = by;
-    if (tick.missed > 0)
-      warn(kLateKind,
-           "a tick ended " + std::to_string(tick.late_ns / 1000) + " us after it was due: " +
-               (tick.cause == rt::LateCause::kUnknown ? "cause unknown" : rt::wordOf(tick.cause)) +
-               (by.empty() ? "" : " by " + by),
-           now_ns);
-  }
-}
-
-void Events::noteClockSteps(std::int64_t now_ns) {
-  const std::uint64_t steps = channels_.clock_steps.load(std::memory_order_relaxed);
-  if (steps == health_.clock_steps) return;
-  health_.clock_steps = steps;
-  health_.clock_step_ns = channels_.clock_step_ns.load(std::memory_order_relaxed);
-  warn(kClockStepKind,
-       "the machine's wall clock was set by " +
-           std::to_string(1e-9 * static_cast<double>(health_.clock_step_ns)) +
-           " s: no tick depends on it, stamps taken from it jump",
        now_ns);
 }
 
