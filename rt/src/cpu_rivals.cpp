@@ -96,13 +96,19 @@ void CpuRivals::lookAt(const fs::path& task, int process) {
   if (!thread) return;
   thread->process = process;
   thread->id = std::atoi(task.filename().c_str());
+  if (thread->id == thread_) return;
   const bool outranks = priority_ == 0 || thread->deadline || thread->priority >= priority_;
-  if (!outranks || thread->id == thread_) return;
-  thread->ran_ns = std::atoll(contentOf(task / "schedstat").c_str());
   const auto [entry, is_new] = seen_.try_emplace(thread->id);
-  // One that was not there at the look before ran since then, whatever it ran.
-  const std::int64_t before_ns = is_new ? (first_ ? thread->ran_ns : 0) : entry->second.thread.ran_ns;
-  entry->second = {*thread, thread->ran_ns - before_ns, true};
+  if (!outranks) {  // how much it ran is not read, but that it was there is known when it is raised
+    entry->second = {*thread, 0, true, false};
+    return;
+  }
+  thread->ran_ns = std::atoll(contentOf(task / "schedstat").c_str());
+  // One that was not there at the look before ran since then, whatever it ran. Of one that has just been raised nobody knows.
+  const std::int64_t before_ns = is_new && !first_        ? 0
+                                 : entry->second.outranks ? entry->second.thread.ran_ns
+                                                          : thread->ran_ns;
+  entry->second = {*thread, thread->ran_ns - before_ns, true, true};
 }
 
 std::optional<MachineThread> CpuRivals::mostOn(std::span<const int> cpus, std::int64_t least_ns) const {

@@ -49,9 +49,11 @@ bool LateJudge::stolenFrom(const LateCycle& cycle) const {
   const StealSample* after = nullptr;
   for (const StealSample& sample : steal_) {
     if (sample.at_ns <= cycle.before.at_ns) before = &sample;
-    if (sample.at_ns <= cycle.ended.at_ns + kPatience) after = &sample;
+    if (after == nullptr && sample.at_ns >= cycle.ended.at_ns + kStealTold) after = &sample;
   }
   if (before == nullptr || after == nullptr) return false;
+  if (cycle.before.at_ns - before->at_ns > kPatience || after->at_ns - cycle.ended.at_ns > kPatience)
+    return false;
   return stolenOn(*after, cycle.before.cpu) > stolenOn(*before, cycle.before.cpu) ||
          stolenOn(*after, cycle.ended.cpu) > stolenOn(*before, cycle.ended.cpu);
 }
@@ -88,8 +90,10 @@ std::vector<LateVerdict> LateJudge::take(std::int64_t now_ns, bool at_once) {
   for (LateVerdict& verdict : waiting_) {
     verdict.facts.stolen = stolenFrom(verdict.cycle);
     verdict.cause = causeOf(verdict.facts);
-    const bool patient =
-        verdict.cause == LateCause::kUnknown && !at_once && now_ns < verdict.cycle.ended.at_ns + kPatience;
+    const bool patient =  // for the first sample of the steal that tells
+        verdict.cause == LateCause::kUnknown &&
+        (steal_.empty() || steal_.back().at_ns < verdict.cycle.ended.at_ns + kStealTold) && !at_once &&
+        now_ns < verdict.cycle.ended.at_ns + kPatience;
     (patient ? static_cast<void>(later.push_back(verdict)) : static_cast<void>(certain.push_back(verdict)));
   }
   waiting_ = std::move(later);

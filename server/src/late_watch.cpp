@@ -17,7 +17,9 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kPeriod = 20 * kMs;
-constexpr std::int64_t kStealPeriod = 100 * kMs;
+constexpr std::int64_t kStealShare =
+    100;  // of the time is spent reading the steal: many processors, long file
+constexpr std::int64_t kStealPeriod = 200 * kMs;  // at most
 constexpr std::int64_t kLookPeriod = 1000 * kMs;  // a look costs milliseconds
 constexpr std::int64_t kLookAgain = 100 * kMs;    // after a late tick
 constexpr std::int64_t kClockStep = kMs;          // a clock that is slewed drifts by 10 us in 20 ms
@@ -69,9 +71,9 @@ void LateWatch::run() noexcept {
 void LateWatch::sample(std::int64_t now_ns) {
   const std::int64_t slack_ns = tick_.slack();
   judge_.note(rt::QueueSample{now_ns, queue_.queued_ns(), slack_ns});
-  if (now_ns - stolen_at_ns_ < kStealPeriod) return;
-  stolen_at_ns_ = now_ns;
+  if (now_ns < steal_due_ns_) return;
   judge_.note(rt::StealSample{now_ns, stolenSoFar()});
+  steal_due_ns_ = now_ns + std::min(kStealPeriod, kStealShare * (rt::monotonicNow() - now_ns));
 }
 
 void LateWatch::judge(std::int64_t now_ns, bool at_once) {

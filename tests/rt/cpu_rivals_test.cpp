@@ -98,6 +98,20 @@ TEST_F(FakeProc, OnlyThreadsThatMayKeepOursWaitingAreRivals) {
   EXPECT_EQ(ordinary.mostOn(kSecondCpu, kMs)->text(), "events (9/101)");
 }
 
+TEST_F(FakeProc, WhatAThreadRanBeforeItWasRaisedDoesNotCount) {
+  CpuRivals rivals(100, 80, proc_);
+  thread(2, 2, "raised", 1, 0, 5000 * kMs);
+  rivals.look();
+  thread(2, 2, "raised", 1, 90, 5001 * kMs);
+  thread(3, 3, "hog", 1, 85, 4 * kMs);
+  rivals.look();
+  ASSERT_TRUE(rivals.mostOn(kSecondCpu, kMs));
+  EXPECT_EQ(rivals.mostOn(kSecondCpu, kMs)->name, "hog");
+  thread(2, 2, "raised", 1, 90, 5008 * kMs);
+  rivals.look();
+  EXPECT_EQ(rivals.mostOn(kSecondCpu, kMs)->name, "raised");
+}
+
 TEST_F(FakeProc, AThreadThatIsGoneIsNotNamed) {
   CpuRivals rivals(100, 80, proc_);
   rivals.look();

@@ -28,7 +28,7 @@ namespace {
 struct Arguments {
   std::string preset{"touch"};
   std::optional<double> mass, damping, friction;
-  std::string hand{"0.1,2,200"};
+  std::string hand;
   std::string motion{"press"};
   MotionOptions path;
   std::string delay_from;
@@ -48,9 +48,13 @@ void addDevice(program::Options line, Arguments& arguments) {
       .range(0.001, 10.0, "kg");
   line.add("--damping", &arguments.damping, "its viscous damping; default: the preset's, custom 0")
       .range(0.0, 100.0, "N s/m");
-  line.add("--friction", &arguments.friction, "its Coulomb friction; default: the preset's, custom 0")
+  line.add("--friction", &arguments.friction,
+           "its Coulomb friction; default: the preset's, custom 0; with --delay-from 0")
       .range(0.0, 10.0, "N");
-  line.add("--hand", &arguments.hand, "mass (kg), damping (N s/m), stiffness (N/m) of the hand: M,B,K");
+  line.add(
+      "--hand", &arguments.hand,
+      "mass (kg), damping (N s/m), stiffness (N/m) of the hand: M,B,K; default: 0.1,2,200; with --delay-from "
+      "0.02,0.5,50, the loosest");
 }
 
 void addOptions(program::Options line, Arguments& arguments) {
@@ -84,12 +88,14 @@ Mechanics mechanicsOf(const Arguments& arguments) {
   if (const auto preset = findDevicePreset(arguments.preset)) mechanics = device::mechanicsOf(*preset);
   mechanics.mass = arguments.mass.value_or(mechanics.mass);
   mechanics.damping = arguments.damping.value_or(mechanics.damping);
+  if (!arguments.delay_from.empty()) mechanics.friction = 0.0;  // it hides what rings
   mechanics.friction = arguments.friction.value_or(mechanics.friction);
   program::orUsageError([&] { check(mechanics); });
   return mechanics;
 }
 
 Hand handOf(const Arguments& arguments) {
+  if (arguments.hand.empty()) return arguments.delay_from.empty() ? Hand{} : kLoosestHand;
   const std::array<double, 3> values = program::parseVector("--hand", arguments.hand);
   const Hand hand{values[0], values[1], values[2]};
   program::orUsageError([&] { check(hand); }, "--hand: ");
@@ -183,6 +189,7 @@ int body(int argc, char** argv) {
   checkMotion(arguments);
   std::optional<Delays> delays;
   if (!arguments.delay_from.empty()) delays = Delays::read(arguments.delay_from);
+  if (delays) std::cerr << delays->note();
   client::catchStopSignals();
 
   // 2. Find the server and its organ.

@@ -23,6 +23,14 @@ std::string rowOf(const char* name, const client::TimeSummary& s) {
                           static_cast<unsigned long long>(s.count));
 }
 
+// Of the server's run, beside its last minute and second.
+std::string recentRowsOf(const std::string& what, const dds::Percentiles& run,
+                         const dds::RecentTimes& recent) {
+  return rowOf((what + ", run").c_str(), report::summaryOf(run)) +
+         rowOf("  its last minute", report::summaryOf(recent.minute)) +
+         rowOf("  its last second", report::summaryOf(recent.second));
+}
+
 const char* phaseName(const dds::ServerStatus& server) {
   switch (server.phase_lock) {
     case dds::phase::kFree:
@@ -81,8 +89,10 @@ std::string textOf(const LatencyLog& log, const SenderStats& sender, const dds::
   if (log.poseToField().count() > 0) text += rowOf("pose to field", summaryOf(log.poseToField()));
   text += rowOf("tick, compute time", summaryOf(log.tick()));
   text += rowOf("tick, woke late by", summaryOf(log.wakeup()));
-  text += rowOf("last minute, pose received", report::summaryOf(server.receive_recent_us.minute));
-  text += rowOf("last minute, force sent", report::summaryOf(server.force_out_recent_us.minute));
+  text += recentRowsOf("server's tick, compute", server.tick_us, server.tick_recent_us);
+  text += recentRowsOf("server's tick, woke late by", server.wakeup_us, server.wakeup_recent_us);
+  text += recentRowsOf("pose received", server.receive_us, server.receive_recent_us);
+  text += recentRowsOf("force sent", server.force_out_us, server.force_out_recent_us);
   text += rowOf("sender, woke late by", summaryOf(sender.wakeup));
   text += program::printed(
       "%.2f s at %g Hz: %llu poses, %llu forces, lost %llu, late %llu, superseded %llu, overruns %llu\n",
@@ -109,6 +119,11 @@ program::Json jsonOf(const LatencyLog& log, const SenderStats& sender, const dds
           {"tick_us", report::toJson(summaryOf(log.tick()))},
           {"receive_us", report::toJson(report::summaryOf(server.receive_recent_us.minute))},
           {"force_out_us", report::toJson(report::summaryOf(server.force_out_recent_us.minute))},
+          {"server_times_us",
+           {{"tick", report::timesJson(server.tick_us, server.tick_recent_us)},
+            {"wakeup", report::timesJson(server.wakeup_us, server.wakeup_recent_us)},
+            {"receive", report::timesJson(server.receive_us, server.receive_recent_us)},
+            {"force_out", report::timesJson(server.force_out_us, server.force_out_recent_us)}}},
           {"late_ticks", report::toJson(server.late)},
           {"phase_lock", phaseName(server)},
           {"client_wakeup_us", report::toJson(summaryOf(sender.wakeup))},

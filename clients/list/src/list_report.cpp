@@ -2,8 +2,10 @@
 #include "list_report.h"
 
 #include <algorithm>
+#include <array>
 
 #include "palpate/idl/printable.h"
+#include "palpate/report/late_ticks.h"
 #include "tools/program/printed.h"
 
 namespace palpate::list {
@@ -39,11 +41,33 @@ std::string organText(const Organ& organ) {
   return text;
 }
 
+struct NamedTimes {
+  const char* name;
+  const char* key;
+  const dds::Percentiles* run;
+  const dds::RecentTimes* recent;
+};
+
+std::array<NamedTimes, 4> timesOf(const dds::ServerStatus& status) {
+  return {{{"tick", "tick", &status.tick_us, &status.tick_recent_us},
+           {"woke late by", "wakeup", &status.wakeup_us, &status.wakeup_recent_us},
+           {"pose received", "receive", &status.receive_us, &status.receive_recent_us},
+           {"force sent", "force_out", &status.force_out_us, &status.force_out_recent_us}}};
+}
+
+std::string timesText(const NamedTimes& times) {
+  const auto pair = [](const dds::Percentiles& over) { return printed("%.0f / %.0f", over.p50, over.p99); };
+  return printed("  %-14s p50 / p99 us: run ", times.name) + pair(*times.run) + ", last minute " +
+         pair(times.recent->minute) + ", last second " + pair(times.recent->second) + '\n';
+}
+
 std::string serverText(const Listing& listing, const Server& server) {
   const dds::ServerStatus& status = server.status;
   std::string text = client::describe(status) + printed("\n  %.0f Hz, ", status.rate_hz) +
                      (status.answers_any ? "answers poses that name it or no server\n"
                                          : "answers only poses that name it\n");
+  for (const NamedTimes& times : timesOf(status)) text += timesText(times);
+  text += "  late ticks " + report::lateText(status.late) + '\n';
   for (const Organ& organ : server.organs) text += organText(organ);
   if (server.organs.empty()) text += "  no organ's surface came yet\n";
   for (std::size_t tool = 0; tool < toolsOf(server); ++tool)
@@ -90,8 +114,12 @@ Json serverJson(const Server& server) {
             {"rate_hz", status.rate_hz},
             {"answers_any", status.answers_any},
             {"model_id", dds::printable(status.model_id)},
+            {"times_us", Json::object()},
+            {"late_ticks", report::toJson(status.late)},
             {"organs", Json::array()},
             {"tools", Json::array()}};
+  for (const NamedTimes& times : timesOf(status))
+    json["times_us"][times.key] = report::timesJson(*times.run, *times.recent);
   for (const Organ& organ : server.organs) json["organs"].push_back(organJson(organ));
   for (std::size_t tool = 0; tool < toolsOf(server); ++tool)
     json["tools"].push_back(

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "palpate/report/program.h"
+
 namespace palpate::report {
 namespace {
 
@@ -64,6 +66,12 @@ program::Json toJson(const dds::LateTicks& late) {
 
 client::TimeSummary summaryOf(const dds::Percentiles& times) {
   return {times.p50, times.p99, times.p999, times.max, times.count};
+}
+
+program::Json timesJson(const dds::Percentiles& run, const dds::RecentTimes& recent) {
+  return {{"run", toJson(summaryOf(run))},
+          {"minute", toJson(summaryOf(recent.minute))},
+          {"second", toJson(summaryOf(recent.second))}};
 }
 
 }  // namespace palpate::report

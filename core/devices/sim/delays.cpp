@@ -144,6 +144,8 @@ Delays::Delays(std::span<const DelaySample> samples) {
   const std::vector<std::size_t> arrivals = arrivalsOf(samples);
   poses_ = samples.size();
   lost_ = samples.size() - arrivals.size();
+  const double seconds = samples.back().sent_s - samples.front().sent_s;
+  if (seconds > 0.0) rate_ = static_cast<double>(samples.size() - 1) / seconds;
   for (std::size_t i = 1, newest = 0; i < arrivals.size(); ++i) {
     newest = std::max(newest, arrivals[i - 1]);
     reordered_ += arrivals[i] < newest ? 1 : 0;
@@ -182,6 +184,13 @@ Delays Delays::read(const std::filesystem::path& file) {
   } catch (const std::invalid_argument& error) {
     throw DelayError(file.string() + ": " + error.what());
   }
+}
+
+std::string Delays::note() const {
+  constexpr double kLeastRate = 0.5 / kPeriod;  // Hz
+  if (rate_ == 0.0 || rate_ >= kLeastRate) return {};
+  return "note: the delays were measured with " + std::to_string(std::llround(rate_)) +
+         " poses a second; a device at 1 kHz, whose poses go out that seldom, is judged\n";
 }
 
 std::size_t Delays::worstStretch(std::size_t length) const noexcept {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace palpate::device {
@@ -51,6 +52,10 @@ class Delays {
   [[nodiscard]] std::size_t size() const noexcept { return periods_.size(); }
   [[nodiscard]] double meanLag() const noexcept { return mean_lag_; }             ///< periods
   [[nodiscard]] std::size_t largestLag() const noexcept { return largest_lag_; }  ///< periods
+  /// Poses that were sent in a second, Hz; 0: fewer than two.
+  [[nodiscard]] double rate() const noexcept { return rate_; }
+  /// A line, with its end, where poses were sent more seldom than a device at 1 kHz sends them; else empty.
+  [[nodiscard]] std::string note() const;
   [[nodiscard]] std::size_t poses() const noexcept { return poses_; }
   [[nodiscard]] std::size_t lost() const noexcept { return lost_; }  ///< poses without an answer
   [[nodiscard]] std::size_t reordered() const noexcept {
@@ -62,7 +67,7 @@ class Delays {
 
  private:
   std::vector<Period> periods_;
-  double mean_lag_{0.0};
+  double mean_lag_{0.0}, rate_{0.0};
   std::size_t largest_lag_{0}, poses_{0}, lost_{0}, reordered_{0}, stalled_{0};
 };
 

@@ -19,6 +19,9 @@ struct Hand {
   double stiffness{200.0};  ///< K, N/m, in [1, 1e5]
 };
 
+/// Of the hands of `palpate-feel coupling` the loosest: it damps least, so it rings first. That of palpate-device --delay-from.
+inline constexpr Hand kLoosestHand{0.02, 0.5, 50.0};
+
 /// @throw std::invalid_argument naming the first field out of its range, its value and the range
 void check(const Mechanics& device);
 void check(const Hand& hand);

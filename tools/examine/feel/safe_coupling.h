@@ -18,7 +18,7 @@ namespace palpate::feel {
 
 /// Hands of `palpate-feel coupling`: loose, ordinary, firm; kg, N s/m, N/m.
 inline constexpr std::array<device::Hand, 3> kHands{
-    {{0.02, 0.5, 50.0}, {0.1, 2.0, 200.0}, {0.2, 5.0, 500.0}}};
+    {device::kLoosestHand, {0.1, 2.0, 200.0}, {0.2, 5.0, 500.0}}};
 /// Organs of `palpate-feel coupling`: E, Pa.
 inline constexpr std::array<double, 4> kModuli{5e3, 20e3, 160e3, 1e6};
 

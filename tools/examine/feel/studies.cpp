@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/base/contact_point.h"
@@ -106,6 +108,31 @@ ContactPoint ordinaryPlace(const MetaModel& model, unsigned seed) {
   return places[49].second;
 }
 
+// Where palpate-device presses by default: the highest accessible node whose neighbours are accessible too, or the highest one.
+ContactPoint highestPlace(const MetaModel& model) {
+  const SurfaceMesh& surface = model.surface();
+  const std::vector<std::uint8_t> accessible = model.accessibleNodes();
+  std::vector<std::uint8_t> inner = accessible;
+  const std::span<const std::int32_t> corners = model.view().surface_triangles;
+  for (std::size_t t = 0; t < corners.size(); t += 3) {
+    const auto triangle = corners.subspan(t, 3);
+    if (std::any_of(triangle.begin(), triangle.end(),
+                    [&](std::int32_t node) { return accessible[static_cast<std::size_t>(node)] == 0; }))
+      for (const std::int32_t node : triangle) inner[static_cast<std::size_t>(node)] = 0;
+  }
+  if (std::find(inner.begin(), inner.end(), 1) == inner.end()) inner = accessible;
+  ContactPoint highest;
+  double height = -std::numeric_limits<double>::infinity();
+  for (int node = 0; node < surface.nodes(); ++node) {
+    const ContactPoint s = surface.atNode(node);
+    const double z = surface.position(s).z();
+    if (inner[static_cast<std::size_t>(node)] == 0 || z <= height) continue;
+    highest = s;
+    height = z;
+  }
+  return highest;
+}
+
 // All of them, or the one that was asked for.
 std::vector<DevicePreset> presetsOf(const Study& study) {
   if (const auto preset = findDevicePreset(study.preset)) return {*preset};
@@ -116,7 +143,7 @@ std::vector<DevicePreset> presetsOf(const Study& study) {
 int runSafeCoupling(const Study& study) {
   const device::Delays delays = device::Delays::read(study.delay_from);
   const MetaModel model = MetaModel::load(study.model);
-  const ContactPoint s = ordinaryPlace(model, study.seed);
+  const ContactPoint s = highestPlace(model);
   const double organ_stiffness = largestStiffness(model);
   std::cerr << program::printed(
       "%s: %zu poses, %zu without an answer, %zu answers out of order; %zu periods of 1 ms, delay %.2f ms in "
@@ -124,6 +151,7 @@ int runSafeCoupling(const Study& study) {
       "%zu at most; %zu periods left out in which the server would fade the force\n",
       study.delay_from.c_str(), delays.poses(), delays.lost(), delays.reordered(), delays.size(),
       delays.meanLag(), delays.largestLag(), delays.stalled());
+  std::cerr << delays.note();
   Json rows = Json::array();
   bool all = true;
   for (const DevicePreset& preset : presetsOf(study)) {

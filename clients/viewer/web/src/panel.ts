@@ -60,15 +60,13 @@ export class Panel {
   }
 
   private server(status: Said): void {
-    const tick = asRecord(status['tick_minute_us'] ?? status['tick_us']);
-    const wake = asRecord(status['wakeup_minute_us'] ?? status['wakeup_us']);
     const viewer = asRecord(status['viewer']);
     const overruns = numberIn(status, 'overruns');
     const ticks = numberIn(status, 'ticks');
     this.row(this.isAlone ? 'Ticks' : 'Server', Number.isFinite(ticks) ? `${brief(numberIn(status, 'rate_hz'), 0)} Hz, ${String(status['device'] ?? '–')}` : '–');
     if (this.isAlone) this.row('Fields evaluated', `${brief(numberIn(status, 'fields_hz'), 0)} / s`);
-    this.row('Tick', `${brief(numberIn(tick, 'p50'), 0)} / ${brief(numberIn(tick, 'p99'), 0)} µs`);
-    this.row('Woke late', `${brief(numberIn(wake, 'p50'), 0)} / ${brief(numberIn(wake, 'p99'), 0)} µs`);
+    this.times('Tick', 'tick', status);
+    this.times('Woke late', 'wakeup', status);
     this.row('Ticks missed', Number.isFinite(overruns) ? `${overruns} of ${ticks}` : '–', overruns > 0.01 * ticks ? 'bad' : '');
     this.row('Late ticks', lateWords(asRecord(status['late_ticks'])));
     const granted = status['realtime'];
@@ -76,6 +74,18 @@ export class Panel {
     this.row('Force limit', `${brief(numberIn(status, 'force_limit'))} N`);
     this.row('Pages at the viewer', brief(numberIn(viewer, 'pages'), 0));
     if (this.kept !== undefined) this.row('Without a network', this.kept || 'works');
+  }
+
+  // Median and 99 % over the run, and where the server says them beside it over its last minute and second.
+  private times(name: string, key: string, status: Said): void {
+    const over = (span: string): string => {
+      const said = asRecord(status[`${key}${span}_us`]);
+      return `${brief(numberIn(said, 'p50'), 0)} / ${brief(numberIn(said, 'p99'), 0)} µs`;
+    };
+    this.row(name, over(''));
+    if (status[`${key}_second_us`] === undefined) return;
+    this.row(`${name}, last minute`, over('_minute'));
+    this.row(`${name}, last second`, over('_second'));
   }
 
   private row(name: string, value: string, level: Level = ''): void {

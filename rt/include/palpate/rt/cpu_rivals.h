@@ -53,7 +53,8 @@ class CpuRivals {
   struct Seen {
     MachineThread thread;
     std::int64_t gained_ns{0};
-    bool now{false};  // in the newest look
+    bool now{false};       // in the newest look
+    bool outranks{false};  // then; else its ran_ns is not read
   };
   int thread_;
   int priority_;

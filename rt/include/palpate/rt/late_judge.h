@@ -39,12 +39,15 @@ class LateJudge {
   /// In the order of their times. Samples of before should have been noted.
   void add(const LateCycle& cycle);
 
-  /// Verdicts that are certain by now. A cycle that only the host's steal can explain is held back until that grew, for at most
-  /// kPatience: the kernel tells it in steps of 10 ms.
+  /// Verdicts that are certain by now. A cycle that only the host's steal can explain is held back for the first sample that
+  /// tells it, for at most kPatience. It is stolen where the steal grew between the last sample before the cycle and that one; a
+  /// steal that came after it explains nothing.
   /// @param[in] at_once  the last ones too
   [[nodiscard]] std::vector<LateVerdict> take(std::int64_t now_ns, bool at_once = false);
 
-  static constexpr std::int64_t kPatience = 1'000'000'000;  // ns
+  static constexpr std::int64_t kPatience = 300'000'000;  // ns
+  static constexpr std::int64_t kStealTold =
+      10'000'000;  ///< the kernel accounts for it at its next tick, of 100 Hz or more; ns
 
  private:
   [[nodiscard]] QueueSample queueBefore(std::int64_t at_ns) const;

@@ -37,7 +37,7 @@ class LateWatch {
   rt::RunQueueFile queue_;
   rt::CpuRivals rivals_;
   std::vector<rt::LateVerdict> unnamed_;  // preempted by a thread to be found
-  std::int64_t stolen_at_ns_{0};
+  std::int64_t steal_due_ns_{0};
   std::int64_t looked_ns_{0};
   std::int64_t wall_ahead_ns_{0};  // CLOCK_REALTIME - CLOCK_BOOTTIME; 0: not read yet
 };

@@ -23,4 +23,7 @@ namespace palpate::report {
 
 [[nodiscard]] client::TimeSummary summaryOf(const dds::Percentiles& times);
 
+/// {run, minute, second}: percentiles of a server's run, of its newest minute and of its newest second.
+[[nodiscard]] program::Json timesJson(const dds::Percentiles& run, const dds::RecentTimes& recent);
+
 }  // namespace palpate::report
