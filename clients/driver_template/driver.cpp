@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <thread>
 
 namespace {
@@ -67,9 +68,10 @@ struct Arguments {
 };
 
 [[noreturn]] void usage(int code) {
-  std::fprintf(code == 0 ? stdout : stderr,
-               "Usage: palpate-driver-template [--domain N] [--server-id N] [--tool N] [--seconds N] "
-               "[--origin X Y Z]\n");
+  std::fprintf(
+      code == 0 ? stdout : stderr,
+      "Usage: palpate-driver-template [--domain N] [--server-id N] [--organ-id N] [--tool N] [--seconds N] "
+      "[--origin X Y Z]\n");
   std::exit(code);
 }
 
@@ -83,6 +85,16 @@ double number(int argc, char** argv, int& i) {
   return value;
 }
 
+// A whole number in [0, most].
+std::uint32_t id(int argc, char** argv, int& i, std::uint32_t most) {
+  const double value = number(argc, argv, i);
+  if (!(value >= 0.0 && value <= most && value == std::floor(value))) {
+    std::fprintf(stderr, "%s is %.10g, expected 0 to %u\n", argv[i - 1], value, most);
+    usage(2);
+  }
+  return static_cast<std::uint32_t>(value);
+}
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   arguments.tool.force_limit = Device::kForceLimit;
@@ -90,11 +102,13 @@ Arguments parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--help") == 0) usage(0);
     if (std::strcmp(argv[i], "--domain") == 0) {
-      arguments.tool.domain = static_cast<std::uint32_t>(number(argc, argv, i));
+      arguments.tool.domain = id(argc, argv, i, 230);
     } else if (std::strcmp(argv[i], "--server-id") == 0) {
-      arguments.tool.server_id = static_cast<std::uint32_t>(number(argc, argv, i));
+      arguments.tool.server_id = id(argc, argv, i, palpate::haptic::kAnyServer - 1);
+    } else if (std::strcmp(argv[i], "--organ-id") == 0) {
+      arguments.tool.organ_id = id(argc, argv, i, 4294967295U);
     } else if (std::strcmp(argv[i], "--tool") == 0) {
-      arguments.tool.tool_id = static_cast<std::uint32_t>(number(argc, argv, i));
+      arguments.tool.tool_id = id(argc, argv, i, 3);
     } else if (std::strcmp(argv[i], "--seconds") == 0) {
       arguments.seconds = number(argc, argv, i);
     } else if (std::strcmp(argv[i], "--origin") == 0) {
@@ -125,7 +139,9 @@ int run(const Arguments& arguments) {
   Device device;
   palpate::haptic::HapticTool tool(arguments.tool);
   if (!tool.waitForServer(std::chrono::seconds(10))) {
-    std::fprintf(stderr, "no server on DDS domain %u within 10 s\n", arguments.tool.domain);
+    const std::string organ =
+        arguments.tool.organ_id ? " with organ " + std::to_string(*arguments.tool.organ_id) : "";
+    std::fprintf(stderr, "no server%s on DDS domain %u within 10 s\n", organ.c_str(), arguments.tool.domain);
     return 1;
   }
   // FILL IN 3: the rate. The loop may be faster than the server's 1 kHz: forceAt() extrapolates in between. Most devices call

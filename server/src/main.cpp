@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <spdlog/cfg/env.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <memory>
 #include <string_view>
@@ -53,7 +55,8 @@ bool judgeSpinning() {
         "thread {} computes at real-time priority {} without a sleep for {} ms: {}", thread.name,
         thread.fifo_priority, kLongestComputation.count(),
         receives ? "it goes on as an ordinary thread" : "the server ends, so that the machine stays usable");
-    if (receives) (void)rt::lowerThread(thread);
+    if (const int error = receives ? rt::lowerThread(thread) : 0; error != 0)
+      spdlog::critical("thread {} keeps its priority: {}", thread.name, std::strerror(error));
     ours = ours || !receives;
   }
   (void)rt::limitRealtimeWithoutSleep(kLongestComputation, kLastComputation);  // the kernel has raised it
@@ -108,7 +111,12 @@ void logContact(const Facts& facts) {
 }
 
 int serve(int argc, char** argv) {
-  if (argc == 4 && std::string_view(argv[1]) == kTrialArgument) answerTrialOf(argv[2], argv[3]);
+  if (argc > 1 && std::string_view(argv[1]) == kTrialArgument) {
+    if (argc != 4 || fcntl(kTrialImage, F_GETFD) == -1)
+      throw program::UsageError(std::string(kTrialArgument) +
+                                " is how the server starts itself, not an option");
+    answerTrialOf(argv[2], argv[3]);
+  }
   // 1. Options.
   std::optional<ServerConfig> config;
   program::orUsageError([&] { config = parseCommandLine(argc, argv); });

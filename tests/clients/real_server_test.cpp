@@ -65,6 +65,27 @@ TEST(RealServer, OfSeveralTheOneWithTheOrganThatIsNamedIsChosen) {
     EXPECT_EQ(result.exit_code, 1) << program;
     EXPECT_NE(result.err.find("no server with organ 33 on DDS domain"), std::string::npos) << result.err;
   }
+  const auto driver = [&](const char* organ) {
+    return runProgram("palpate-driver-template",
+                      {"--organ-id", organ, "--domain", first.domain, "--seconds", "1"});
+  };
+  for (const char* organ : {"11", "22"})
+    EXPECT_EQ(driver(organ).out.find("; 0 periods with a force"), std::string::npos) << organ;
+  const auto nobody = driver("33");
+  EXPECT_EQ(nobody.exit_code, 1);
+  EXPECT_NE(nobody.err.find("no server with organ 33 on DDS domain"), std::string::npos) << nobody.err;
+}
+
+TEST(RealServer, AnIdThatNoServerCanHaveIsRefused) {
+  for (const char* program : {"palpate-parameters", "palpate-tool", "palpate-latency", "palpate-device",
+                              "palpate-watch", "palpate-driver-template"})
+    for (const auto& [option, most] :
+         {std::pair{"--organ-id", "4294967295"}, std::pair{"--server-id", "4294967294"}})
+      for (const char* id : {"-1", "4294967296"}) {
+        const auto result = runProgram(program, {option, id});
+        EXPECT_EQ(result.exit_code, 2) << program;
+        EXPECT_NE(result.err.find(most), std::string::npos) << program << ' ' << option << ": " << result.err;
+      }
 }
 
 TEST(RealServer, AToolThatGoesOnOverAnotherModelSaysSo) {

@@ -106,7 +106,8 @@ void refuseUnknown(CLI::App& app, const std::vector<std::string>& words) {
   }
 }
 
-std::string describeRange(double low, double high, const std::string& unit, const char* between) {
+template <class Number>
+std::string describeRange(Number low, Number high, const std::string& unit, const char* between) {
   std::ostringstream text;
   text << low << between << high << (unit.empty() ? "" : " ") << unit;
   return text.str();
@@ -158,6 +159,11 @@ Option& Option::required() {
 }
 
 Option& Option::range(int low, int high, const std::string& unit) {
+  option_->check(inRange(low, high, unit));
+  return *this;
+}
+
+Option& Option::range(std::int64_t low, std::int64_t high, const std::string& unit) {
   option_->check(inRange(low, high, unit));
   return *this;
 }

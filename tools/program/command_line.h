@@ -34,6 +34,7 @@ class Option {
   Option& required();
   /// Numbers in [low, high]. @param[in] unit  for --help and for who is refused, e.g. "m"
   Option& range(int low, int high, const std::string& unit = {});
+  Option& range(std::int64_t low, std::int64_t high, const std::string& unit = {});
   Option& range(double low, double high, const std::string& unit = {});
   /// Numbers of any size. @param[in] unit  as above
   Option& unit(const std::string& unit);

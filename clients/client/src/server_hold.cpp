@@ -29,7 +29,8 @@ bool ServerHold::takes(const ServerRun& from, dds::WriterId writer, std::int64_t
   const bool held = held_.load(kRelaxed);
   const bool same = held && from == ServerRun{id_.load(kRelaxed), session_.load(kRelaxed)} &&
                     (writer_ == 0 || writer == writer_);
-  const bool wanted = wanted_ == dds::kServerAny || wanted_ == from.server_id;
+  const std::uint32_t wanted_id = wanted_.load(kRelaxed);
+  const bool wanted = wanted_id == dds::kServerAny || wanted_id == from.server_id;
   const bool next = !same && eligible && wanted && (!held || gone(now_ns));
   if (!same && !next) {
     left_out_id_.store(from.server_id, kRelaxed);
@@ -50,10 +51,10 @@ bool ServerHold::takes(const ServerRun& from, dds::WriterId writer, std::int64_t
 }
 
 std::uint32_t ServerHold::address(std::int64_t now_ns) noexcept {
-  if (!held_.load(kRelaxed)) return wanted_;
+  if (!held_.load(kRelaxed)) return wanted_.load(kRelaxed);
   std::int64_t never = 0;
   (void)heard_ns_.compare_exchange_strong(never, now_ns, kRelaxed);
-  return gone(now_ns) ? wanted_ : id_.load(kRelaxed);
+  return gone(now_ns) ? wanted_.load(kRelaxed) : id_.load(kRelaxed);
 }
 
 ServerRun ServerHold::held() const noexcept {

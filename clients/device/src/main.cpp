@@ -72,9 +72,10 @@ void addOptions(program::Options line, Arguments& arguments) {
       .valueName("FILE");
   line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &arguments.wanted.server_id,
-           "which server of the domain; default: the first found");
-  line.add("--organ-id", &arguments.wanted.organ_id, client::kOrganIdHelp);
+  line.add("--server-id", &arguments.wanted.server_id, "which server of the domain; default: the first found")
+      .range(std::int64_t{0}, client::kMaxServerId);
+  line.add("--organ-id", &arguments.wanted.organ_id, client::kOrganIdHelp)
+      .range(std::int64_t{0}, client::kMaxOrganId);
   line.add("--wait", &arguments.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &arguments.json, "print one JSON object on standard output");
   line.add("--plot", &arguments.plot, "write the depth over time to this SVG file");

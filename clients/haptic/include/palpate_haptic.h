@@ -28,7 +28,7 @@ enum {
   PALPATE_HAPTIC_OK = 0,
   PALPATE_HAPTIC_NO_ANSWER = 1,         /* no force came yet, or none for 50 ms: the force is zero */
   PALPATE_HAPTIC_INVALID_ARGUMENT = -1, /* a null pointer, or a number out of its range */
-  PALPATE_HAPTIC_SEND_FAILED = -2,      /* DDS refused the pose */
+  PALPATE_HAPTIC_SEND_FAILED = -2,      /* DDS refused the pose, or no server of the organ is known */
   PALPATE_HAPTIC_NO_SERVER = -3         /* no server within the time */
 };
 
@@ -38,6 +38,7 @@ enum { PALPATE_HAPTIC_FREE = 0, PALPATE_HAPTIC_STICK = 1, PALPATE_HAPTIC_SLIDE =
 typedef struct palpate_haptic palpate_haptic; /* one tool of one server */
 
 #define PALPATE_HAPTIC_ANY_SERVER 0xFFFFFFFFu
+#define PALPATE_HAPTIC_ANY_ORGAN (-1)
 
 typedef struct palpate_haptic_options {
   uint32_t domain;    /* DDS domain, 0 to 230 */
@@ -48,6 +49,9 @@ typedef struct palpate_haptic_options {
   double max_extrapolation; /* m, 0 to 0.05 */
   int receive_priority;     /* SCHED_FIFO, 1 to 99; 0: unchanged */
   const char* device;       /* as in palpate-server --device; null: none said */
+  int64_t
+      organ_id; /* the server of this organ, 0 to 4294967295; PALPATE_HAPTIC_ANY_ORGAN: of any. Until its status has come no pose goes
+                       out: palpate_haptic_wait_for_server waits for it */
 } palpate_haptic_options;
 
 typedef struct palpate_haptic_force {

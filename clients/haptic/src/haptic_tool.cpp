@@ -3,11 +3,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "core/devices/path/in_range.h"
 #include "force_renderer.h"
 #include "palpate/client/status_board.h"
 #include "palpate/client/tool_client.h"
+#include "palpate/client/wanted_server.h"
 #include "palpate/idl/receive_threads.h"
 #include "palpate/rt/clock.h"
 #include "palpate/rt/scheduling.h"
@@ -16,10 +18,13 @@
 namespace palpate::haptic {
 namespace {
 
+constexpr std::int64_t kMaxOrganId = 4294967295;
+
 const Options& checked(const Options& options) {
   using device::inRange;
   inRange<HapticError>("domain", options.domain, 0, dds::kMaxDomain);
   inRange<HapticError>("tool id", options.tool_id, 0, 3);
+  if (options.organ_id) inRange<HapticError>("organ id", *options.organ_id, std::int64_t{0}, kMaxOrganId);
   if (options.force_limit == 0.0)
     throw HapticError("force limit is missing: say the largest force that the device renders, N");
   inRange<HapticError>("force limit (N)", options.force_limit, 0.01, 50.0);
@@ -44,11 +49,12 @@ class HapticTool::Impl {
         tool_id_(options.tool_id),
         renderer_(options.max_extrapolation),
         participant_(options.domain),
-        wanted_(options.server_id),
+        wanted_{options.server_id, options.organ_id},
         announcements_(participant_),
         statuses_(participant_, &Impl::onStatus, this),
         tool_(participant_, options.tool_id, &Impl::onForce, this, {options.server_id, 0}) {
     said_.server_id = options.server_id;
+    if (!options.organ_id) target_.store(options.server_id, std::memory_order_relaxed);
     said_.tool_id = options.tool_id;
     dds::assignText(said_.device, options.device);
     said_.device_force_limit = options.force_limit;
@@ -57,10 +63,19 @@ class HapticTool::Impl {
   }
 
   [[nodiscard]] bool waitForServer(std::chrono::milliseconds timeout) const noexcept {
-    return tool_.waitForServer(timeout);
+    using Clock = std::chrono::steady_clock;
+    const auto deadline = Clock::now() + timeout;
+    while (!knowsServer()) {
+      if (Clock::now() >= deadline) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    return tool_.waitForServer(std::max(left, std::chrono::milliseconds(1)));
   }
 
   std::uint64_t send(const Vec3& position, const Quaternion& orientation, std::uint32_t buttons) noexcept {
+    if (!knowsServer()) return 0;
+    if (wanted_.organ_id) tool_.want(target_.load(std::memory_order_relaxed));
     announceIfDue(rt::monotonicNow());
     const Point p{position[0], position[1], position[2]};
     const std::uint64_t seq = tool_.publish(p, orientation, buttons);
@@ -86,6 +101,7 @@ class HapticTool::Impl {
     constexpr std::int64_t kPeriod = 500'000'000;
     if (said_ns_ != 0 && now_ns - said_ns_ < kPeriod) return;
     said_ns_ = now_ns;
+    said_.server_id = target_.load(std::memory_order_relaxed);
     (void)announcements_.write(said_);
   }
 
@@ -114,8 +130,24 @@ class HapticTool::Impl {
   static void onStatus(const dds::ServerStatus& status, void* context) noexcept {
     auto& self = *static_cast<Impl*>(context);
     const client::ServerRun held = self.heldRun();
-    const bool wanted = self.wanted_ == dds::kServerAny || self.wanted_ == status.server_id;
+    const bool wanted = self.wanted_.fits(status);
+    if (wanted && self.wanted_.organ_id) self.aimAt(status);
     if (held == client::runOf(status) || (held == client::ServerRun{} && wanted)) self.adopt(status);
+  }
+
+  [[nodiscard]] bool knowsServer() const noexcept {
+    return !wanted_.organ_id || target_.load(std::memory_order_relaxed) != dds::kServerAny;
+  }
+
+  // At the first server of the organ that is heard, and at the next one when that is not heard any more. On the receive thread.
+  void aimAt(const dds::ServerStatus& status) noexcept {
+    if (status.state != dds::server_state::kRunning) return;
+    const std::int64_t now_ns = rt::monotonicNow();
+    const std::uint32_t target = target_.load(std::memory_order_relaxed);
+    const bool silent = now_ns - target_heard_ns_ > client::StatusBoard::kSilenceNs;
+    if (target != status.server_id && target != dds::kServerAny && !silent) return;
+    target_heard_ns_ = now_ns;
+    target_.store(status.server_id, std::memory_order_relaxed);
   }
 
   // Two independent numbers: relaxed order suffices.
@@ -133,7 +165,10 @@ class HapticTool::Impl {
   std::atomic<double> server_limit_{0.0};
   std::atomic<double> tip_radius_{0.0};
   dds::Participant participant_;
-  std::uint32_t wanted_;
+  client::WantedServer wanted_;
+  std::atomic<std::uint32_t> target_{
+      dds::kServerAny};              // of the organ that is wanted, or the one that is named
+  std::int64_t target_heard_ns_{0};  // the receive thread's
   dds::Writer<dds::ToolAnnouncement> announcements_;
   dds::ToolAnnouncement said_{};                         // the sender's
   std::int64_t said_ns_{0};                              // 0: never

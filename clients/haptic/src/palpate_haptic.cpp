@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "palpate/haptic/haptic_tool.h"
@@ -26,7 +27,8 @@ Options optionsOf(const palpate_haptic_options& from) {
           from.force_limit,
           from.max_extrapolation,
           from.receive_priority,
-          from.device == nullptr ? "" : from.device};
+          from.device == nullptr ? "" : from.device,
+          from.organ_id == PALPATE_HAPTIC_ANY_ORGAN ? std::nullopt : std::optional(from.organ_id)};
 }
 
 void tell(std::string_view text, char* error, std::size_t error_size) noexcept {
@@ -70,7 +72,8 @@ void palpate_haptic_default_options(palpate_haptic_options* options) {
               defaults.force_limit,
               defaults.max_extrapolation,
               defaults.receive_priority,
-              nullptr};
+              nullptr,
+              PALPATE_HAPTIC_ANY_ORGAN};
 }
 
 palpate_haptic* palpate_haptic_open(const palpate_haptic_options* options, char* error, size_t error_size) {

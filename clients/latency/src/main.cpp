@@ -51,8 +51,10 @@ void addOptions(program::Options line, Options& options) {
            "each")
       .range(1, 4);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found");
-  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp);
+  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found")
+      .range(std::int64_t{0}, client::kMaxServerId);
+  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp)
+      .range(std::int64_t{0}, client::kMaxOrganId);
   line.add("--wait", &options.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.flag("--fields", &options.measure.fields,

@@ -43,7 +43,7 @@ void addOptions(program::Options line, Options& options) {
            "(palpate-server --models)")
       .valueName("FILE");
   line.add("--server-id", &options.server_id, "which server of the domain; default: 0, or that of the organ");
-  line.add("--organ-id", &options.organ_id, client::kOrganIdHelp);
+  line.add("--organ-id", &options.organ_id, client::kOrganIdHelp).range(std::int64_t{0}, client::kMaxOrganId);
   line.add("--wait", &options.wait_s, "how long to wait for an answer").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
 }

@@ -32,7 +32,8 @@ struct Options {
   std::optional<int> recorded_tool;
   std::optional<double> within;  ///< percent
   bool partial{false};
-  client::ScriptOptions path;
+  std::optional<double> depth, slide, clearance;  ///< m; absent: those of ScriptOptions
+  std::optional<int> pokes;
   std::optional<double> seconds;     ///< of the whole script, in (0, 3600]
   std::optional<double> tip_radius;  ///< m; absent: the server's
   std::string at, beside;
@@ -63,10 +64,12 @@ void addOptions(program::Options line, Options& options) {
           "--seconds", &options.seconds,
           "duration of the whole script; default: the script's own; of a recording: how much of it is played")
       .range(0.05, 3600.0, "s");
-  line.add("--depth", &options.path.depth, "depth of the tip below the rest surface").range(1e-6, 0.05, "m");
-  line.add("--slide", &options.path.slide_distance, "distance along the surface").range(1e-6, 0.1, "m");
-  line.add("--pokes", &options.path.pokes, "number of times that poke goes in").range(1, 10000);
-  line.add("--clearance", &options.path.clearance, "distance at the start and the end").range(1e-6, 0.2, "m");
+  line.add("--depth", &options.depth, "depth of the tip below the rest surface; default: 0.003")
+      .range(1e-6, 0.05, "m");
+  line.add("--slide", &options.slide, "distance along the surface; default: 0.01").range(1e-6, 0.1, "m");
+  line.add("--pokes", &options.pokes, "number of times that poke goes in; default: 4").range(1, 10000);
+  line.add("--clearance", &options.clearance, "distance at the start and the end; default: 0.01")
+      .range(1e-6, 0.2, "m");
   line.add("--at", &options.at,
            "touch the accessible node nearest to x,y,z, m; refused off the organ; default: the highest one");
   line.add("--beside", &options.beside,
@@ -75,8 +78,10 @@ void addOptions(program::Options line, Options& options) {
       .range(0.0, 0.05, "m");
   line.add("--tool", &options.tool_id, "tool id, 0 to 3; default: 0, of a recording as recorded").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found");
-  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp);
+  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found")
+      .range(std::int64_t{0}, client::kMaxServerId);
+  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp)
+      .range(std::int64_t{0}, client::kMaxOrganId);
   line.add("--wait", &options.wait_s, "how long to wait for a server").range(0.0, 3600.0, "s");
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.add("--plot", &options.plot, "write the force over time to this SVG file");
@@ -87,7 +92,11 @@ void addOptions(program::Options line, Options& options) {
 
 Played prepare(const Options& options, const std::optional<device::Point>& place,
                const client::ServerInfo& server) {
-  client::ScriptOptions path_options = options.path;
+  client::ScriptOptions path_options;
+  path_options.depth = options.depth.value_or(path_options.depth);
+  path_options.slide_distance = options.slide.value_or(path_options.slide_distance);
+  path_options.clearance = options.clearance.value_or(path_options.clearance);
+  path_options.pokes = options.pokes.value_or(path_options.pokes);
   path_options.tip_radius = options.tip_radius.value_or(server.status.tip_radius[options.tool()]);
   if (path_options.tip_radius != server.status.tip_radius[options.tool()])
     std::cerr << "note: tip radius " << path_options.tip_radius << " m differs from the server's "
@@ -122,6 +131,9 @@ void checkRecordingOptions(const Options& options) {
   }
   if (options.recording.empty())
     throw program::UsageError("--script recording: which? --script recording FILE");
+  if (options.depth || options.slide || options.clearance || options.pokes)
+    throw program::UsageError(
+        "--depth, --slide, --pokes and --clearance: a recording is played as it was recorded");
   if (!options.at.empty() || !options.beside.empty() || options.tip_radius)
     throw program::UsageError("--at, --beside and --tip-radius: a recording is played where it was recorded");
 }

@@ -42,8 +42,10 @@ std::string summaryOf(const ReplayedTool& tool) {
   text += printed("largest difference %.5f N, at %.3f s", worst->difference(), secondsOf(*worst));
   if (tool.largestRecorded() > 0.0)
     text += printed(": %.2f %% of the largest force", 100.0 * worst->difference() / tool.largestRecorded());
-  const auto left = static_cast<unsigned long long>(tool.poses.size() - tool.compared());
-  if (left > 0) text += printed("; %llu answers not compared, after a stall", left);
+  const auto left = static_cast<unsigned long long>(tool.sent - tool.compared());
+  if (left > 0)
+    text += printed("; %llu poses (%.1f %%) not compared: without an answer, or after a stall", left,
+                    100.0 * static_cast<double>(left) / static_cast<double>(tool.sent));
   return text + '\n';
 }
 
@@ -96,6 +98,9 @@ Json jsonOf(const ReplayedTool& tool, const RecordedSession& session) {
            {{"sent", tool.sent},
             {"answered", tool.poses.size()},
             {"compared", tool.compared()},
+            {"not_compared", tool.sent == 0 ? Json()
+                                            : Json(1.0 - static_cast<double>(tool.compared()) /
+                                                             static_cast<double>(tool.sent))},
             {"superseded", tool.superseded},
             {"received", tool.answers.received()},
             {"lost", tool.answers.lost()},

@@ -40,8 +40,10 @@ struct Options {
 void addOptions(program::Options line, Options& options) {
   WebOptions& web = options.web;
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
-  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found");
-  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp);
+  line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found")
+      .range(std::int64_t{0}, client::kMaxServerId);
+  line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp)
+      .range(std::int64_t{0}, client::kMaxOrganId);
   line.add("--listen", &web.access.listen,
            "numeric address to listen on; one that other machines reach needs a token");
   line.add("--port", &web.access.port, "TCP port; 0: any that is free");

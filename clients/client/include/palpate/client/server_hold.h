@@ -50,6 +50,9 @@ class ServerHold {
   bool takes(const ServerRun& from, dds::WriterId writer, std::int64_t now_ns, bool eligible = true,
              bool farewell = false) noexcept;
 
+  /// From here on only runs of this server are held on to; the held one stays. Threads: any.
+  void want(std::uint32_t server_id) noexcept { wanted_.store(server_id, std::memory_order_relaxed); }
+
   /// Whom to send to: the held server; while none is held, the wanted one.
   [[nodiscard]] std::uint32_t address(std::int64_t now_ns) noexcept;
 
@@ -62,7 +65,7 @@ class ServerHold {
  private:
   [[nodiscard]] bool gone(std::int64_t now_ns) const noexcept;
 
-  std::uint32_t wanted_;
+  std::atomic<std::uint32_t> wanted_;
   std::int64_t silence_ns_;
   dds::WriterId writer_{0};  // takes()'s; 0: the run's first one
   // takes() writes; they order nothing but themselves, and a reader that sees them half changed sees them right at its next look.

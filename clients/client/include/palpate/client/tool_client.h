@@ -51,6 +51,9 @@ class ToolClient {
     return true;
   }
 
+  /// Poses go to this server from here on, and its forces are taken, once the held one is gone. Threads: any. Real-time: yes.
+  void want(std::uint32_t server_id) noexcept { hold_.want(server_id); }
+
   /// The server that is held on to, and what others sent. Threads: any.
   [[nodiscard]] const ServerHold& hold() const noexcept { return hold_; }
 

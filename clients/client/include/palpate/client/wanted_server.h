@@ -13,6 +13,10 @@ namespace palpate::client {
 inline constexpr const char* kOrganIdHelp =
     "which organ of the domain, by the id that its server gave it; default: any";
 
+/// The largest ids.
+inline constexpr std::int64_t kMaxServerId = std::int64_t{dds::kServerAny} - 1;
+inline constexpr std::int64_t kMaxOrganId = 4294967295;
+
 /// Which of the servers on a domain is meant: by its id, by that of its organ, by both, or any.
 struct WantedServer {
   std::uint32_t server_id{dds::kServerAny};

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -43,6 +44,9 @@ struct Options {
   int receive_priority{0};  ///< SCHED_FIFO priority of the receiving threads, 1 to 99; 0: unchanged
   /// As in palpate-server --device: its limits hold for this tool where they are lower. Empty: none said
   std::string device{};
+  /// The server of this organ, by the id that the server gave it (palpate-server --organ-id), 0 to 4294967295; empty: of any. With it
+  /// no pose goes out until that server's status has come, within a second.
+  std::optional<std::int64_t> organ_id{};
 };
 
 /// One tool of one server. It holds on to one run of one server: the first that answers, or that of `server_id`. Forces of other
@@ -72,7 +76,7 @@ class PALPATE_HAPTIC_API HapticTool {
   /// @param[in] position     p_WT, centre of the tip, m
   /// @param[in] orientation  q_WT
   /// @param[in] buttons      bit i: button i is held down
-  /// @return the pose's number, 0 when DDS refused it
+  /// @return the pose's number, 0 when DDS refused it, or while no server of `organ_id` is known
   /// A pose that is not finite is sent too: the server answers with a flag and a force that fades.
   std::uint64_t send(const Vec3& position, const Quaternion& orientation = {0.0, 0.0, 0.0, 1.0},
                      std::uint32_t buttons = 0) noexcept;
