@@ -8,7 +8,9 @@
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
 #include <chrono>
 #include <iostream>
+#include <memory>
 
+#include "tools/make/solve/checkpoint_of.h"
 #include "tools/make/solve/dry_run.h"
 #include "tools/make/solve/options.h"
 #include "tools/make/solve/provenance.h"
@@ -108,25 +110,31 @@ void run(solve_program::Options options) {
   solver::Case c = solve_program::readCase(options);
   if (options.dry_run && c.method != solver::Method::kSeriesDisplacement)
     throw program::UsageError("--dry-run is for method series-displacement, not " + toString(c.method));
+  if (options.fresh && !solve_program::keepsItsWork(c))
+    throw program::UsageError("--fresh is for the series methods, not " + toString(c.method));
   if (!options.scratch.empty()) program::checkOutput("--scratch", options.scratch / "series");
   // 2. The organ.
   const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
   adoptGroups(c, organ);
   const std::filesystem::path folder = std::filesystem::absolute(options.output).parent_path();
   if (options.scratch.empty()) options.scratch = folder;
-  const solver::BuildOptions build{options.threads, options.scratch, options.quiet, folder};
+  solver::BuildOptions build{options.threads, options.scratch, options.quiet, folder};
   for (const std::string& warning : solve_program::sizeWarnings(c, organ))
     std::cerr << "warning: " << warning << '\n';
   if (options.dry_run) return tell(options, c, organ, build);
   // 3. The model, by the method of the case.
   solver::BuildReport report;
+  const std::unique_ptr<solver::Checkpoint> checkpoint = solve_program::checkpointOf(options, c);
+  build.checkpoint = checkpoint.get();
   modelfile::ModelData data = solver::buildModel(c, organ, build, report);
+  if (checkpoint) report.kept_seconds = checkpoint->found();
   // 4. Where it came from, and the file.
   solve_program::addProvenance(data, c, report);
   const auto write_start = Clock::now();
   modelfile::writeModel(options.output, data);
   modelfile::writeXdmf(options.output);
   const double write_seconds = secondsSince(write_start);
+  if (checkpoint) checkpoint->remove();
   // 5. What came out.
   const program::Json s =
       solve_program::summarize(options.output, c, data, report, write_seconds, secondsSince(start));

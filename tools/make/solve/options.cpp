@@ -136,7 +136,10 @@ void describe(program::Options line, Options& options) {
            "PGD methods: magnitude of the load (default: what moves the contact by 2 mm)")
       .range(1e-300, 1e6, "N");
   line.add("--steps", &options.steps, "pgd-explicit, pgd-euler: load steps").range(1, 100000);
-  line.add("--scratch", &options.scratch, "folder of the scratch file (default: beside the output)");
+  line.add("--scratch", &options.scratch,
+           "folder of OUTPUT.partial, with which the same command goes on where it was interrupted (default: "
+           "beside the output)");
+  line.flag("--fresh", &options.fresh, "throw away what an interrupted run has left, and begin again");
   line.add("--threads", &options.threads, "worker threads").range(1, 1024);
   line.flag("--dry-run", &options.dry_run,
             "series-displacement: measure a few positions, say what the whole takes, and stop");

@@ -16,6 +16,7 @@ struct Options {
   std::filesystem::path input;
   std::filesystem::path output;  ///< empty: model.h5, or standard output for a template
   bool case_template{false};
+  bool fresh{false};
   std::filesystem::path scratch;
   int threads{solver::machineThreads()};
   bool json{false};

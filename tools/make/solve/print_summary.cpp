@@ -17,6 +17,7 @@ void printTimes(const Json& seconds) {
   std::string line = "time:";
   const std::pair<const char*, const char*> names[] = {{"factor", "factor"},
                                                        {"mesh_error", "the mesh's error"},
+                                                       {"kept", "kept from an earlier run"},
                                                        {"orders", "orders"},
                                                        {"series", "series"},
                                                        {"fit", "fit"},

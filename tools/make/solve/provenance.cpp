@@ -13,15 +13,6 @@ namespace palpate::solve_program {
 
 namespace {
 
-std::string fileHash(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  Sha256 hash;
-  char block[1 << 16];
-  while (in.read(block, sizeof block) || in.gcount() > 0)
-    hash.add(std::as_bytes(std::span<const char>(block, static_cast<std::size_t>(in.gcount()))));
-  return hash.finish().hex();
-}
-
 std::string utcNow() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   char text[32];
@@ -32,6 +23,15 @@ std::string utcNow() {
 }
 
 }  // namespace
+
+std::string fileHash(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  Sha256 hash;
+  char block[1 << 16];
+  while (in.read(block, sizeof block) || in.gcount() > 0)
+    hash.add(std::as_bytes(std::span<const char>(block, static_cast<std::size_t>(in.gcount()))));
+  return hash.finish().hex();
+}
 
 void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solver::BuildReport& report) {
   program::Json provenance{{"program", "palpate-solve"},

@@ -67,6 +67,7 @@ Json stages(Method method, const solver::BuildReport& report) {
         {"factor", report.factor_seconds}, {"series", report.series_seconds}, {"fit", report.fit_seconds}};
     if (report.mesh_error) seconds["mesh_error"] = report.mesh_error_seconds;
     if (report.travel) seconds["orders"] = report.orders_seconds;
+    if (report.kept_seconds > 0.0) seconds["kept"] = report.kept_seconds;
     return seconds;
   }
   Json seconds{{"factor", report.factor_seconds}, {"pgd", report.pgd_seconds}};

@@ -31,6 +31,10 @@ int machineThreads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+std::string blasProcessor() {
+  return openblas_get_corename();
+}
+
 void parallelFor(int workers, std::size_t chunks, const std::function<void(int, std::size_t)>& work) {
   const SerialBlas serial;
   std::atomic<std::size_t> next{0};

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 namespace palpate::solver {
 
@@ -10,6 +11,9 @@ namespace palpate::solver {
 /// thread meanwhile. The first exception of a worker stops the others and is thrown again here.
 void parallelFor(int workers, std::size_t chunks,
                  const std::function<void(int worker, std::size_t chunk)>& work);
+
+/// The kind of processor that OpenBLAS computes for: others round otherwise.
+[[nodiscard]] std::string blasProcessor();
 
 /// Hardware threads of the machine, at least 1.
 [[nodiscard]] int machineThreads();

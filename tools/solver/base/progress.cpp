@@ -31,6 +31,11 @@ void Progress::advance(std::size_t done) {
   print(elapsed);
 }
 
+void Progress::skip(std::size_t count) {
+  const std::lock_guard lock(mutex_);
+  total_ -= count;
+}
+
 void Progress::print(double elapsed) {
   const double share = static_cast<double>(done_) / static_cast<double>(std::max<std::size_t>(total_, 1));
   const double left = elapsed * (1.0 - share) / std::max(share, 1e-9);

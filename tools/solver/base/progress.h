@@ -20,6 +20,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void advance(std::size_t done = 1);
+  /// What need not be done: it counts neither as done nor in the time left.
+  void skip(std::size_t count);
   [[nodiscard]] double seconds() const;
 
  private:

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "core/data/model_view.h"
 #include "tools/mesh/tet_mesh.h"
@@ -35,12 +37,15 @@ void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::Tet
 /// What the case asks of force and field within d_max.
 [[nodiscard]] DomainCriteria criteriaOf(const Case& c);
 
-/// Takes the series of one position. Called from several threads, once per position.
-using SeriesSink =
-    std::function<void(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii)>;
+/// What a model keeps of the series of a position beside its fields: some numbers, as many for each. Both are called from several
+/// threads, once per position.
+struct SeriesSink {
+  std::function<std::vector<double>(const SeriesSolver& series, int lane, const SeriesRadii& radii)> numbers;
+  std::function<void(std::size_t position, std::span<const double> numbers)> store;
+};
 
 /// Solves the series of all contact positions on all workers; surface fields go to the table.
-/// @param table  positions x coefficients of the fields x 3 Ns
+/// @param table  positions x coefficients of the fields x 3 Ns, kept where options.checkpoint keeps their journal
 /// @throw std::runtime_error naming the node whose series has no domain
 void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,
                     const Cholesky& factor, SeriesKind kind, const BuildOptions& options, FieldTable& table,

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "tools/solver/base/checkpoint.h"
+#include "tools/solver/fit/field_table.h"
 #include "tools/solver/series/series_orders.h"
 
 namespace palpate::solver {
@@ -14,7 +17,17 @@ struct BuildOptions {
   int workers{1};
   std::filesystem::path scratch{"."};  ///< folder of the scratch file
   bool quiet{false};
-  std::filesystem::path output{};  ///< folder of the file that is written later; empty: none
+  std::filesystem::path output{};   ///< folder of the file that is written later; empty: none
+  Checkpoint* checkpoint{nullptr};  ///< keeps what is done; null: nothing is kept
+
+  /// Of a scratch file, kept by its name where there is a checkpoint.
+  [[nodiscard]] ScratchPlace scratchFile(const char* name) const {
+    return checkpoint == nullptr ? ScratchPlace(scratch) : ScratchPlace(checkpoint->folder(), name);
+  }
+  /// Of a stage; null where nothing is kept.
+  [[nodiscard]] Journal* journal(const std::string& stage) const {
+    return checkpoint == nullptr ? nullptr : &checkpoint->journal(stage);
+  }
 };
 
 /// By how much the mesh makes the organ too stiff: n . K_s n of linear elasticity over the same of better elements, less 1.
@@ -61,6 +74,7 @@ struct SizeChoice {
 /// Where the time went and how well the modes fit. Members that do not apply to a method stay 0 or empty.
 struct BuildReport {
   double factor_seconds{0}, series_seconds{0}, fit_seconds{0};
+  double kept_seconds{0};  ///< that earlier runs spent on what this one has taken from its checkpoint
   double mesh_error_seconds{0}, orders_seconds{0};
   double pgd_seconds{0}, recompression_seconds{0};
   std::vector<double> fit_errors;         ///< series methods: after each sweep, see FarField::errors

@@ -13,6 +13,7 @@
 #include "core/surface/contact_patches.h"
 #include "tools/mesh/tet_mesh.h"
 #include "tools/modelfile/model_data.h"
+#include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/build_options.h"
 #include "tools/solver/build/case_file.h"
 #include "tools/solver/build/estimate.h"
@@ -47,7 +48,7 @@ class DisplacementBuilder {
   [[nodiscard]] Estimate sizes() const;
 
  private:
-  void storePosition(const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii);
+  [[nodiscard]] SeriesSink seriesSink();
   void solveGreens(FieldTable& greens);
   void fit(const FieldTable& table, const FieldTable& greens);
   [[nodiscard]] double probeSeries(const SeriesOrders& orders, bool radii) const;

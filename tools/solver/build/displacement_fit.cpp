@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "tools/solver/base/journal.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/displacement_builder.h"
 #include "tools/solver/build/displacement_fields.h"
@@ -32,6 +33,28 @@ double nearBytes(std::span<const NearNodes> near, int coefficients) {
   double bytes = 0.0;
   for (const NearNodes& nodes : near) bytes += 12.0 * coefficients * static_cast<double>(nodes.nodes.size());
   return bytes;
+}
+
+std::vector<float> numbersOf(const Eigen::MatrixXf& matrix) {
+  return {matrix.data(), matrix.data() + matrix.size()};
+}
+
+void putFarField(record::Bytes& out, const FarField& far) {
+  putArray(out, numbersOf(far.X));
+  putArray(out, numbersOf(far.Y));
+  putArray(out, far.errors);
+  putArray(out, far.largest);
+}
+
+void getFarField(record::ByteSource& in, Eigen::Index rows, FarField& far) {
+  std::vector<float> X, Y;
+  getArray(in, X);
+  getArray(in, Y);
+  getArray(in, far.errors);
+  getArray(in, far.largest);
+  const Eigen::Index modes = static_cast<Eigen::Index>(X.size()) / rows;
+  far.X = Eigen::Map<const Eigen::MatrixXf>(X.data(), rows, modes);
+  far.Y = Eigen::Map<const Eigen::MatrixXf>(Y.data(), modes, static_cast<Eigen::Index>(Y.size()) / modes);
 }
 
 /// The near field is part of the model; this program and the server hold all of it in memory.
@@ -106,10 +129,15 @@ bool DisplacementBuilder::widenNear() {
 /// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.
 void DisplacementBuilder::fit(const FieldTable& table, const FieldTable& greens) {
   report_.fit_asked = case_.modes || budget_ ? 0.0 : case_.fieldErrorOrDefault();
+  std::uint64_t attempt = 0;
   do {
     const std::vector<FitSource> sources = fitSources(setup_.positions.nodes, data_.contact_domain_radius);
     const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
-    const FarField far = fitFarField(problem, fitOptions());
+    const FarField far = keptOr<FarField>(
+        options_.journal("fit"), attempt++, [&] { return fitFarField(problem, fitOptions()); }, putFarField,
+        [&](record::ByteSource& in, FarField& kept) {
+          getFarField(in, static_cast<Eigen::Index>(table.rows()), kept);
+        });
     report_.fit_errors = far.errors;
     std::vector<float> largest = far.largest;
     std::sort(largest.begin(), largest.end());

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "tools/solver/base/parallel.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/displacement_builder.h"
@@ -52,6 +51,23 @@ std::vector<SeriesOrders> triedOrders(const Case& c) {
   return {SeriesOrders::of(5), {5, 8}};
 }
 
+void putOrders(record::Bytes& out, const TravelOrders& travel) {
+  putArray(out, std::vector{travel.travel, travel.within});
+  record::put(out, travel.orders);
+  putArray(out, std::vector{travel.reaching, travel.places});
+  putArray(out, travel.tried);
+}
+
+void getOrders(record::ByteSource& in, TravelOrders& travel) {
+  std::vector<double> shares;
+  std::vector<int> counts;
+  getArray(in, shares);
+  in.get(travel.orders);
+  getArray(in, counts);
+  getArray(in, travel.tried);
+  travel = {shares.at(0), travel.orders, counts.at(0), counts.at(1), shares.at(1), travel.tried};
+}
+
 }  // namespace
 
 DisplacementBuilder::DisplacementBuilder(const ChosenOrgan& organ, const BuildOptions& options,
@@ -79,15 +95,24 @@ DisplacementBuilder::DisplacementBuilder(const ChosenOrgan& organ, const BuildOp
   data_.contact_series_radius.resize(setup_.positions.nodes.size());
 }
 
-void DisplacementBuilder::storePosition(const SeriesSolver& series, int lane, std::size_t position,
-                                        const SeriesRadii& radii) {
-  data_.contact_domain_radius[position] = radii.domain;
-  data_.contact_series_radius[position] = radii.series;
-  const std::size_t coefficients = at(force_basis_.size());
-  for (int k = 0; k < force_basis_.size(); ++k) {
-    const Vec3 f = series.answer(lane, k) * scale(k);
-    for (int c = 0; c < 3; ++c) data_.contact_force[(position * coefficients + at(k)) * 3 + at(c)] = f[c];
-  }
+/// Both radii, and the force.
+SeriesSink DisplacementBuilder::seriesSink() {
+  const auto numbers = [this](const SeriesSolver& series, int lane, const SeriesRadii& radii) {
+    std::vector<double> out{radii.domain, radii.series};
+    for (int k = 0; k < force_basis_.size(); ++k) {
+      const Vec3 f = series.answer(lane, k) * scale(k);
+      out.insert(out.end(), f.begin(), f.end());
+    }
+    return out;
+  };
+  const auto store = [this](std::size_t position, std::span<const double> own) {
+    data_.contact_domain_radius[position] = own[0];
+    data_.contact_series_radius[position] = own[1];
+    const std::span<const double> force = own.subspan(2);
+    std::copy(force.begin(), force.end(),
+              data_.contact_force.begin() + static_cast<std::ptrdiff_t>(position * force.size()));
+  };
+  return {numbers, store};
 }
 
 /// The fields of unit loads at single nodes.
@@ -97,31 +122,43 @@ void DisplacementBuilder::solveGreens(FieldTable& greens) {
   Progress progress("nodal Green's functions", loaded_.size(), options_.quiet);
   std::vector<std::unique_ptr<NodalGreens>> solvers(at(options_.workers));
   const std::size_t chunk = NodalGreens::kMost;
-  parallelFor(options_.workers, (loaded_.size() + chunk - 1) / chunk, [&](int worker, std::size_t number) {
+  const auto restore = [&](std::size_t number, record::ByteSource& kept) {
+    const std::size_t first = number * chunk, count = std::min(chunk, loaded_.size() - first);
+    std::vector<float> fields;
+    for (std::size_t i = first; i < first + count; ++i) {
+      if (kept.get<std::uint32_t>() != greens.checksum(i, fields))
+        throw record::RecordError("the scratch file has other fields");
+      close.keep(i, Eigen::Map<const Eigen::MatrixXf>(fields.data(), Eigen::Index(greens.rows()), 3));
+    }
+    progress.skip(count);
+  };
+  const auto solve = [&](int worker, std::size_t number) {
     auto& solver = solvers[at(worker)];
     if (!solver) solver = std::make_unique<NodalGreens>(setup_.model, factor_, setup_.surface);
     const std::size_t first = number * chunk, count = std::min(chunk, loaded_.size() - first);
     solver->solve(std::span(loaded_).subspan(first, count));
+    record::Bytes kept;
     for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::MatrixXd& W = solver->of(i);
+      const Eigen::MatrixXf W = solver->of(i).cast<float>();
+      const std::span<const float> fields(W.data(), static_cast<std::size_t>(W.size()));
       close.keep(first + i, W);
-      const Eigen::MatrixXf per_load = W.cast<float>();
-      greens.write(first + i, {per_load.data(), static_cast<std::size_t>(per_load.size())});
+      greens.write(first + i, fields);
+      record::put(kept, FieldTable::checksum(fields));
     }
     progress.advance(count);
-  });
+    return kept;
+  };
+  parallelParts(options_.workers, (loaded_.size() + chunk - 1) / chunk, options_.journal("greens"), restore,
+                solve);
   data_.contact_stiffness = patchStiffness(setup_, patches_, close, options_.workers);
 }
 
 modelfile::ModelData DisplacementBuilder::run() {
   const Stopwatch series_watch;
   const std::size_t rows = 3 * setup_.surface.nodes.size();
-  FieldTable table(options_.scratch, setup_.positions.nodes.size(), at(basis_.size()), rows);
-  solveAllSeries(setup_, mesh_, case_, factor_, SeriesKind::kDisplacement, options_, table,
-                 [&](const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii) {
-                   storePosition(series, lane, position, radii);
-                 });
-  FieldTable greens(options_.scratch, loaded_.size(), 3, rows);
+  FieldTable table(options_.scratchFile("series"), setup_.positions.nodes.size(), at(basis_.size()), rows);
+  solveAllSeries(setup_, mesh_, case_, factor_, SeriesKind::kDisplacement, options_, table, seriesSink());
+  FieldTable greens(options_.scratchFile("greens"), loaded_.size(), 3, rows);
   solveGreens(greens);
   storeOrgan(setup_, mesh_, data_);
   ModelAttributes& a = data_.attributes;
@@ -155,12 +192,18 @@ ChosenOrgan::ChosenOrgan(const Case& c, const mesh::TetMesh& organ, const BuildO
   report.factor_seconds = factor_watch.seconds();
   if (c.mesh_error) {
     const Stopwatch mesh_watch;
-    report.mesh_error = meshError(setup, mesh, factor, options.workers);
+    report.mesh_error = keptOr<MeshError>(
+        options.journal("mesh-error"), 0, [&] { return meshError(setup, mesh, factor, options.workers); },
+        [](record::Bytes& out, const MeshError& error) { record::put(out, error); },
+        [](record::ByteSource& in, MeshError& error) { in.get(error); });
     report.mesh_error_seconds = mesh_watch.seconds();
   }
   if (!c.ordersByTravel() && !c.handheld()) return;
   const Stopwatch orders_watch;
-  report.travel = ordersFor(c.travelOrDefault(), criteriaOf(c), setup, factor, options, triedOrders(c));
+  report.travel = keptOr<TravelOrders>(
+      options.journal("orders"), 0,
+      [&] { return ordersFor(c.travelOrDefault(), criteriaOf(c), setup, factor, options, triedOrders(c)); },
+      putOrders, getOrders);
   chosen.order = report.travel->orders.fields;
   chosen.force_order = report.travel->orders.answer;
   report.orders_seconds = orders_watch.seconds();

@@ -12,7 +12,7 @@
 
 #include "core/base/index.h"
 #include "core/base/multi_index.h"
-#include "tools/solver/base/parallel.h"
+#include "tools/solver/base/journal.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/build/edge_surplus.h"
 #include "tools/solver/series/series.h"
@@ -110,32 +110,50 @@ EdgeChoice storeEdgeFields(const SolverSetup& setup, const Cholesky& factor, con
   std::vector<Surplus> surplus(edges.count());
   Progress progress("series, edge midpoints", chosen.size(), options.quiet);
   std::vector<std::unique_ptr<SeriesSolver>> solvers(static_cast<std::size_t>(options.workers));
-  const auto solve = [&](const std::vector<std::size_t>& list) {
-    parallelFor(options.workers, (list.size() + kLanes - 1) / kLanes, [&](int worker, std::size_t chunk) {
+  const auto solve = [&](const std::vector<std::size_t>& list, const char* name) {
+    const auto edgesOf = [&](std::size_t chunk) {
+      return std::span(list).subspan(chunk * kLanes,
+                                     std::min<std::size_t>(kLanes, list.size() - chunk * kLanes));
+    };
+    const auto restore = [&](std::size_t chunk, record::ByteSource& kept) {
+      for (const std::size_t edge : edgesOf(chunk)) {
+        Surplus& own = surplus[edge];
+        getArray(kept, own.nodes);
+        getArray(kept, own.field);
+        kept.get(own.force_radius);
+      }
+      progress.skip(edgesOf(chunk).size());
+    };
+    const auto work = [&](int worker, std::size_t chunk) {
       auto& solver = solvers[static_cast<std::size_t>(worker)];
       if (!solver) solver = std::make_unique<SeriesSolver>(setup.model, factor, SeriesOrders{degree, degree});
-      const auto of = std::span(list).subspan(chunk * kLanes);
-      const std::size_t lanes = std::min<std::size_t>(kLanes, of.size());
+      const auto of = edgesOf(chunk);
       std::vector<Patch> loaded;
       PatchNodes room = patches.room();
-      for (const std::size_t edge : of.first(lanes)) loaded.push_back(edges.patch(edge, room));
+      for (const std::size_t edge : of) loaded.push_back(edges.patch(edge, room));
       solver->solve(loaded);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
+      record::Bytes kept;
+      for (std::size_t lane = 0; lane < of.size(); ++lane) {
         Surplus& own = surplus[of[lane]] = edges.surplus(*solver, static_cast<int>(lane), of[lane]);
         own.force_radius = edges.forceRadius(*solver, static_cast<int>(lane), of[lane], need.force_error);
+        putArray(kept, own.nodes);
+        putArray(kept, own.field);
+        record::put(kept, own.force_radius);
       }
-      progress.advance(lanes);
-    });
+      progress.advance(of.size());
+      return kept;
+    };
+    parallelParts(options.workers, (list.size() + kLanes - 1) / kLanes, options.journal(name), restore, work);
   };
   const auto [tried, others] = spread(chosen, kTried);
-  solve(tried);
+  solve(tried, "tried-edges");
   EdgeChoice choice{chosen.size(), 0, tried.size(), secondOf(edges, surplus, tried, need.travel)};
   if (choice.added <= kSmall * need.error) {
     capDomains([&](double d) { return secondOf(edges, surplus, tried, d) <= need.error; },
                data.contact_domain_radius);
     return choice;
   }
-  solve(others);
+  solve(others, "edges");
   choice.solved = chosen.size();
   limitDomains(edges, surplus, chosen, need.error, data.contact_domain_radius);
   data.edge_order = degree;

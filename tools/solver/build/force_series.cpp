@@ -61,12 +61,15 @@ void ForceBuilder::solveSeries(FieldTable& table) {
   report_.factor_seconds = factor_watch.seconds();
   const Stopwatch series_watch;
   solveAllSeries(setup_, mesh_, case_, factor, SeriesKind::kForce, options_, table,
-                 [&](const SeriesSolver& series, int lane, std::size_t position, const SeriesRadii& radii) {
-                   Mat3 C;
-                   for (int k = 0; k < 3; ++k) C.col(k) = series.answer(lane, k);
-                   radius_[position] = radii.series;
-                   compliance_[position] = C.norm() / std::sqrt(3.0);
-                 });
+                 {[](const SeriesSolver& series, int lane, const SeriesRadii& radii) {
+                    Mat3 C;
+                    for (int k = 0; k < 3; ++k) C.col(k) = series.answer(lane, k);
+                    return std::vector<double>{radii.series, C.norm() / std::sqrt(3.0)};
+                  },
+                  [&](std::size_t position, std::span<const double> numbers) {
+                    radius_[position] = numbers[0];
+                    compliance_[position] = numbers[1];
+                  }});
   report_.series_seconds = series_watch.seconds();
 }
 
@@ -126,8 +129,8 @@ modelfile::ModelData ForceBuilder::compress(const FieldTable& table, const FitSi
 }
 
 std::vector<modelfile::ModelData> ForceBuilder::run(std::span<const FitSize> sizes) {
-  FieldTable table(options_.scratch, setup_.positions.nodes.size(), static_cast<std::size_t>(basis_.size()),
-                   3 * setup_.surface.nodes.size());
+  FieldTable table(options_.scratchFile("series"), setup_.positions.nodes.size(),
+                   static_cast<std::size_t>(basis_.size()), 3 * setup_.surface.nodes.size());
   solveSeries(table);
   f_ref_ = medianOf(radius_);
   std::vector<modelfile::ModelData> models;

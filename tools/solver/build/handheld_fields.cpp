@@ -66,8 +66,8 @@ void DisplacementBuilder::storeCompactFields(const FitProblem& problem, const Fa
 std::unique_ptr<FieldTable> DisplacementBuilder::shareLoads(const FieldTable& greens) {
   const SharedLoads shared = sharedLoads(setup_, patches_, loaded_);
   if (shared.nodes.empty()) return nullptr;
-  auto fields =
-      std::make_unique<FieldTable>(options_.scratch, shared.nodes.size(), std::size_t{3}, greens.rows());
+  auto fields = std::make_unique<FieldTable>(ScratchPlace(options_.scratch), shared.nodes.size(),
+                                             std::size_t{3}, greens.rows());
   superpose(greens, shared, options_.workers, *fields);
   report_.shared_loads = shared.error;
   loaded_ = shared.nodes;

@@ -74,9 +74,9 @@ CloseGreens::CloseGreens(const PatchSurface& surface, std::span<const std::int32
   block_.resize(node_.size());
 }
 
-void CloseGreens::keep(std::size_t which, const Eigen::MatrixXd& field) {
+void CloseGreens::keep(std::size_t which, const Eigen::Ref<const Eigen::MatrixXf>& field) {
   for (std::size_t k = first_[which]; k < first_[which + 1]; ++k)
-    block_[k] = field.middleRows<3>(3 * node_[k]).cast<float>();
+    block_[k] = field.middleRows<3>(3 * node_[k]);
 }
 
 void CloseGreens::apply(const PatchNodes& patch, std::vector<Matrix3d>& Q) const {

@@ -20,7 +20,7 @@ class CloseGreens {
   CloseGreens(const PatchSurface& surface, std::span<const std::int32_t> sources, double reach);
   /// Keeps what is close of a Green's function. Threads: any number, for different sources.
   /// @param which  number of the source  @param field  3 Ns x 3
-  void keep(std::size_t which, const Eigen::MatrixXd& field);
+  void keep(std::size_t which, const Eigen::Ref<const Eigen::MatrixXf>& field);
   /// Q_j = sum_i w_i W_ij for the patch's own nodes j, m/N.
   void apply(const PatchNodes& patch, std::vector<Eigen::Matrix3d>& Q) const;
 

@@ -39,7 +39,8 @@ std::string lowerOrder(const Case& c, double bytes) {
 
 void requireRoom(const Estimate& estimate, const Case& c, const BuildOptions& options,
                  const std::filesystem::path& output) {
-  if (const double room = freeIn(options.scratch); estimate.scratch > room)
+  const double kept = options.checkpoint == nullptr ? 0.0 : options.checkpoint->bytes();
+  if (const double room = freeIn(options.scratch) + kept; estimate.scratch > room)
     throw CaseError(options.scratch.string() + ": needs " + gigabytes(estimate.scratch) + " of scratch, " +
                     gigabytes(room) + " are free: --scratch takes a folder of another disk, or " +
                     lowerOrder(c, estimate.scratch) + " need less");

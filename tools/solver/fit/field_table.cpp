@@ -10,21 +10,34 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/record/crc32.h"
+
 namespace palpate::solver {
 
-FieldTable::FieldTable(const std::filesystem::path& folder, std::size_t positions, std::size_t coefficients,
+namespace {
+
+int openScratch(const ScratchPlace& place) {
+  if (!place.name.empty())
+    return open((place.folder / place.name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  std::string name = (place.folder / "palpate-fields-XXXXXX").string();
+  const int file = mkostemp(name.data(), O_CLOEXEC);
+  if (file >= 0) unlink(name.c_str());
+  return file;
+}
+
+}  // namespace
+
+FieldTable::FieldTable(const ScratchPlace& place, std::size_t positions, std::size_t coefficients,
                        std::size_t rows)
-    : positions_(positions), coefficients_(coefficients), rows_(rows) {
-  std::string name = (folder / "palpate-fields-XXXXXX").string();
-  file_ = mkostemp(name.data(), O_CLOEXEC);
+    : file_(openScratch(place)), positions_(positions), coefficients_(coefficients), rows_(rows) {
   if (file_ < 0)
-    throw std::runtime_error(folder.string() + ": cannot make a scratch file there: " + std::strerror(errno));
-  unlink(name.c_str());
+    throw std::runtime_error(place.folder.string() +
+                             ": cannot make a scratch file there: " + std::strerror(errno));
   const std::size_t bytes = positions * blockBytes();
   const int error = bytes > 0 ? posix_fallocate(file_, 0, static_cast<off_t>(bytes)) : 0;
   if (error != 0) {
     close(file_);
-    throw std::runtime_error(folder.string() + ": no room for " + std::to_string(bytes) +
+    throw std::runtime_error(place.folder.string() + ": no room for " + std::to_string(bytes) +
                              " bytes of scratch: " + std::strerror(error));
   }
 }
@@ -56,6 +69,16 @@ void FieldTable::read(std::size_t position, std::span<float> fields) const {
     if (n <= 0) throw std::runtime_error(std::string("scratch file: read failed: ") + std::strerror(errno));
     done += static_cast<std::size_t>(n);
   }
+}
+
+std::uint32_t FieldTable::checksum(std::span<const float> fields) noexcept {
+  return record::crc32({reinterpret_cast<const std::uint8_t*>(fields.data()), fields.size_bytes()});
+}
+
+std::uint32_t FieldTable::checksum(std::size_t position, std::vector<float>& room) const {
+  room.resize(coefficients_ * rows_);
+  read(position, room);
+  return checksum(room);
 }
 
 }  // namespace palpate::solver

@@ -46,7 +46,7 @@ class BlockStiffness : public ::testing::Test {
     NodalGreens greens(setup_.model, factor_, setup_.surface);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       greens.solve(std::span(nodes).subspan(i, 1));
-      close.keep(i, greens.of(0));
+      close.keep(i, (greens.of(0)).cast<float>());
     }
     stiffness_ = patchStiffness(setup_, patches, close, 2);
     std::vector<std::int32_t> position(nodes.size(), -1);

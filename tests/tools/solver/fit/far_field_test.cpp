@@ -278,7 +278,7 @@ TEST(FieldTable, GivesBackWhatWasWritten) {
 
 TEST(FieldTable, SaysWhichFolderHasNoRoom) {
   try {
-    const FieldTable table("/nowhere/at/all", 1, 1, 1);
+    const FieldTable table(std::filesystem::path("/nowhere/at/all"), 1, 1, 1);
     FAIL() << "a scratch file in a folder that is not there";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("/nowhere/at/all"), std::string::npos) << error.what();

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "tools/solver/base/journal.h"
+
+namespace palpate::solver {
+
+/// The folder of a solve that cannot be gone on with: what() names it, the reason, and what helps.
+class CheckpointError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a solve has done so far, in a folder of its own: scratch files and a journal of each stage. The same solve, started again,
+/// goes on where it was killed.                                                          docs/decisions/checkpoints.md
+class Checkpoint {
+ public:
+  /// @param solve  all that decides the results, one "name = value" each
+  /// @param fresh  what is in the folder is thrown away
+  /// @throw CheckpointError  another solve is in it, or another program at work
+  Checkpoint(std::filesystem::path folder, std::span<const std::string> solve, bool fresh);
+  /// An empty folder is removed.
+  ~Checkpoint();
+  Checkpoint(const Checkpoint&) = delete;
+  Checkpoint& operator=(const Checkpoint&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
+  /// The one journal of a stage; lives as long as this.
+  [[nodiscard]] Journal& journal(const std::string& stage);
+  /// Wall time that earlier runs spent on what this one has found, s.
+  [[nodiscard]] double found() const;
+  /// Of what is on the disk.
+  [[nodiscard]] double bytes() const;
+  /// Whether an earlier run has left something.
+  [[nodiscard]] bool goesOn() const noexcept { return goes_on_; }
+  /// The solve is done, or all that it did: the folder goes.
+  void remove();
+
+ private:
+  void take(std::span<const std::string> solve, bool fresh);
+  void removeAllBut(const char* kept);
+
+  std::filesystem::path folder_;
+  int lock_{-1};
+  bool goes_on_{false};
+  std::map<std::string, Journal> journals_;
+};
+
+}  // namespace palpate::solver
