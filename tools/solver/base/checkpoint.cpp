@@ -130,8 +130,9 @@ void Checkpoint::removeAllBut(const char* kept) {
 }
 
 void Checkpoint::remove() {
-  removeAllBut("");
+  removeAllBut(kSolve);  // which says whose the folder is until it is empty
   std::error_code error;
+  std::filesystem::remove(folder_ / kSolve, error);
   std::filesystem::remove(folder_, error);
 }
 

@@ -24,6 +24,7 @@ class KilledSolve : public SolveProgram {
   /// Starts a solve and kills it once a stage has kept something. @return whether it was still at work
   [[nodiscard]] bool killAt(const std::string& stage) const {
     fs::remove_all(partial());
+    fs::remove(folder_ / "out.h5");  // of a try that ended too soon
     testing::ChildProcess solve("palpate-solve", arguments(path("case.toml"), path("out.h5")), {});
     const fs::path journal = partial() / (stage + ".journal");
     std::error_code error;
