@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kPeriod = 20 * kMs;
-constexpr std::int64_t kStealShare =
-    100;  // of the time is spent reading the steal: many processors, long file
-constexpr std::int64_t kStealPeriod = 200 * kMs;  // at most
+// Readings of the steal are this many times as far apart as one takes (many processors, long file), but at most so far.
+constexpr std::int64_t kStealSpacing = 100;
+constexpr std::int64_t kStealPeriod = 200 * kMs;
 constexpr std::int64_t kLookPeriod = 1000 * kMs;  // a look costs milliseconds
 constexpr std::int64_t kLookAgain = 100 * kMs;    // after a late tick
 constexpr std::int64_t kClockStep = kMs;          // a clock that is slewed drifts by 10 us in 20 ms
@@ -72,8 +72,10 @@ void LateWatch::sample(std::int64_t now_ns) {
   const std::int64_t slack_ns = tick_.slack();
   judge_.note(rt::QueueSample{now_ns, queue_.queued_ns(), slack_ns});
   if (now_ns < steal_due_ns_) return;
-  judge_.note(rt::StealSample{now_ns, stolenSoFar()});
-  steal_due_ns_ = now_ns + std::min(kStealPeriod, kStealShare * (rt::monotonicNow() - now_ns));
+  std::vector<std::int64_t> stolen = stolenSoFar();
+  const std::int64_t read_ns = rt::monotonicNow();
+  judge_.note(rt::StealSample{read_ns, std::move(stolen)});
+  steal_due_ns_ = read_ns + std::min(kStealPeriod, kStealSpacing * (read_ns - now_ns));
 }
 
 void LateWatch::judge(std::int64_t now_ns, bool at_once) {

@@ -67,6 +67,30 @@ TEST(HapticTool, KeepsTheServersLimitAndItsOwn) {
   EXPECT_LE(tool.force().force[2], 0.7);
 }
 
+// A server that comes back under its id may have another organ.
+TEST(HapticTool, TouchesTheOrganThatItWantsOnly) {
+  Server server;
+  Options options = onTool1();
+  options.organ_id = 7;
+  HapticTool tool(options);
+  EXPECT_EQ(tool.send({0, 0, 0}), 0U) << "no such organ is known";
+  const auto says = [&](std::uint32_t organ, bool sends) {
+    server.organ = organ;
+    for (int i = 0; i < 500; ++i) {
+      server.say(0.7);
+      if ((tool.send({0, 0, 0}) != 0) == sends) return true;
+      std::this_thread::sleep_for(10ms);
+    }
+    return false;
+  };
+  EXPECT_FALSE(tool.waitForServer(50ms));
+  ASSERT_TRUE(says(7, true));
+  ASSERT_EQ(pressed(server, tool, {0, 0, 0}, 0.5).gain, 1.0);
+  ++server.session;
+  ASSERT_TRUE(says(8, false)) << "the same server, another organ";
+  ASSERT_TRUE(says(7, true)) << "and back";
+}
+
 TEST(HapticTool, LetsGoWhenTheServerFallsSilent) {
   Server server;
   HapticTool tool(onTool1());

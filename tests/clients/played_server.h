@@ -24,12 +24,14 @@ struct Server {
   dds::Writer<dds::ServerStatus> statuses{participant};
   std::uint64_t seq{0};
   std::uint64_t session{1};
+  std::uint32_t organ{0};
 
   void say(double force_limit) {
     dds::ServerStatus status{};
     status.state = dds::server_state::kRunning;
     status.server_id = 4;
     status.session = session;
+    status.organ_id = organ;
     status.force_limit = force_limit;
     status.tip_radius[1] = 0.004;
     ASSERT_TRUE(statuses.waitForReaders(1, 5s));

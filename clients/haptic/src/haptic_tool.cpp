@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/haptic/haptic_tool.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -18,13 +19,12 @@
 namespace palpate::haptic {
 namespace {
 
-constexpr std::int64_t kMaxOrganId = 4294967295;
-
 const Options& checked(const Options& options) {
   using device::inRange;
   inRange<HapticError>("domain", options.domain, 0, dds::kMaxDomain);
   inRange<HapticError>("tool id", options.tool_id, 0, 3);
-  if (options.organ_id) inRange<HapticError>("organ id", *options.organ_id, std::int64_t{0}, kMaxOrganId);
+  if (options.organ_id)
+    inRange<HapticError>("organ id", *options.organ_id, std::int64_t{0}, client::kMaxOrganId);
   if (options.force_limit == 0.0)
     throw HapticError("force limit is missing: say the largest force that the device renders, N");
   inRange<HapticError>("force limit (N)", options.force_limit, 0.01, 50.0);
@@ -131,7 +131,7 @@ class HapticTool::Impl {
     auto& self = *static_cast<Impl*>(context);
     const client::ServerRun held = self.heldRun();
     const bool wanted = self.wanted_.fits(status);
-    if (wanted && self.wanted_.organ_id) self.aimAt(status);
+    if (self.wanted_.organ_id) self.aimAt(status, wanted);
     if (held == client::runOf(status) || (held == client::ServerRun{} && wanted)) self.adopt(status);
   }
 
@@ -139,9 +139,15 @@ class HapticTool::Impl {
     return !wanted_.organ_id || target_.load(std::memory_order_relaxed) != dds::kServerAny;
   }
 
-  // At the first server of the organ that is heard, and at the next one when that is not heard any more. On the receive thread.
-  void aimAt(const dds::ServerStatus& status) noexcept {
+  // At the first server of the organ that is heard, and at the next one when that is not heard any more; at none while that
+  // server has another organ: without poses no force is an answer. On the receive thread.
+  void aimAt(const dds::ServerStatus& status, bool wanted) noexcept {
     if (status.state != dds::server_state::kRunning) return;
+    if (!wanted) {
+      std::uint32_t other = status.server_id;
+      (void)target_.compare_exchange_strong(other, dds::kServerAny, std::memory_order_relaxed);
+      return;
+    }
     const std::int64_t now_ns = rt::monotonicNow();
     const std::uint32_t target = target_.load(std::memory_order_relaxed);
     const bool silent = now_ns - target_heard_ns_ > client::StatusBoard::kSilenceNs;

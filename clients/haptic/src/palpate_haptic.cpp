@@ -143,7 +143,7 @@ const char* palpate_haptic_error_text(int code) {
     case PALPATE_HAPTIC_INVALID_ARGUMENT:
       return "a null pointer, or a number out of its range";
     case PALPATE_HAPTIC_SEND_FAILED:
-      return "DDS refused the pose";
+      return "DDS refused the pose, or no server of the organ is known";
     case PALPATE_HAPTIC_NO_SERVER:
       return "no server takes poses and sends forces on this domain";
     default:

@@ -20,7 +20,7 @@ std::unique_ptr<solver::Checkpoint> checkpointOf(const Options& options, const s
   std::vector<std::string> solve = solver::linesOf(c);
   solve.push_back("mesh = SHA-256 " + fileHash(c.mesh));
   solve.push_back("program = SHA-256 " + fileHash("/proc/self/exe"));
-  solve.push_back("processor = " + solver::blasProcessor());
+  solve.push_back("BLAS = " + solver::blasVersion());
   const std::filesystem::path folder = options.scratch / (options.output.filename().string() + ".partial");
   auto checkpoint = std::make_unique<solver::Checkpoint>(folder, solve, options.fresh);
   if (checkpoint->goesOn() && !options.quiet)

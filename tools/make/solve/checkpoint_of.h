@@ -14,7 +14,7 @@ namespace palpate::solve_program {
 
 /// The folder OUTPUT.partial of a solve, in the scratch folder; says on standard error that it goes on. Null for the methods that
 /// keep nothing.
-/// @throw solver::CheckpointError  the folder is of another case, mesh, program or kind of processor, or in use
+/// @throw solver::CheckpointError  the folder is of another case, mesh, program, version of OpenBLAS or kind of processor, or in use
 [[nodiscard]] std::unique_ptr<solver::Checkpoint> checkpointOf(const Options& options, const solver::Case& c);
 
 }  // namespace palpate::solve_program

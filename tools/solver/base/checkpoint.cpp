@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +21,7 @@ namespace palpate::solver {
 namespace {
 
 constexpr const char* kSolve = "solve";  ///< the file that says whose the folder is; also its lock
+constexpr const char* kFormat = "palpate-solve checkpoint 1";  ///< its first line
 
 std::vector<std::string> linesOf(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -45,37 +47,53 @@ std::string differenceOf(std::span<const std::string> now, std::span<const std::
       const std::string name = nameOf(line), is = lineWith(now, name), was = lineWith(before, name);
       if (is != was) return name + " is now " + is + ", was " + was;
     }
-  return {};
+  return "its lines are in another order";
 }
 
-bool holdsOnlyItsName(const std::filesystem::path& folder) {
+bool holdsOnlyItsName(const std::filesystem::path& folder) noexcept {
   std::error_code error;
-  const std::filesystem::directory_iterator entries(folder, error);
-  return std::all_of(begin(entries), end(entries),
-                     [](const auto& entry) { return entry.path().filename() == kSolve; });
+  std::filesystem::directory_iterator entries(folder, error);
+  for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error))
+    if (entries->path().filename() != kSolve) return false;
+  return !error;
 }
 
-/// A process that was killed has its lock until the kernel has taken its memory back.
-bool locked(int file) {
+/// Whether a name still leads to an open file: the folder of a solve that is done goes with its lock.
+bool leadsTo(const std::filesystem::path& name, int file) {
+  struct stat of_name {
+  }, of_file{};
+  return stat(name.c_str(), &of_name) == 0 && fstat(file, &of_file) == 0 &&
+         of_name.st_ino == of_file.st_ino && of_name.st_dev == of_file.st_dev;
+}
+
+/// Opens the file that is the folder's lock, and locks it. A process that was killed has its own until the kernel has taken its
+/// memory back. @throw CheckpointError
+int lockedFile(const std::filesystem::path& folder) {
+  const std::filesystem::path name = folder / kSolve;
   for (int tries = 0; tries < 20; ++tries) {
-    if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::error_code error;
+    std::filesystem::create_directory(folder, error);
+    if (error) throw CheckpointError(folder.string() + ": cannot be made: " + error.message());
+    if (!std::filesystem::exists(name, error) && !holdsOnlyItsName(folder))
+      throw CheckpointError(folder.string() + " is not a folder of palpate-solve; give another --scratch");
+    const int file = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (file < 0 && errno == ENOENT) continue;  // the folder has just gone
+    if (file < 0) throw CheckpointError(name.string() + ": cannot be opened: " + std::strerror(errno));
+    const int failed = flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+    if (failed == 0 && leadsTo(name, file)) return file;
+    close(file);
+    if (failed != 0 && failed != EWOULDBLOCK && failed != EINTR)
+      throw CheckpointError(name.string() + ": cannot be locked: " + std::strerror(failed));
+    if (failed != 0) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  return false;
+  throw CheckpointError(folder.string() + ": another program solves there; give another --output");
 }
 
 }  // namespace
 
 Checkpoint::Checkpoint(std::filesystem::path folder, std::span<const std::string> solve, bool fresh)
-    : folder_(std::move(folder)) {
-  std::error_code error;
-  std::filesystem::create_directory(folder_, error);
-  const std::filesystem::path file = folder_ / kSolve;
-  lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (lock_ < 0) throw CheckpointError(file.string() + ": cannot be opened: " + std::strerror(errno));
+    : folder_(std::move(folder)), lock_(lockedFile(folder_)) {
   try {
-    if (!locked(lock_))
-      throw CheckpointError(folder_.string() + ": another program solves there; give another --output");
     take(solve, fresh);
   } catch (...) {
     close(lock_);
@@ -85,25 +103,31 @@ Checkpoint::Checkpoint(std::filesystem::path folder, std::span<const std::string
 
 void Checkpoint::take(std::span<const std::string> solve, bool fresh) {
   const std::filesystem::path file = folder_ / kSolve;
+  std::vector<std::string> now{kFormat};
+  now.insert(now.end(), solve.begin(), solve.end());
   const std::vector<std::string> before = linesOf(file);
-  if (!fresh && std::equal(before.begin(), before.end(), solve.begin(), solve.end())) {
+  if (!holdsOnlyItsName(folder_) && (before.empty() || before.front() != kFormat))
+    throw CheckpointError(folder_.string() + " is not a folder of palpate-solve; give another --scratch");
+  if (!fresh && before == now) {
     goes_on_ = !holdsOnlyItsName(folder_);
     return;
   }
-  if (!fresh && !before.empty())
-    throw CheckpointError(folder_.string() + " holds parts of another solve: " + differenceOf(solve, before) +
+  if (!fresh && !holdsOnlyItsName(folder_))
+    throw CheckpointError(folder_.string() + " holds parts of another solve: " + differenceOf(now, before) +
                           "; --fresh begins again");
-  if (before.empty() && !holdsOnlyItsName(folder_))
-    throw CheckpointError(folder_.string() + " is not a folder of palpate-solve; give another --scratch");
-  removeAllBut(kSolve);
-  std::ofstream out(file, std::ios::trunc);
-  for (const std::string& line : solve) out << line << '\n';
-  if (!out.flush()) throw CheckpointError(file.string() + ": cannot be written");
+  removeParts();
+  if (!holdsOnlyItsName(folder_))
+    throw CheckpointError(folder_.string() + ": what an earlier run has left cannot be removed");
+  std::string text;
+  for (const std::string& line : now) text += line + '\n';
+  if (ftruncate(lock_, 0) != 0 ||
+      pwrite(lock_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()) || fsync(lock_) != 0)
+    throw CheckpointError(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 Checkpoint::~Checkpoint() {
   if (holdsOnlyItsName(folder_)) remove();
-  close(lock_);
+  if (lock_ >= 0) close(lock_);
 }
 
 Journal& Checkpoint::journal(const std::string& stage) {
@@ -123,17 +147,20 @@ double Checkpoint::bytes() const {
   return all;
 }
 
-void Checkpoint::removeAllBut(const char* kept) {
+void Checkpoint::removeParts() noexcept {
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
-    if (entry.path().filename() != kept) std::filesystem::remove(entry.path(), error);
+  std::filesystem::directory_iterator entries(folder_, error);
+  for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error))
+    if (entries->path().filename() != kSolve) unlink(entries->path().c_str());
 }
 
-void Checkpoint::remove() {
-  removeAllBut(kSolve);  // which says whose the folder is until it is empty
+void Checkpoint::remove() noexcept {
+  if (lock_ < 0) return;
+  removeParts();
   std::error_code error;
-  std::filesystem::remove(folder_ / kSolve, error);
-  std::filesystem::remove(folder_, error);
+  if (holdsOnlyItsName(folder_)) unlink((folder_ / kSolve).c_str());  // last: it says whose the rest is
+  rmdir(folder_.c_str());
+  close(std::exchange(lock_, -1));  // whoever comes now has a folder of its own
 }
 
 }  // namespace palpate::solver

@@ -39,15 +39,15 @@ class Checkpoint {
   [[nodiscard]] double bytes() const;
   /// Whether an earlier run has left something.
   [[nodiscard]] bool goesOn() const noexcept { return goes_on_; }
-  /// The solve is done, or all that it did: the folder goes.
-  void remove();
+  /// The solve is done: the folder goes, and nothing more is kept.
+  void remove() noexcept;
 
  private:
   void take(std::span<const std::string> solve, bool fresh);
-  void removeAllBut(const char* kept);
+  void removeParts() noexcept;
 
   std::filesystem::path folder_;
-  int lock_{-1};
+  int lock_;  ///< -1: the folder is gone
   bool goes_on_{false};
   std::map<std::string, Journal> journals_;
 };

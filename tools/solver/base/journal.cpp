@@ -34,7 +34,9 @@ std::uint32_t checksumOf(Head head, std::span<const std::uint8_t> result) {
   return record::crc32(result, record::crc32(first));
 }
 
+/// @return false where the file ends, with errno 0, or cannot be read
 bool readWhole(int file, void* to, std::size_t size, std::int64_t offset) {
+  errno = 0;
   for (std::size_t done = 0; done < size;) {
     const ssize_t n =
         pread(file, static_cast<char*>(to) + done, size - done, offset + static_cast<off_t>(done));
@@ -72,10 +74,11 @@ void Journal::readBack() {
     if (head.size > static_cast<std::uint64_t>(end - begin)) break;
     result.resize(head.size);
     if (!readWhole(file_, result.data(), result.size(), begin) || checksumOf(head, result) != head.checksum)
-      break;
+      break;  // errno says whether it could be read
     places_[head.part] = {begin, result.size(), head.seconds};
     offset = begin + static_cast<std::int64_t>(head.size);
   }
+  if (errno != 0) fail("cannot be read");  // what is behind is not damaged
   if (offset < end && ftruncate(file_, offset) != 0) fail("cannot cut off what is damaged");
   if (lseek(file_, offset, SEEK_SET) != offset) fail("cannot be read");
 }
@@ -86,8 +89,12 @@ std::optional<record::Bytes> Journal::find(std::uint64_t part) const {
   if (place == places_.end()) return std::nullopt;
   record::Bytes result(place->second.size);
   if (!readWhole(file_, result.data(), result.size(), place->second.offset)) return std::nullopt;
-  found_ += place->second.seconds;
   return result;
+}
+
+void Journal::taken(std::uint64_t part) const {
+  const std::lock_guard lock(mutex_);
+  found_ += places_.at(part).seconds;
 }
 
 void Journal::keep(std::uint64_t part, const record::Bytes& result, double seconds) {
@@ -121,6 +128,7 @@ void parallelParts(int workers, std::size_t parts, Journal* journal,
       try {
         record::ByteSource source(*kept);
         restore(part, source);
+        journal->taken(part);
         done[part] = 1;
       } catch (const record::RecordError&) {  // what its record stands for is not what it was
       }

@@ -33,7 +33,9 @@ class Journal {
   [[nodiscard]] std::optional<record::Bytes> find(std::uint64_t part) const;
   /// @param seconds  of wall time that the part took  @throw std::runtime_error naming the file: the disk is full
   void keep(std::uint64_t part, const record::Bytes& result, double seconds);
-  /// Seconds that the parts found so far had taken.
+  /// What was kept of a part holds, and is not done again.
+  void taken(std::uint64_t part) const;
+  /// Seconds that the parts taken so far had cost.
   [[nodiscard]] double found() const;
 
  private:
@@ -86,6 +88,7 @@ T keptOr(Journal* journal, std::uint64_t part, const Compute& compute, const Put
       record::ByteSource source(*kept);
       T result{};
       get(source, result);
+      journal->taken(part);
       return result;
     } catch (const record::RecordError&) {  // it is done again
     }

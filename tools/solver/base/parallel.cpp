@@ -31,8 +31,8 @@ int machineThreads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-std::string blasProcessor() {
-  return openblas_get_corename();
+std::string blasVersion() {
+  return openblas_get_config();
 }
 
 void parallelFor(int workers, std::size_t chunks, const std::function<void(int, std::size_t)>& work) {

@@ -12,8 +12,8 @@ namespace palpate::solver {
 void parallelFor(int workers, std::size_t chunks,
                  const std::function<void(int worker, std::size_t chunk)>& work);
 
-/// The kind of processor that OpenBLAS computes for: others round otherwise.
-[[nodiscard]] std::string blasProcessor();
+/// OpenBLAS's version and the kind of processor that it computes for: others round otherwise.
+[[nodiscard]] std::string blasVersion();
 
 /// Hardware threads of the machine, at least 1.
 [[nodiscard]] int machineThreads();

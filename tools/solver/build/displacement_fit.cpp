@@ -52,6 +52,7 @@ void getFarField(record::ByteSource& in, Eigen::Index rows, FarField& far) {
   getArray(in, Y);
   getArray(in, far.errors);
   getArray(in, far.largest);
+  if (X.empty() || rows < 1) throw record::RecordError("a record has no modes");
   const Eigen::Index modes = static_cast<Eigen::Index>(X.size()) / rows;
   far.X = Eigen::Map<const Eigen::MatrixXf>(X.data(), rows, modes);
   far.Y = Eigen::Map<const Eigen::MatrixXf>(Y.data(), modes, static_cast<Eigen::Index>(Y.size()) / modes);

@@ -58,14 +58,21 @@ void putOrders(record::Bytes& out, const TravelOrders& travel) {
   putArray(out, travel.tried);
 }
 
+/// @throw record::RecordError  there are not so many
+template <class T>
+std::vector<T> numbersOf(record::ByteSource& in, std::size_t count) {
+  std::vector<T> numbers;
+  getArray(in, numbers);
+  if (numbers.size() != count) throw record::RecordError("a record has another length");
+  return numbers;
+}
+
 void getOrders(record::ByteSource& in, TravelOrders& travel) {
-  std::vector<double> shares;
-  std::vector<int> counts;
-  getArray(in, shares);
+  const std::vector<double> shares = numbersOf<double>(in, 2);
   in.get(travel.orders);
-  getArray(in, counts);
+  const std::vector<int> counts = numbersOf<int>(in, 2);
   getArray(in, travel.tried);
-  travel = {shares.at(0), travel.orders, counts.at(0), counts.at(1), shares.at(1), travel.tried};
+  travel = {shares[0], travel.orders, counts[0], counts[1], shares[1], travel.tried};
 }
 
 }  // namespace
@@ -194,8 +201,14 @@ ChosenOrgan::ChosenOrgan(const Case& c, const mesh::TetMesh& organ, const BuildO
     const Stopwatch mesh_watch;
     report.mesh_error = keptOr<MeshError>(
         options.journal("mesh-error"), 0, [&] { return meshError(setup, mesh, factor, options.workers); },
-        [](record::Bytes& out, const MeshError& error) { record::put(out, error); },
-        [](record::ByteSource& in, MeshError& error) { in.get(error); });
+        [](record::Bytes& out, const MeshError& error) {
+          putArray(out, std::vector<double>{error.mean, error.largest, double(error.points),
+                                            double(error.raised)});
+        },
+        [](record::ByteSource& in, MeshError& error) {
+          const std::vector<double> kept = numbersOf<double>(in, 4);
+          error = {kept[0], kept[1], static_cast<int>(kept[2]), kept[3] != 0.0};
+        });
     report.mesh_error_seconds = mesh_watch.seconds();
   }
   if (!c.ordersByTravel() && !c.handheld()) return;

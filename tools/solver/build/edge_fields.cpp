@@ -7,11 +7,13 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/base/index.h"
 #include "core/base/multi_index.h"
+#include "core/record/crc32.h"
 #include "tools/solver/base/journal.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/build/edge_surplus.h"
@@ -69,6 +71,15 @@ void store(const std::vector<Surplus>& surplus, modelfile::ModelData& data) {
   }
 }
 
+/// Of modes and near fields.
+std::uint32_t fitChecksum(const modelfile::ModelData& data) {
+  std::uint32_t checksum = 0;
+  for (const std::vector<float>* const part : {&data.modes_X, &data.modes_Y, &data.near_field})
+    checksum = record::crc32(
+        {reinterpret_cast<const std::uint8_t*>(part->data()), part->size() * sizeof(float)}, checksum);
+  return checksum;
+}
+
 }  // namespace
 
 EdgeCounts edgeCounts(const SolverSetup& setup, int order) {
@@ -110,7 +121,8 @@ EdgeChoice storeEdgeFields(const SolverSetup& setup, const Cholesky& factor, con
   std::vector<Surplus> surplus(edges.count());
   Progress progress("series, edge midpoints", chosen.size(), options.quiet);
   std::vector<std::unique_ptr<SeriesSolver>> solvers(static_cast<std::size_t>(options.workers));
-  const auto solve = [&](const std::vector<std::size_t>& list, const char* name) {
+  const std::string fit = std::to_string(fitChecksum(data));  // they add to what it leaves
+  const auto solve = [&](const std::vector<std::size_t>& list, const std::string& name) {
     const auto edgesOf = [&](std::size_t chunk) {
       return std::span(list).subspan(chunk * kLanes,
                                      std::min<std::size_t>(kLanes, list.size() - chunk * kLanes));
@@ -143,17 +155,18 @@ EdgeChoice storeEdgeFields(const SolverSetup& setup, const Cholesky& factor, con
       progress.advance(of.size());
       return kept;
     };
-    parallelParts(options.workers, (list.size() + kLanes - 1) / kLanes, options.journal(name), restore, work);
+    parallelParts(options.workers, (list.size() + kLanes - 1) / kLanes, options.journal(name + fit), restore,
+                  work);
   };
   const auto [tried, others] = spread(chosen, kTried);
-  solve(tried, "tried-edges");
+  solve(tried, "tried-edges-");
   EdgeChoice choice{chosen.size(), 0, tried.size(), secondOf(edges, surplus, tried, need.travel)};
   if (choice.added <= kSmall * need.error) {
     capDomains([&](double d) { return secondOf(edges, surplus, tried, d) <= need.error; },
                data.contact_domain_radius);
     return choice;
   }
-  solve(others, "edges");
+  solve(others, "edges-");
   choice.solved = chosen.size();
   limitDomains(edges, surplus, chosen, need.error, data.contact_domain_radius);
   data.edge_order = degree;

@@ -14,12 +14,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
-/// Work on blocks of a list, by all workers.
+/// Work on blocks of a list, by all workers, dealt out in turn: each adds up the same blocks in every run.
 void FarFieldFit::forBlocks(Sources order, std::size_t block,
                             const std::function<void(Worker&, Sources)>& work) {
-  parallelFor(options_.workers, (order.size() + block - 1) / block, [&](int w, std::size_t k) {
-    work(workers_[static_cast<std::size_t>(w)],
-         order.subspan(k * block, std::min(block, order.size() - k * block)));
+  parallelFor(options_.workers, workers_.size(), [&](int, std::size_t w) {
+    for (std::size_t first = w * block; first < order.size(); first += workers_.size() * block)
+      work(workers_[w], order.subspan(first, std::min(block, order.size() - first)));
   });
 }
 

@@ -19,7 +19,7 @@ struct QueueSample {
 
 /// What the host had stolen from each processor by a time, in the kernel's units (10 ms).
 struct StealSample {
-  std::int64_t at_ns{0};  ///< CLOCK_MONOTONIC
+  std::int64_t at_ns{0};  ///< CLOCK_MONOTONIC, read last: what came later is not in it
   std::vector<std::int64_t> stolen;
 };
 

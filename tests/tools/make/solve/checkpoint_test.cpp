@@ -18,7 +18,7 @@ class KilledSolve : public SolveProgram {
  protected:
   [[nodiscard]] static std::vector<std::string> arguments(const std::string& input,
                                                           const std::string& output) {
-    return {input, "-o", output, "-q", "--json", "--modes", "20", "--threads", "1"};
+    return {input, "-o", output, "-q", "--json", "--modes", "20", "--threads", "2"};
   }
 
   /// Starts a solve and kills it once a stage has kept something. @return whether it was still at work
@@ -26,12 +26,18 @@ class KilledSolve : public SolveProgram {
     fs::remove_all(partial());
     fs::remove(folder_ / "out.h5");  // of a try that ended too soon
     testing::ChildProcess solve("palpate-solve", arguments(path("case.toml"), path("out.h5")), {});
-    const fs::path journal = partial() / (stage + ".journal");
-    std::error_code error;
-    while (solve.running() && (!fs::exists(journal) || fs::file_size(journal, error) == 0))
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (solve.running() && !hasKept(stage)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     solve.signal(SIGKILL);
     return solve.waitForExit() == 128 + SIGKILL;
+  }
+  /// Whether the journal of a stage has something in it; that of edges has the fit in its name.
+  [[nodiscard]] bool hasKept(const std::string& stage) const {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(partial(), error))
+      if (entry.path().extension() == ".journal" && entry.path().filename().string().rfind(stage, 0) == 0 &&
+          entry.file_size(error) > 0 && !error)
+        return true;
+    return false;
   }
   [[nodiscard]] bool killAtLast(const std::string& stage) const {
     for (int tries = 0; tries < 5; ++tries)

@@ -48,8 +48,10 @@ TEST_F(Kept, IsGivenBackWithTheTimeThatItTook) {
   EXPECT_EQ(found(), std::vector<bool>({true, true, true}));
   const Journal journal(file_);
   EXPECT_EQ(journal.found(), 0.0) << "nobody has asked yet";
-  (void)journal.find(0);
-  (void)journal.find(2);
+  (void)journal.find(1);
+  EXPECT_EQ(journal.found(), 0.0) << "nobody could use it yet";
+  journal.taken(0);
+  journal.taken(2);
   EXPECT_DOUBLE_EQ(journal.found(), 1.0);
   EXPECT_FALSE(journal.find(3));
 }
@@ -124,12 +126,38 @@ TEST_F(Kept, BelongsToOneSolve) {
   EXPECT_FALSE(fs::exists(folder)) << "nothing was done in it";
 }
 
+TEST_F(Kept, IsGoneOnceAndForAll) {
+  const fs::path folder = folder_ / "model.h5.partial";
+  const std::vector<std::string> solve{"material.E = 1000"};
+  Checkpoint done(folder, solve, false);
+  done.journal("series").keep(0, record::Bytes(8), 1.0);
+  done.remove();
+  EXPECT_FALSE(fs::exists(folder));
+  Checkpoint next(folder, solve, false);  // of a program that begins while the first one ends
+  EXPECT_FALSE(next.goesOn());
+  done.remove();
+  EXPECT_TRUE(fs::exists(folder)) << "the next one's";
+}
+
+TEST_F(Kept, GoesOnWhenItWasKilledWhileItWent) {
+  const fs::path folder = folder_ / "model.h5.partial";
+  const std::vector<std::string> solve{"material.E = 1000"};
+  { Checkpoint(folder, solve, false).journal("series").keep(0, record::Bytes(8), 1.0); }
+  ASSERT_TRUE(fs::exists(folder));
+  fs::remove(folder / "series.journal");  // the first of what goes
+  EXPECT_FALSE(Checkpoint(folder, solve, false).goesOn());
+}
+
 TEST_F(Kept, LeavesOthersFoldersAlone) {
   const fs::path folder = folder_ / "model.h5.partial";
   fs::create_directory(folder);
   std::ofstream(folder / "thesis.tex") << "years of work";
   EXPECT_THROW(Checkpoint(folder, std::vector<std::string>{"a = b"}, true), CheckpointError);
   EXPECT_TRUE(fs::exists(folder / "thesis.tex"));
+  EXPECT_FALSE(fs::exists(folder / "solve"));
+  std::ofstream(folder / "solve") << "x = 3\n";
+  EXPECT_THROW(Checkpoint(folder, std::vector<std::string>{"a = b"}, true), CheckpointError);
+  EXPECT_TRUE(fs::exists(folder / "thesis.tex")) << "a file of that name is not enough";
 }
 
 }  // namespace
