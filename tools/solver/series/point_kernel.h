@@ -86,16 +86,16 @@ PALPATE_INLINE void gradientsOf(const PointInput<N>& input, const IntegrationPoi
   }
 }
 
-/// H_k length^|alpha_k| of all coefficients.
+/// H_k length^|alpha_k| of the first `count` coefficients.
 template <int N>
-PALPATE_INLINE void scaledGradientsOf(const PointInput<N>& input, const IntegrationPoint<N>& point,
+PALPATE_INLINE void scaledGradientsOf(const PointInput<N>& input, const IntegrationPoint<N>& point, int count,
                                       Tensor<float>* H) {
   const FloatLanes* u[N];
   for (std::size_t a = 0; a < N; ++a)
     u[a] = input.V + static_cast<std::ptrdiff_t>(point.nodes[a]) * input.coefficients * 3;
   Slopes<float, N> g;
   slopesOf(point, g);
-  for (int k = 0; k < input.coefficients; ++k) {
+  for (int k = 0; k < count; ++k) {
     gradientOf(g, u, 1, H[k]);
     for (const FloatLanes*& x : u) x += 3;
   }
@@ -131,12 +131,12 @@ PALPATE_INLINE void assemblePart(const PointInput<N>& input, const CauchyProduct
 
 /// One point's energyCoefficients.
 template <typename L, int N>
-PALPATE_INLINE void energyPoint(const PointInput<N>& input, const CauchyProduct& factors,
+PALPATE_INLINE void energyPoint(const PointInput<N>& input, int fields, const CauchyProduct& factors,
                                 const CauchyRows& rows, int n, FloatLanes* W) {
   std::array<Tensor<float>, kMost> H;
   const IntegrationPoint<N>& point = input.points[n];
-  scaledGradientsOf(input, point, H.data());
-  typename L::EnergySeries series(point.lame, H.data(), input.coefficients);
+  scaledGradientsOf(input, point, fields, H.data());
+  typename L::EnergySeries series(point.lame, H.data(), fields);
   const int carried = static_cast<int>(factors.begin.size()) - 1;
   for (int k = 0; k < carried; ++k) series.carry(factors, k);
   series.addEnergies(rows, static_cast<float>(point.weight), W);
@@ -158,7 +158,7 @@ template <int N>
 PALPATE_INLINE void boundPoint(const PointInput<N>& input, int n, const FloatLanes* powers,
                                FloatLanes& bound) {
   std::array<Tensor<float>, kMost> H;
-  scaledGradientsOf(input, input.points[n], H.data());
+  scaledGradientsOf(input, input.points[n], input.coefficients, H.data());
   bound = FloatLanes{};
   for (int k = 0, degree = 1; k < input.coefficients; ++degree) {
     FloatLanes square{}, root;
@@ -208,7 +208,7 @@ PALPATE_INLINE void assembleAll(const PointInput<N>& input, const CauchyProduct&
 
 /// energyCoefficients of series_kernel.h.
 template <int N>
-PALPATE_INLINE void energyAll(const PointInput<N>& input, const CauchyProduct& factors,
+PALPATE_INLINE void energyAll(const PointInput<N>& input, int fields, const CauchyProduct& factors,
                               const CauchyRows& rows, int count, Lanes* W) {
   constexpr int kBlock = 16;  // points summed in float32
   forRuns(
@@ -217,7 +217,7 @@ PALPATE_INLINE void energyAll(const PointInput<N>& input, const CauchyProduct& f
           std::array<FloatLanes, kMost> sums;
           for (int k = 0; k < count; ++k) sums[static_cast<std::size_t>(k)] = FloatLanes{};
           for (int n = begin; n < begin + kBlock && n < to; ++n)
-            energyPoint<decltype(law)>(input, factors, rows, n, sums.data());
+            energyPoint<decltype(law)>(input, fields, factors, rows, n, sums.data());
           for (int k = 0; k < count; ++k)
             for (int lane = 0; lane < kLanes; ++lane)
               W[k][lane] += static_cast<double>(sums[static_cast<std::size_t>(k)][lane]);

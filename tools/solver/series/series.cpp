@@ -27,7 +27,8 @@ struct SeriesSolver::State {
         answer_basis(orders.answer),
         energy_basis(orders.answer + 1),
         product(basis, orders.fields),
-        factor_product(answer_basis, orders.fields),
+        energy_fields((orders.answer + 1) / 2),
+        factor_product(answer_basis, energy_fields.order()),
         energy_rows(CauchyProduct(energy_basis, orders.answer), firstEnergy()),
         order_of_nodes(fe, factor),
         points(order_of_nodes.sorted(fe.points())),
@@ -68,7 +69,8 @@ struct SeriesSolver::State {
   MonomialBasis answer_basis;
   MonomialBasis energy_basis;
   CauchyProduct product;         // of fields, for fields
-  CauchyProduct factor_product;  // of fields, for what the energy is made of, to the degree of the force
+  MonomialBasis energy_fields;   // fields of degree n make the energy right to degree 2n + 1
+  CauchyProduct factor_product;  // of those, for what the energy is made of, to the degree of the force
   CauchyRows energy_rows;        // of those, for the energy
   NodeOrder order_of_nodes;
   FeModel::Points points, det_points;
@@ -194,8 +196,9 @@ void SeriesSolver::State::answerFromEnergy() {
   const int first = firstEnergy();
   LaneVector W(static_cast<std::size_t>(energy_basis.size() - first), Lanes{});
   const double sign = kind == SeriesKind::kDisplacement ? 1.0 : -1.0;
-  energyCoefficients(input(points), factor_product, energy_rows, static_cast<int>(W.size()), W.data());
-  addSpringEnergies(model, order_of_nodes, basis, input(points), energy_rows, W.data());
+  energyCoefficients(input(points), energy_fields.size(), factor_product, energy_rows,
+                     static_cast<int>(W.size()), W.data());
+  addSpringEnergies(model, order_of_nodes, energy_fields, input(points), energy_rows, W.data());
   for (int k = basis.size(); k < answer_basis.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
       MultiIndex gamma = answer_basis[k];

@@ -31,11 +31,12 @@ void assembleDegree(const KernelInput& input, const CauchyProduct& product, int 
 }
 
 PALPATE_MULTIVERSION
-void energyCoefficients(const KernelInput& input, const CauchyProduct& factors, const CauchyRows& rows,
-                        int count, Lanes* W) {
+void energyCoefficients(const KernelInput& input, int fields, const CauchyProduct& factors,
+                        const CauchyRows& rows, int count, Lanes* W) {
   withPoints(
-      input, [&](const auto& typed)
-                 __attribute__((always_inline)) { point_kernel::energyAll(typed, factors, rows, count, W); });
+      input, [&](const auto& typed) __attribute__((always_inline)) {
+        point_kernel::energyAll(typed, fields, factors, rows, count, W);
+      });
 }
 
 PALPATE_MULTIVERSION

@@ -26,11 +26,11 @@ struct KernelInput {
 /// The coefficients below `first` must be in U.
 void assembleDegree(const KernelInput& input, const CauchyProduct& product, int first, int last, Lanes* r);
 
-/// W[k] += length^|gamma| W_gamma, J, for the coefficients of `rows`, of the fields that V holds: terms in
-/// float32, their sum over points in double.
+/// W[k] += length^|gamma| W_gamma, J, for the coefficients of `rows`, of the first `fields` coefficients that V holds:
+/// terms in float32, their sum over points in double.
 /// @param factors  pairs for what the law carries, up to the degree that W needs  @param count  of rows
-void energyCoefficients(const KernelInput& input, const CauchyProduct& factors, const CauchyRows& rows,
-                        int count, Lanes* W);
+void energyCoefficients(const KernelInput& input, int fields, const CauchyProduct& factors,
+                        const CauchyRows& rows, int count, Lanes* W);
 
 /// A solution v of one degree, and what becomes of it.
 struct SolvedRows {

@@ -121,7 +121,7 @@ TEST_P(QuadraticKernels, EnergyHasTheCoefficientsOfTheEnergyOfTheFields) {
   const CauchyProduct factors(strains, kOrder);
   const CauchyRows rows(CauchyProduct(energies, 2 * kOrder), 0);
   LaneVector W(static_cast<std::size_t>(energies.size()), Lanes{});
-  point_kernel::energyAll(fields, factors, rows, energies.size(), W.data());
+  point_kernel::energyAll(fields, basis_.size(), factors, rows, energies.size(), W.data());
   std::vector<double> monomials(static_cast<std::size_t>(energies.size()));
   energies.evaluate(direction_, monomials);
   for (const int lane : {0, kLanes - 1}) {

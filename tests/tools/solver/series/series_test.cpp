@@ -111,6 +111,12 @@ TEST_P(SeriesOfEveryLaw, FieldsOfDegree4GiveTheForceToDegree8) {
   expectTheSameForce(c, {4, 8}, {5, 8});
 }
 
+/// Of fields beyond half the force's degree the energy needs nothing.
+TEST_P(SeriesOfEveryLaw, FieldsOfDegree3GiveTheForceToDegree6BesideHigherOnes) {
+  expectTheSameForce(c, {4, 6}, {6, 6});
+  expectTheSameForce(c, {5, 6}, {6, 6});
+}
+
 TEST_F(BlockSeries, RefusesAForceBeyondWhatItsFieldsGive) {
   const Case c(box_, 160e3);
   for (const SeriesOrders& orders : {SeriesOrders{3, 7}, {3, 2}, {5, 9}, {0, 0}, {8, 8}})
