@@ -17,8 +17,7 @@ class FieldThere {
         sources_(parts.linear.room(patch_.node.size())),
         y_(modes_),
         X_(3 * modes_),
-        Z_(3 * modes_),
-        one_(parts.rows - kLinearCoefficients, 0.0) {}
+        Z_(3 * modes_) {}
 
   /// @param[out] u  rows, of three numbers each, m
   void at(std::size_t place, std::size_t rows, float* u) {
@@ -34,7 +33,7 @@ class FieldThere {
     for (Eigen::Index axis = 0; axis < 3; ++axis) store(linear.col(axis), u + 3 * axis);
     const Stencil stencil = parts_.mixing.at(parts_.surface, s);
     for (std::size_t row = kLinearCoefficients; row < rows; ++row)
-      store(bend(place, stencil, row), u + 3 * row);
+      store(bend(place, stencil, row - kLinearCoefficients), u + 3 * row);
   }
 
  private:
@@ -70,22 +69,19 @@ class FieldThere {
     return u;
   }
 
+  /// One row of those beyond the linear ones.
   [[nodiscard]] Vec3 bend(std::size_t place, const Stencil& stencil, std::size_t row) {
-    one_[row - kLinearCoefficients] = 1.0;
     std::fill(y_.begin(), y_.end(), 0.0F);
     Vec3 u = Vec3::Zero();
     for (std::size_t b = 0; b < stencil.count; ++b) {
-      parts_.amplitudes.add(stencil.position[b], one_, stencil.weight[b], y_);
+      parts_.amplitudes.addRow(stencil.position[b], row, stencil.weight[b], y_);
       u += stencil.weight[b] *
-           atNodes([&](std::int32_t node) { return parts_.near.at(stencil.position[b], one_, node); });
+           atNodes([&](std::int32_t node) { return parts_.near.rowAt(stencil.position[b], row, node); });
     }
     if (place >= parts_.view.positions()) {
       const auto edge = static_cast<std::int32_t>(place - parts_.view.positions());
-      u += atNodes([&](std::int32_t node) {
-        return parts_.edges.at(edge, std::span(one_).first(parts_.edge_rows), node);
-      });
+      u += atNodes([&](std::int32_t node) { return parts_.edges.rowAt(edge, row, node); });
     }
-    one_[row - kLinearCoefficients] = 0.0;
     return u + modes();
   }
 
@@ -94,10 +90,9 @@ class FieldThere {
   PatchNodes patch_;
   PatchSources sources_;
   NodeMix nodes_{};
-  std::vector<float> y_;     // [n]
-  std::vector<float> X_;     // [3][n]
-  std::vector<float> Z_;     // [3][n] of unit loads, m/N
-  std::vector<double> one_;  // [Cm]
+  std::vector<float> y_;  // [n]
+  std::vector<float> X_;  // [3][n]
+  std::vector<float> Z_;  // [3][n] of unit loads, m/N
 };
 
 }  // namespace

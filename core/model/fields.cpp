@@ -39,14 +39,16 @@ void Amplitudes::add(std::int32_t source, std::span<const double> weight, double
                    y.data());
 }
 
+void Amplitudes::addRow(std::int32_t source, std::size_t row, double factor,
+                        std::span<float> y) const noexcept {
+  const std::size_t at = index(source) * rows_ + row;
+  const float weight = static_cast<float>(factor) * scale_[at];
+  const std::int16_t* const from = Y_.data() + at * modes_;
+  for (std::size_t k = 0; k < modes_; ++k) y[k] += weight * static_cast<float>(from[k]);
+}
+
 void Amplitudes::addRows(std::int32_t source, double factor, std::span<float> y) const noexcept {
-  const std::size_t first = index(source) * rows_;
-  for (std::size_t r = 0; r < rows_; ++r) {
-    const float weight = static_cast<float>(factor) * scale_[first + r];
-    const std::int16_t* const from = Y_.data() + (first + r) * modes_;
-    float* const to = y.data() + r * modes_;
-    for (std::size_t k = 0; k < modes_; ++k) to[k] += weight * static_cast<float>(from[k]);
-  }
+  for (std::size_t r = 0; r < rows_; ++r) addRow(source, r, factor, y.subspan(r * modes_, modes_));
 }
 
 SeparatedField::SeparatedField(const ModelView& view)
@@ -117,6 +119,15 @@ Vec3 NearField::at(std::int32_t source, std::span<const double> weight,
     for (Eigen::Index axis = 0; axis < 3; ++axis) u[axis] += factor * field[axis];
   }
   return u;
+}
+
+Vec3 NearField::rowAt(std::int32_t source, std::size_t row, std::int32_t node) const noexcept {
+  const std::ptrdiff_t place = find(source, node);
+  if (place < 0) return Vec3::Zero();
+  const std::size_t m = index(source), count = nodes(source).size();
+  const std::int16_t* const field =
+      arrays_.field.data() + 3 * (rows_ * index(arrays_.offset[m]) + row * count + index(place));
+  return double(arrays_.scale[m * rows_ + row]) * Vec3(field[0], field[1], field[2]);
 }
 
 void NearField::addRows(std::int32_t source, double factor, std::int32_t node,

@@ -24,6 +24,8 @@ class Amplitudes {
   /// y += factor * sum_r weight[r] * row r. @param weight  [rows]  @param y  [n], at least `modes`. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor,
            std::span<float> y) const noexcept PALPATE_NONBLOCKING;
+  /// y += factor * one row. @param y  [n], at least `modes`
+  void addRow(std::int32_t source, std::size_t row, double factor, std::span<float> y) const noexcept;
   /// Each row by itself: y += factor * the source's rows. @param y  [rows][modes]
   void addRows(std::int32_t source, double factor, std::span<float> y) const noexcept;
 
@@ -87,6 +89,8 @@ class NearField {
   /// What block() gives at one node, m; zero where the block has it not. Cost O(rows + log K). Real-time: yes.
   [[nodiscard]] Vec3 at(std::int32_t source, std::span<const double> weight,
                         std::int32_t node) const noexcept PALPATE_NONBLOCKING;
+  /// The same of one row by itself. Cost O(log K).
+  [[nodiscard]] Vec3 rowAt(std::int32_t source, std::size_t row, std::int32_t node) const noexcept;
   /// Of three rows, column r: u += factor * row r at one node. Cost O(log K). Real-time: yes.
   void addRows(std::int32_t source, double factor, std::int32_t node,
                Mat3& u) const noexcept PALPATE_NONBLOCKING;
