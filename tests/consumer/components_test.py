@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What each component installs. The build's folder is in PALPATE_BUILD."""
+import base64
 import collections
+import functools
 import gzip
 import hashlib
 import json
@@ -21,6 +23,9 @@ PACKAGES = {"programs": "palpate", "solver": "palpate-solver", "library": "libpa
 UNIT = r"m|mm|s|N|Hz|kg|Pa|N/m|N s/m|N/s|m/s|bytes|nodes"
 # In brackets, "[0.1 - 5 s]", or behind a comma, "how long to wait, s"; what has no unit says that it is a ratio.
 WITH_UNIT = rf"\[([^]]* )?({UNIT})\]|, ({UNIT})(?![\w/'])|\b(relative|coefficient|share|interval|per second)\b"
+
+
+DEBIAN = unittest.skipUnless(shutil.which("dpkg-query") and (BUILD / "build.ninja").exists(), "needs Debian and Ninja")
 
 
 def run(*command):
@@ -152,9 +157,14 @@ class Components(unittest.TestCase):
         return set(run("bash", "-c", 'source "$1"; COMP_WORDS=("${@:2}"); COMP_CWORD=$(($# - 2)); _palpate "$2"; '
                        'printf "%s\\n" "${COMPREPLY[@]}"', "-", script, program, *words).split())
 
-    @unittest.skipUnless(shutil.which("dpkg-query") and (BUILD / "build.ninja").exists(), "needs Debian and Ninja")
+    @classmethod
+    @functools.cache
+    def bill(cls):
+        return json.loads(run(sys.executable, ROOT / "tools/packaging/sbom.py", cls.stage, BUILD, "1.2.3"))
+
+    @DEBIAN
     def test_bill_of_materials_names_what_is_linked(self):
-        bill = json.loads(run(sys.executable, ROOT / "tools/packaging/sbom.py", self.stage, BUILD, "1.2.3"))
+        bill = self.bill()
         self.assertEqual(bill["spdxVersion"], "SPDX-2.3")
         things = bill["packages"] + bill["files"]
         names = {thing["SPDXID"]: thing.get("fileName", thing.get("name")) for thing in things} | {"SPDXRef-DOCUMENT": "document"}
@@ -174,6 +184,47 @@ class Components(unittest.TestCase):
         sums = {entry["checksumValue"] for file in bill["files"] for entry in file["checksums"]}
         for program in self.programs:
             self.assertIn(hashlib.sha256(program.read_bytes()).hexdigest(), sums)
+
+    @DEBIAN
+    def test_bill_of_materials_has_each_library_that_the_loader_finds(self):
+        names = {thing["name"] for thing in self.bill()["packages"]}
+        libraries = {os.path.realpath(file) for program in self.programs if program.read_bytes()[:4] == b"\x7fELF"
+                     for file in re.findall(r"=> (/\S+)", run("ldd", program))}
+        for library in sorted(library for library in libraries if not library.startswith((str(BUILD), str(self.stage)))):
+            owner = subprocess.run(["dpkg-query", "--search", f"*{library.removeprefix('/usr')}"], capture_output=True, text=True)
+            self.assertIn(owner.stdout.split(":")[0], names, library)
+
+    @DEBIAN
+    def test_bill_of_materials_states_each_licence(self):
+        bill = self.bill()
+        texts = {entry["licenseId"]: entry["extractedText"] for entry in bill["hasExtractedLicensingInfos"]}
+        self.assertTrue(all(len(text) > 100 for text in texts.values()))
+        stated = {thing["name"]: thing["licenseDeclared"] for thing in bill["packages"]}
+        for name, licence in stated.items():
+            for part in re.split(r" (?:AND|OR|WITH) ", licence):
+                if part.startswith("LicenseRef-"):
+                    self.assertIn(part, texts, name)
+                else:
+                    self.assertRegex(part, r"^[A-Za-z0-9.+-]+$", name)
+                    self.assertNotIn(part, ("NOASSERTION", "NONE"), name)
+        self.assertEqual(stated["libeigen3-dev"], "MPL-2.0")
+        self.assertEqual(stated["libddsc0debian"], "BSD-3-Clause OR EPL-2.0")
+        self.assertIn("GCC RUNTIME LIBRARY EXCEPTION", texts[stated["libgcc-s1"]].upper())
+
+    @DEBIAN
+    def test_bill_of_materials_has_the_checksums_that_npm_compares(self):
+        lock = json.loads((ROOT / "clients/viewer/web/package-lock.json").read_text())["packages"]
+        sums = {(thing["name"], thing["versionInfo"]): thing["checksums"][0]["checksumValue"]
+                for thing in self.bill()["packages"] if "checksums" in thing}
+        for path, entry in lock.items():
+            if not path:
+                continue
+            name = path.rpartition("node_modules/")[2]
+            self.assertRegex(entry["integrity"], r"^sha512-[A-Za-z0-9+/]{86}==$", name)
+            if (found := sums.get((name, entry["version"]))) is not None:
+                self.assertEqual(found, base64.b64decode(entry["integrity"].removeprefix("sha512-")).hex())
+        if (ROOT / "clients/viewer/web/node_modules").exists():
+            self.assertLessEqual({"three", "jsfive", "pako", "@noble/hashes", "vite", "typescript"}, {name for name, _ in sums})
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@
 
 Usage: sbom.py STAGE BUILD VERSION > palpate.spdx.json
 STAGE/PACKAGE holds the files of each package as installed, BUILD is the folder that Ninja built them in. Versions are
-those of the Debian packages that the libraries and headers come from; the page's are those of package-lock.json.
+those of the Debian packages that the libraries and headers come from; the page's are those of package-lock.json, with its
+checksums. What only builds is there as well.
 """
 import functools
 import hashlib
@@ -15,6 +16,11 @@ import re
 import subprocess
 import sys
 import time
+
+from licences import EMSCRIPTEN, Texts, emscripten_libraries, npm_checksum
+
+WEB = pathlib.Path("clients/viewer/web")
+BUILD_TOOLS = ("g++-12", "gcc-12", "binutils", "cmake", "ninja-build", "cyclonedds-tools", "emscripten")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -55,14 +61,6 @@ def owners():
     return found
 
 
-def debian_licence(name):
-    """What the package's copyright file says of most of its files."""
-    path = pathlib.Path("/usr/share/doc", name, "copyright")
-    text = path.read_text(errors="replace") if path.exists() else ""
-    found = re.search(r"^Files:\s*\*\s*$.*?^License:\s*(\S.*?)$", text, re.M | re.S)
-    return "Debian's copyright file: " + (found.group(1) if found else "not in a form that programs read")
-
-
 def package(identity, name, version, licence, **more):
     return {"SPDXID": identity, "name": name, "versionInfo": version, "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
             "licenseConcluded": "NOASSERTION", "licenseDeclared": licence, "copyrightText": "NOASSERTION"} | more
@@ -74,7 +72,7 @@ def reference(locator):
 
 class Bill:
     def __init__(self):
-        self.packages, self.files, self.relations = {}, {}, set()
+        self.packages, self.files, self.relations, self.licences = {}, {}, set(), Texts()
 
     def relate(self, one, kind, other):
         self.relations.add((one, kind, other))
@@ -84,7 +82,7 @@ class Bill:
         identity = spdx_id("deb", name)
         if identity not in self.packages:
             version, architecture = run("dpkg-query", "--show", "--showformat=${Version}\n${Architecture}\n;", name).split(";")[0].split()
-            self.packages[identity] = package(identity, name, version, "NOASSERTION", licenseComments=debian_licence(name),
+            self.packages[identity] = package(identity, name, version, self.licences.of_debian(name),
                                               externalRefs=reference(f"pkg:deb/debian/{name}@{version}?arch={architecture}"))
         return identity
 
@@ -130,21 +128,35 @@ class Bill:
 
     def page(self):
         """What the page holds of npm, and of emscripten's libraries, which core as WebAssembly is linked with."""
-        self.relate(spdx_id("palpate"), "STATIC_LINK", self.debian("emscripten"))
-        lock = json.loads((ROOT / "clients/viewer/web/package-lock.json").read_text())
+        for name, version, licence in emscripten_libraries() if EMSCRIPTEN.exists() else []:
+            identity = spdx_id("emscripten", name)
+            self.packages[identity] = package(identity, name, version, licence)
+            self.relate(spdx_id("palpate"), "STATIC_LINK", identity)
+            self.relate(self.debian("emscripten"), "CONTAINS", identity)
+        lock = json.loads((ROOT / WEB / "package-lock.json").read_text())
         for path, entry in lock["packages"].items():
-            if not path or entry.get("dev"):
-                continue
-            name = path.removeprefix("node_modules/")
-            identity = spdx_id("npm", name)
-            licence = entry.get("license", "NOASSERTION")
-            more = {"licenseComments": licence} if licence.startswith("SEE ") else {}
-            self.packages[identity] = package(identity, name, entry["version"], "NOASSERTION" if more else licence, **more,
-                                              externalRefs=reference(f"pkg:npm/{name}@{entry['version']}"))
-            self.relate(spdx_id("palpate"), "CONTAINS", identity)
+            if not path or not (ROOT / WEB / path).exists():
+                continue  # the page itself; what only other processors need
+            name = path.rpartition("node_modules/")[2]
+            identity = spdx_id("npm", name, entry["version"])
+            self.packages[identity] = package(identity, name, entry["version"], self.licences.of_npm(entry, ROOT / WEB / path),
+                                              checksums=[npm_checksum(entry)],
+                                              externalRefs=reference(f"pkg:npm/{name.replace('@', '%40')}@{entry['version']}"))
+            if entry.get("dev"):
+                self.relate(identity, "BUILD_TOOL_OF", spdx_id("palpate"))
+            else:
+                self.relate(spdx_id("palpate"), "CONTAINS", identity)
+
+    def tools(self):
+        """What makes the programs and is in none of them."""
+        installed = set(run("dpkg-query", "--show", "--showformat=${Package}\n").split())
+        for name in BUILD_TOOLS:
+            if name in installed:
+                self.relate(self.debian(name), "BUILD_TOOL_OF", spdx_id("palpate"))
 
     def document(self, version):
-        body = {"packages": [self.packages[key] for key in sorted(self.packages)],
+        body = {"hasExtractedLicensingInfos": self.licences.document(),
+                "packages": [self.packages[key] for key in sorted(self.packages)],
                 "files": [self.files[key] for key in sorted(self.files)],
                 "relationships": [{"spdxElementId": one, "relationshipType": kind, "relatedSpdxElement": other}
                                   for one, kind, other in sorted(self.relations)]}
@@ -164,6 +176,7 @@ def main():
         bill.ours(folder, version)
     bill.headers(build)
     bill.page()
+    bill.tools()
     json.dump(bill.document(version), sys.stdout, indent=1)
     print()
 
