@@ -47,6 +47,7 @@ endif()
 function(palpate_install_programs COMPONENT)
   set(man ${CMAKE_CURRENT_BINARY_DIR}/man/${COMPONENT})
   foreach(program IN LISTS ARGN)
+    add_dependencies(${program} palpate-read-model)  # most load models
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${COMPONENT})
     install(FILES tools/packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
       RENAME ${program} COMPONENT ${COMPONENT})
@@ -65,6 +66,8 @@ palpate_install_programs(programs palpate-server palpate-tool palpate-latency pa
   palpate-list palpate-viewer palpate-inspect palpate-fit palpate-feel palpate-replay)
 # What links Gmsh or CHOLMOD: README.md, Licence.
 palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpate-certify palpate-reproduce)
+# What parses model files for all of them: core/data/ask_reader.cpp looks for it there.
+install(TARGETS palpate-read-model RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/palpate COMPONENT programs)
 
 # The page, if it was built (clients/viewer/web).
 install(DIRECTORY clients/viewer/web/dist/ DESTINATION ${PALPATE_DATA_DIR}/viewer COMPONENT programs OPTIONAL)

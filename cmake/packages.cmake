@@ -36,7 +36,7 @@ organ's stiffness from measurements.")
 
 set(CPACK_DEBIAN_SOLVER_PACKAGE_NAME ${PALPATE_PACKAGE_solver})
 set(CPACK_DEBIAN_SOLVER_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_SOLVER_PACKAGE_RECOMMENDS "palpate ${same_version}")
+set(CPACK_DEBIAN_SOLVER_PACKAGE_DEPENDS "palpate ${same_version}")  # palpate-read-model
 set(CPACK_DEBIAN_SOLVER_PACKAGE_SUGGESTS "calculix-ccx, gnuplot-nox | gnuplot")
 set(CPACK_COMPONENT_SOLVER_DESCRIPTION "makes organs and their models for palpate-server
 palpate-organ makes and imports tetrahedral meshes of organs, palpate-solve

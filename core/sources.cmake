@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What core is made of: everywhere, and where there is an operating system, HDF5 and OpenSSL. The rest of core/wasm is the other case.
+# What core is made of: everywhere, and where there is an operating system and OpenSSL. The rest of core/wasm is the other case.
 set(PALPATE_CORE_SOURCES
   base/kernels.cpp
   base/multi_index.cpp
@@ -59,9 +59,9 @@ set(PALPATE_CORE_SOURCES
   tick/tool_surface.cpp
   tick/workspace.cpp)
 set(PALPATE_CORE_SYSTEM_SOURCES
+  data/ask_reader.cpp
   data/available_memory.cpp
-  data/hdf5_reader.cpp
+  data/model_answer.cpp
   data/sealed_image.cpp
   data/sha256.cpp
-  data/try_in_child.cpp
   model/load_model.cpp)

@@ -12,8 +12,15 @@ std::byte* ArrayReader::addArray(const std::string& path, NumberType type, std::
                                  std::size_t bytes) {
   Array& array = (*arrays_)[path];
   bytes_ += bytes - array.bytes;
-  array = {type, std::move(shape), std::vector<double>(bytes / sizeof(double) + 1), bytes};
-  return static_cast<std::byte*>(static_cast<void*>(array.numbers.data()));
+  array = {type, std::move(shape), std::vector<double>(bytes / sizeof(double) + 1), nullptr, bytes};
+  auto* const room = static_cast<std::byte*>(static_cast<void*>(array.numbers.data()));
+  array.first = room;
+  return room;
+}
+
+void ArrayReader::placeArray(const std::string& path, ArrayShape shape, std::span<const std::byte> bytes) {
+  (*arrays_)[path] = {shape.type, std::move(shape.lengths), {}, bytes.data(), bytes.size()};
+  bytes_ += bytes.size();
 }
 
 bool ArrayReader::hasAttribute(const char* attribute) const {
@@ -72,7 +79,7 @@ const std::byte* ArrayReader::place(const std::string& path, std::uint64_t bytes
   const Array& found = array(path);
   if (found.bytes != bytes)
     fail("/" + path + " has " + std::to_string(found.bytes) + " bytes, expected " + std::to_string(bytes));
-  return static_cast<const std::byte*>(static_cast<const void*>(found.numbers.data()));
+  return found.first;
 }
 
 }  // namespace palpate

@@ -15,7 +15,7 @@
 namespace palpate {
 
 /// A model that somebody else has read, array by array: a page, by a library of its own. Attributes are texts or numbers.
-class ArrayReader final : public ModelSource {
+class ArrayReader : public ModelSource {
  public:
   using Attribute = std::variant<std::string, std::vector<double>>;
 
@@ -36,11 +36,17 @@ class ArrayReader final : public ModelSource {
   [[nodiscard]] std::string text(const char* attribute) const override;
   [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
 
+ protected:
+  /// An array that lies in memory which somebody else keeps.
+  void placeArray(const std::string& path, ArrayShape shape, std::span<const std::byte> bytes);
+
  private:
   struct Array {
     NumberType type{};
     std::vector<std::uint64_t> shape;
-    std::vector<double> numbers;  ///< room of `bytes`, aligned for any of them
+    std::vector<double>
+        numbers;  ///< room of `bytes`, aligned for any of them; none where somebody else keeps it
+    const std::byte* first{nullptr};
     std::size_t bytes{0};
   };
 

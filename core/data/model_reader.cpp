@@ -173,14 +173,14 @@ void readRegions(const ModelSource& file, Lengths& size, ModelView& v) {
   v.region_E = file.dataset(dataset::kRegionE, size);
   v.region_nu = file.dataset(dataset::kRegionNu, size);
   v.region_law = file.dataset(dataset::kRegionLaw, size);
-  if (v.region_name.empty()) file.fail(dataset::kRegionName.name() + " is empty, expected regions");
+  if (size.value("R") == 0) file.fail(dataset::kRegionName.name() + " is empty, expected regions");
 }
 
 void readSprings(const ModelSource& file, Lengths& size, ModelView& v) {
   if (!file.hasDataset(dataset::kSpringNode.path) && !file.hasDataset(dataset::kSpringStiffness.path)) return;
   v.spring_node = file.dataset(dataset::kSpringNode, size);
   v.spring_stiffness = file.dataset(dataset::kSpringStiffness, size);
-  if (v.spring_node.empty()) file.fail(dataset::kSpringNode.name() + " is empty, expected springs");
+  if (size.value("S") == 0) file.fail(dataset::kSpringNode.name() + " is empty, expected springs");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct StoredDigests {
   std::string certified;    ///< of the content that it belongs to
 };
 
-/// What HDF5 says about a model: its attributes, and where its arrays lie in memory.
+/// What a source says about a model: its attributes, and where its arrays lie in memory.
 struct ModelContents {
   ModelAttributes attributes;
   StoredDigests stored;

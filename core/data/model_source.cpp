@@ -26,11 +26,6 @@ constexpr NumberType typeOf() {
   if constexpr (std::is_same_v<T, RegionName>) return NumberType::kRegionName;
 }
 
-std::size_t bytesOf(NumberType type) {
-  constexpr std::array<std::size_t, 8> kBytes{8, 4, 2, 4, 8, 1, sizeof(RegionName), 1};
-  return kBytes.at(static_cast<std::size_t>(type));
-}
-
 /// Calls work(a number of the type), of those that are ever narrower than others.
 template <class Work>
 void asNumber(NumberType type, const Work& work) {
@@ -41,6 +36,11 @@ void asNumber(NumberType type, const Work& work) {
 }
 
 }  // namespace
+
+std::size_t bytesOf(NumberType type) {
+  constexpr std::array<std::size_t, 8> kBytes{8, 4, 2, 4, 8, 1, sizeof(RegionName), 1};
+  return kBytes.at(static_cast<std::size_t>(type));
+}
 
 bool isNarrower(NumberType stored, NumberType wanted) noexcept {
   if (wanted == NumberType::kF64) return stored == NumberType::kF32;
@@ -88,7 +88,7 @@ std::span<const T> ModelSource::dataset(const Dataset<T>& what, Lengths& lengths
     count *= length->value;
   }
   const std::byte* const first = place(path, count * bytesOf(found.type));
-  if (count == 0) return {};
+  if (count == 0 || first == nullptr) return {};
   if (found.type != typeOf<T>()) return widened<T>(found.type, first, static_cast<std::size_t>(count));
   return {static_cast<const T*>(static_cast<const void*>(first)), static_cast<std::size_t>(count)};
 }

@@ -43,6 +43,9 @@ class Lengths {
 /// What numbers of an array are.
 enum class NumberType { kF64, kF32, kI16, kI32, kI64, kU8, kRegionName, kI8 };
 
+/// Of one number.
+[[nodiscard]] std::size_t bytesOf(NumberType type);
+
 /// Whether numbers of one type are all numbers of the other, which has more bytes: an array may be stored in fewer.
 [[nodiscard]] bool isNarrower(NumberType stored, NumberType wanted) noexcept;
 
@@ -52,8 +55,8 @@ struct ArrayShape {
   std::vector<std::uint64_t> lengths;
 };
 
-/// Attributes and arrays of a model, wherever they come from: a file by HDF5 (Hdf5Reader), or bytes that a page has read
-/// (ArrayReader). Types, shapes and places are checked, the numbers are not. Every refusal is a LoadError: file, dataset,
+/// Attributes and arrays of a model, wherever they come from: a file that HDF5 parses (Hdf5Reader, in a process of its own), what
+/// that process says of it (AnsweredModel), or bytes that a page has read (ArrayReader). Types, shapes and places are checked, the numbers are not. Every refusal is a LoadError: file, dataset,
 /// found, expected.
 class ModelSource {
  public:
@@ -83,7 +86,7 @@ class ModelSource {
  private:
   /// @throw LoadError  there is no such array, or it has another type, and not a narrower one
   [[nodiscard]] virtual ArrayShape shape(const std::string& path, NumberType wanted) const = 0;
-  /// Where the numbers of an array are that has this many bytes; null without any. @throw LoadError  it does not lie there whole
+  /// Where the numbers of an array are that has this many bytes; null without any, or where nobody looks at them. @throw LoadError  it does not lie there whole
   [[nodiscard]] virtual const std::byte* place(const std::string& path, std::uint64_t bytes) const = 0;
   /// Of everything.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;

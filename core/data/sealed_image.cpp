@@ -77,24 +77,6 @@ void SealedImage::makeFrom(int source, const std::filesystem::path& name) {
   }
 }
 
-SealedImage SealedImage::adopt(int descriptor, const std::filesystem::path& name) {
-  SealedImage image;
-  image.descriptor_ = descriptor;
-  const int seals = ::fcntl(descriptor, F_GET_SEALS);
-  if (seals < 0 || (seals & kSeals) != kSeals) {
-    image.release();
-    fail(name, "is no sealed copy of a file");
-  }
-  try {
-    image.size_ = regularFileSize(name, descriptor);
-    image.map(name);
-  } catch (...) {
-    image.release();
-    throw;
-  }
-  return image;
-}
-
 SealedImage::SealedImage(SealedImage&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       data_(std::exchange(other.data_, nullptr)),

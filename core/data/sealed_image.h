@@ -16,9 +16,6 @@ class SealedImage {
   explicit SealedImage(const std::filesystem::path& path);
   /// The same of a file that is open for reading. @param descriptor  borrowed  @param name  how it is called in messages
   SealedImage(int descriptor, const std::filesystem::path& name);
-  /// Maps a copy that another process has sealed. @param descriptor  of the copy, owned from here on
-  /// @throw LoadError when it is not sealed, or cannot be mapped
-  [[nodiscard]] static SealedImage adopt(int descriptor, const std::filesystem::path& name);
   SealedImage(SealedImage&& other) noexcept;
   SealedImage& operator=(SealedImage&& other) noexcept;
   SealedImage(const SealedImage&) = delete;
@@ -31,7 +28,6 @@ class SealedImage {
   [[nodiscard]] bool locked() const noexcept { return locked_; }
 
  private:
-  SealedImage() = default;
   void makeFrom(int source, const std::filesystem::path& name);
   void copyFrom(int source, const std::filesystem::path& path);
   void writeCopy(const std::filesystem::path& path, std::span<const std::byte> bytes) const;

@@ -4,12 +4,12 @@
 #include <memory>
 #include <utility>
 
+#include "core/data/ask_reader.h"
 #include "core/data/available_memory.h"
-#include "core/data/hdf5_reader.h"
+#include "core/data/model_answer.h"
 #include "core/data/model_reader.h"
 #include "core/data/region_surfaces.h"
 #include "core/data/sealed_image.h"
-#include "core/data/try_in_child.h"
 #include "core/model/meta_model.h"
 
 namespace palpate {
@@ -39,24 +39,16 @@ std::uint64_t bytesOfTables(const ModelView& v) {
 }  // namespace
 
 MetaModel MetaModel::load(const std::filesystem::path& path) {
-  // First: later changes of the file do not reach the copy that was checked.
-  const auto image = std::make_shared<const SealedImage>(path);
-  const std::string name = path.string();
-  return load(image, name,
-              [&] { tryInChild(name, image->bytes().size(), [&] { tryToRead(*image, name); }); });
+  // First: later changes of the file do not reach the copy that is checked.
+  return load(std::make_shared<const SealedImage>(path), path.string());
 }
 
 MetaModel MetaModel::load(const std::shared_ptr<const SealedImage>& image, const std::string& name,
-                          const std::function<void()>& trial) {
-  trial();  // HDF5 trusts what it reads
-  ModelContents contents = readModel(Hdf5Reader(*image, name), name);
+                          const ReaderProcess& process) {
+  ModelContents contents = readModel(AnsweredModel(*image, name, askReader(*image, name, process)), name);
   requireMemory(name, "what is computed from it", bytesOfTables(contents.view));
   const ModelDigests digests = digestsOf(contents);
   return of({image, image->bytes().size(), image->locked()}, std::move(contents), digests, name);
-}
-
-void MetaModel::tryToRead(const SealedImage& image, const std::string& name) {
-  (void)readModel(Hdf5Reader(image, name), name);
 }
 
 }  // namespace palpate

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 
+#include "core/data/ask_reader.h"
 #include "core/data/load_error.h"
 #include "core/data/model_digests.h"
 #include "core/data/model_reader.h"
@@ -27,8 +27,6 @@
 
 namespace palpate {
 
-class SealedImage;
-
 /// The memory that a model's arrays lie in.
 struct ModelImage {
   std::shared_ptr<const void> memory;
@@ -39,17 +37,14 @@ struct ModelImage {
 /// A model file in memory: immutable, checked, mapped, and ready to be evaluated by any number of threads.
 class MetaModel {
  public:
-  /// Copies the file into sealed memory, checks every size, index and number of the copy and that its digest is
-  /// the one that the file states, and maps it read-only, populated, locked where the system allows it
-  /// (docs/model_file.md).
+  /// Copies the file into sealed memory and maps it read-only, populated, locked where the system allows it. Another process
+  /// parses the copy (core/data/ask_reader.h). Every size, index and number is checked, and that the digest is the one that the
+  /// file states (docs/model_file.md).
   /// @throw LoadError one sentence: file, dataset, found, expected. Real-time: no (reads, allocates).
   [[nodiscard]] static MetaModel load(const std::filesystem::path& path);
-  /// The same of a copy that was made already. @param name  how it is called in messages
-  /// @param trial  has HDF5 look at the copy where that can do no harm, by tryToRead(). @throw LoadError, and what trial throws
+  /// The same of a copy that was made already. @param name  how it is called in messages  @throw LoadError
   [[nodiscard]] static MetaModel load(const std::shared_ptr<const SealedImage>& image,
-                                      const std::string& name, const std::function<void()>& trial);
-  /// What a trial does: HDF5 reads the copy. @throw LoadError
-  static void tryToRead(const SealedImage& image, const std::string& name);
+                                      const std::string& name, const ReaderProcess& process = {});
   /// A model whose arrays lie in memory already. @param digests  computed of these  @param name  how it is called in messages
   /// @throw LoadError  as load(), for numbers and digests. Real-time: no.
   [[nodiscard]] static MetaModel of(ModelImage image, ModelContents contents, const ModelDigests& digests,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <spdlog/cfg/env.h>
 #include <spdlog/spdlog.h>
 
@@ -9,12 +8,9 @@
 #include <cstring>
 #include <iostream>
 #include <memory>
-#include <string_view>
 #include <utility>
 
 #include "command_line.h"
-#include "core/data/sealed_image.h"
-#include "core/data/try_in_child.h"
 #include "log_sink.h"
 #include "palpate/rt/spin_guard.h"
 #include "palpate/server/machine_check.h"
@@ -104,19 +100,7 @@ void logContact(const Facts& facts) {
                facts.step.tools, facts.organ.largest, facts.organ.youngs_modulus);
 }
 
-// This program is started by itself, to look at a model that a client asked for (tryInProgram()).
-[[noreturn]] void answerTrialOf(const char* name, const char* bytes) {
-  answerTrial(name, std::strtoull(bytes, nullptr, 10),
-              [name] { MetaModel::tryToRead(SealedImage::adopt(kTrialImage, name), name); });
-}
-
 int serve(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == kTrialArgument) {
-    if (argc != 4 || fcntl(kTrialImage, F_GETFD) == -1)
-      throw program::UsageError(std::string(kTrialArgument) +
-                                " is how the server starts itself, not an option");
-    answerTrialOf(argv[2], argv[3]);
-  }
   // 1. Options.
   std::optional<ServerConfig> config;
   program::orUsageError([&] { config = parseCommandLine(argc, argv); });

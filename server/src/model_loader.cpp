@@ -11,7 +11,6 @@
 
 #include "core/data/load_error.h"
 #include "core/data/sealed_image.h"
-#include "core/data/try_in_child.h"
 #include "core/response/largest_stiffness.h"
 
 namespace palpate::server {
@@ -42,19 +41,14 @@ std::string describe(const MetaModel& model, const std::string& name) {
       model.functions().size(), 1e-6 * static_cast<double>(model.bytes()), model.id());
 }
 
-ModelLoader::ModelLoader(const std::filesystem::path& folder, Trial trial)
-    : folder_(folder), trial_(std::move(trial)) {
+ModelLoader::ModelLoader(const std::filesystem::path& folder, std::filesystem::path reader)
+    : folder_(folder), reader_(std::move(reader)) {
   thread_.emplace(rt::ThreadOptions{"models", 0, rt::RealtimePolicy::kOff, {}}, [this] { run(); });
 }
 
 ModelLoader::~ModelLoader() {
   ending_ = true;
   work_.post();
-}
-
-void ModelLoader::tryInThisProgram(const SealedImage& image, const std::string& name,
-                                   const Patience& patience) {
-  tryInProgram(name, image.bytes().size(), kTrialArgument, image.descriptor(), patience);
 }
 
 void ModelLoader::load(const std::string& name) {
@@ -113,8 +107,8 @@ LoadedModel ModelLoader::read(const std::string& name) const {
   try {
     const auto image = copyOf(folder_, name);
     // Made in place: a model refers to its own parts.
-    loaded.model.reset(new const MetaModel(
-        MetaModel::load(image, name, [&] { trial_(*image, name, {.given_up = &ending_}); })));
+    loaded.model.reset(
+        new const MetaModel(MetaModel::load(image, name, {.program = reader_, .given_up = &ending_})));
     loaded.shape = std::make_unique<const OrganShape>(*loaded.model);
     loaded.organ = {loaded.model->attributes().E, largestStiffness(*loaded.model)};
   } catch (const std::bad_alloc&) {

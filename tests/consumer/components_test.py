@@ -65,6 +65,9 @@ class Components(unittest.TestCase):
         self.assertEqual(len(found), 1, f"{ending}: {found}")
         return found[0]
 
+    def reader(self):
+        return self.stage / "palpate" / self.file("palpate", "/libexec/palpate/palpate-read-model")[1:]
+
     def commands(self):
         """(program, words after it, --help) of each program and subcommand."""
         for program in self.programs:
@@ -87,6 +90,19 @@ class Components(unittest.TestCase):
             with self.subTest(program=program.name):
                 gpl = re.search("gmsh|cholmod|umfpack", run("ldd", program)) is not None
                 self.assertEqual(gpl, program.is_relative_to(self.stage / "palpate-solver"))
+
+    def test_model_is_parsed_by_the_program_that_is_installed_for_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            model = pathlib.Path(folder, "model.h5")
+            model.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(64))
+            inspect = [self.stage / "palpate" / self.file("palpate", "/bin/palpate-inspect")[1:], model]
+            said = subprocess.run(inspect, capture_output=True, text=True)
+            self.assertIn("the file is truncated or damaged", said.stderr)
+            reader = self.reader()
+            kept = reader.rename(reader.with_suffix(".kept"))
+            said = subprocess.run(inspect, capture_output=True, text=True)
+            kept.rename(reader)
+            self.assertIn(f"no process can be started to parse it, {reader}: No such file or directory", said.stderr)
 
     def test_library_is_apart_from_its_headers(self):
         self.file("libpalpate-haptic0.1", "/libpalpate_haptic.so.0.1.0")
@@ -177,7 +193,9 @@ class Components(unittest.TestCase):
         of = {path.name: linked["./" + str(path.relative_to(self.stage / package))]
               for package in PACKAGES.values() for path in self.programs if path.is_relative_to(self.stage / package)}
         self.assertEqual(len(of), len(self.programs))
-        self.assertLessEqual({"libddsc0debian", "libhdf5-103-1", "libc6"}, of["palpate-server"])
+        self.assertLessEqual({"libddsc0debian", "libc6"}, of["palpate-server"])
+        self.assertNotIn("libhdf5-103-1", of["palpate-server"])
+        self.assertLessEqual({"libhdf5-103-1", "libseccomp2"}, linked["./" + str(self.reader().relative_to(self.stage / "palpate"))])
         self.assertFalse(any("gmsh" in name or "cholmod" in name for name in of["palpate-server"]))
         self.assertIn("libcholmod3", of["palpate-solve"])
         self.assertLessEqual({"libcli11-dev", "libeigen3-dev", "three", *PACKAGES.values()}, set(names.values()))

@@ -5,13 +5,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
-#include "core/data/load_error.h"
-#include "core/data/sealed_image.h"
-#include "core/data/try_in_child.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
 
@@ -34,9 +31,7 @@ class ModelExchangeTest : public ::testing::Test {
     first_ = first;
     exchange_.emplace(*channels_, Served{facts_, book_, surface_, nullptr},
                       std::make_unique<Engine>(std::move(first), facts_.step),
-                      std::make_unique<ModelLoader>(
-                          folder_.path(), [](const SealedImage& image, const std::string& name,
-                                             const Patience&) { MetaModel::tryToRead(image, name); }));
+                      std::make_unique<ModelLoader>(folder_.path()));
   }
 
   // Polls until the request has ended, or the tick is to go over.
@@ -183,38 +178,43 @@ TEST_F(ModelExchangeTest, AnOfferThatTheTickNeverTakesIsFreedAtTheEnd) {
   EXPECT_TRUE(first_.expired());
 }
 
-TEST_F(ModelExchangeTest, WhatStopsHdf5IsARefusal) {
-  ModelLoader loader(folder_.path(), [](const SealedImage&, const std::string& name, const Patience&) {
-    throw LoadError(name + ": the process that had HDF5 look at it ended");
-  });
-  loader.load("next.h5");
-  std::optional<LoadedModel> model;
-  for (int i = 0; i < 400 && !model; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
-    model = loader.poll();
-  ASSERT_TRUE(model.has_value());
-  EXPECT_EQ(model->model, nullptr);
-  EXPECT_EQ(model->refusal, "next.h5: the process that had HDF5 look at it ended");
+/// A program in the place of palpate-read-model.
+std::filesystem::path script(const palpate::testing::TemporaryFolder& folder, const std::string& text) {
+  const auto path = folder.write("reader", "#!/bin/sh\n" + text + "\n");
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
 }
 
-TEST_F(ModelExchangeTest, AChildThatHangsDoesNotKeepTheLoaderFromEnding) {
-  std::atomic<bool> begun{false}, ended{false};
+TEST_F(ModelExchangeTest, AProcessThatIsKilledOrLiesIsARefusal) {
+  const std::pair<const char*, const char*> ends[]{
+      {"kill -SYS $$",
+       "next.h5: the process that parses it ended by Bad system call, the file is damaged or made to harm"},
+      {"echo liver",
+       "next.h5: the answer of the process that parses it is not to be believed: it is not that of this "
+       "version of "
+       "palpate-read-model"}};
+  for (const auto& [text, refusal] : ends) {
+    ModelLoader loader(folder_.path(), script(folder_, text));
+    loader.load("next.h5");
+    std::optional<LoadedModel> model;
+    for (int i = 0; i < 4000 && !model; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
+      model = loader.poll();
+    ASSERT_TRUE(model.has_value());
+    EXPECT_EQ(model->model, nullptr);
+    EXPECT_EQ(model->refusal, refusal);
+  }
+}
+
+TEST_F(ModelExchangeTest, AProcessThatHangsDoesNotKeepTheLoaderFromEnding) {
+  const auto begun = folder_ / "begun";
   auto loader = std::make_unique<ModelLoader>(
-      folder_.path(), [&](const SealedImage&, const std::string& name, const Patience& patience) {
-        begun = true;
-        try {
-          tryInChild(
-              name, 0, [] { ::sleep(600); }, patience);
-        } catch (const LoadError&) {
-          ended = true;
-          throw;
-        }
-      });
+      folder_.path(), script(folder_, "echo >" + begun.string() + "\nexec /bin/sleep 600"));
   loader->load("next.h5");
-  for (int i = 0; i < 2000 && !begun; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  ASSERT_TRUE(begun);
+  for (int i = 0; i < 4000 && !std::filesystem::exists(begun); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(std::filesystem::exists(begun));
   const auto before = std::chrono::steady_clock::now();
   loader.reset();
-  EXPECT_TRUE(ended);
   EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5)) << "it is waited for 30 s";
 }
 

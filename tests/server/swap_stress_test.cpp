@@ -9,7 +9,6 @@
 #include <optional>
 #include <thread>
 
-#include "core/data/sealed_image.h"
 #include "palpate/idl/reader.h"
 #include "palpate/rt/clock.h"
 #include "palpate/server/force_publisher.h"
@@ -95,9 +94,7 @@ TEST(SwapUnderThreads, NobodyLooksAtAnEngineThatWasFreed) {
   auto first = std::make_unique<Engine>(std::move(model), facts.step);
   Engine& begins = *first;
   ModelExchange exchange(*channels, {facts, book, surface, nullptr}, std::move(first),
-                         std::make_unique<ModelLoader>(
-                             folder.path(), [](const SealedImage& image, const std::string& name,
-                                               const Patience&) { MetaModel::tryToRead(image, name); }));
+                         std::make_unique<ModelLoader>(folder.path()));
   const Threads threads(*channels, begins, force_out, surface_out);
   std::int64_t now_ns = kSecond;
   for (int i = 1; i <= kExchanges; ++i) {

@@ -2,6 +2,7 @@
 // Another organ while the server runs: palpate-parameters --model, while tools press at 1 kHz and a viewer reads.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -150,6 +151,13 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
   flipped.seekp(static_cast<std::streamoff>(std::filesystem::file_size(folder_ / "flipped.h5") / 2));
   flipped.write("xxxxxxxx", 8);
   flipped.close();
+  std::filesystem::copy_file(folder_ / "stiff.h5", folder_ / "sparse.h5");
+  std::filesystem::resize_file(folder_ / "sparse.h5", std::uint64_t{1} << 40U);
+  std::string bytes = palpate::testing::contentOf(folder_ / "stiff.h5");
+  const std::uint64_t tree = bytes.find("TREE");  // of names; level, then the first child: HDF5 never comes to its end
+  bytes[tree + 5] = 1;
+  std::memcpy(bytes.data() + tree + 32, &tree, sizeof tree);
+  (void)folder_.write("endless.h5", bytes);
   std::filesystem::create_symlink(model_, folder_ / "out.h5");
   modelfile::ModelData soft = palpate::testing::syntheticModel();
   soft.attributes.E = 2e4;
@@ -162,6 +170,8 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
       {"broken.h5", "broken.h5: "},
       {"short.h5", "short.h5: "},
       {"flipped.h5", "flipped.h5: "},
+      {"sparse.h5", "sparse.h5: its copy needs 1048576 MiB of memory, "},
+      {"endless.h5", "endless.h5: the process that parses it ended by Segmentation fault"},
       {"out.h5", "model \"out.h5\" leads out of the server's folder of models"},
       {"../x.h5", "holds \"..\""},
       {"/etc/passwd", "is no path relative to the server's folder of models"},
@@ -175,6 +185,7 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
     EXPECT_EQ(answer["revision"], 0) << name;
     EXPECT_EQ(answer["model_id"], std::string(status->model_id)) << name;
   }
+  EXPECT_NEAR(sizeOf(client_->forces().back().force), sizeOf(settled_.force), 1e-6 * sizeOf(settled_.force));
   for (const dds::ToolForce& force : client_->forces()) {
     ASSERT_EQ(force.model_hash, status->model_hash);
     ASSERT_EQ(force.flags & dds::flag::kModelChanging, 0U);

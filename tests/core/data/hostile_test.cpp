@@ -127,7 +127,7 @@ TEST(LoadHostile, ATreeOfNamesThatIsItsOwnChildIsRefused) {
     put(bytes, tree + 5, std::uint8_t{1});
     put(bytes, tree + 32, std::uint64_t{tree});
   };
-  expectRefusedBytes(spoil, "the process that had HDF5 look at it ended");
+  expectRefusedBytes(spoil, "the process that parses it ended");
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // no limit of addresses there

@@ -2,22 +2,12 @@
 // Models for which there is not enough memory.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <chrono>
-#include <csignal>
 #include <fstream>
-#include <functional>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "../load_case.h"
 #include "core/data/available_memory.h"
-#include "core/data/load_error.h"
-#include "core/data/try_in_child.h"
 
 namespace palpate::testing {
 
@@ -106,19 +96,10 @@ TEST(LoadDeathTest, TablesLargerThanTheAddressSpaceAreRefusedInOneLine) {
 TEST(LoadDeathTest, NumbersInFewBytesWhoseCopyHasNoRoomAreRefusedInOneLine) {
   const TemporaryFile file("narrow.h5");
   modelfile::writeModel(file.path(), goodData());
-  replaceDataset(file.path(), "near/node", H5T_STD_I8LE, {32 * kMiB});
+  replaceDataset(file.path(), "mesh/fixed", H5T_STD_I8LE, {32 * kMiB});
   EXPECT_EXIT(loadUnder(RLIMIT_AS, addressSpace() + 128 * kMiB, file.path()), ::testing::ExitedWithCode(0),
               "narrow.h5: a copy of what it has in fewer bytes needs 128 MiB of memory, [0-9]+ MiB are "
               "available .ulimit -v.");
-}
-
-/// A file of 16 MiB in 8 bits whose numbers are wanted in 64, and 32 MiB for what HDF5 takes.
-TEST(TryInChild, HasRoomForACopyOfNumbersInFewBytes) {
-  EXPECT_NO_THROW(tryInChild("model.h5", 16 * kMiB, [] {
-    std::vector<double> copy(16 * kMiB), rest(4 * kMiB);
-    copy.back() = rest.back() = 1.0;
-  }));
-  EXPECT_THROW(tryInChild("model.h5", 16 * kMiB, [] { std::vector<double> copy(32 * kMiB); }), LoadError);
 }
 #endif
 
@@ -134,58 +115,6 @@ TEST(LoadDeathTest, AModelWhoseCopyFitsIsNotRefusedForItsTablesWhichAreNoFile) {
   const TemporaryFile file("copyfits.h5");
   modelfile::writeModel(file.path(), goodData());
   EXPECT_EXIT(loadUnder(RLIMIT_FSIZE, 2 * kMiB, file.path()), ::testing::ExitedWithCode(0), "^$");
-}
-
-/// What tryInChild() says of it; empty: nothing.
-std::string complaintOf(const std::function<void()>& work, const Patience& patience = {}) {
-  try {
-    tryInChild("model.h5", 0, work, patience);
-    return {};
-  } catch (const LoadError& error) {
-    return error.what();
-  }
-}
-
-TEST(TryInChild, NamesTheFileWhateverIsThrown) {
-  EXPECT_EQ(complaintOf([] { throw std::runtime_error("no room"); }), "model.h5: no room");
-  EXPECT_EQ(complaintOf([] { throw LoadError("model.h5: is damaged"); }), "model.h5: is damaged");
-}
-
-TEST(TryInChild, IsNotWaitedForWithoutEnd) {
-  using std::chrono::milliseconds;
-  const auto before = std::chrono::steady_clock::now();
-  EXPECT_EQ(complaintOf([] { ::sleep(600); }, {.most = milliseconds(200)}),
-            "model.h5: the process that had HDF5 look at it was not done in 200 ms, the file is made to harm "
-            "or the "
-            "machine is too busy");
-  EXPECT_EQ(complaintOf([] { ::kill(::getpid(), SIGSTOP); }, {.most = milliseconds(200)})
-                .find("model.h5: the process"),
-            0U);
-  const std::atomic<bool> given_up{true};
-  EXPECT_EQ(complaintOf([] { ::sleep(600); }, {.given_up = &given_up}), "model.h5: nobody wants it any more");
-  EXPECT_EQ(
-      complaintOf([] {
-        ::close_range(3, ~0U, 0);  // the answer's end with them
-        ::sleep(600);
-      }),
-      "model.h5: the process that had HDF5 look at it ended by Killed, the file is damaged or made to harm");
-  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(20));
-  EXPECT_LT(::waitpid(-1, nullptr, WNOHANG), 0) << "none is left";
-}
-
-TEST(TryInChild, OfAnEndlessAnswerTheBeginningIsRead) {
-  const std::string complaint = complaintOf([] { throw LoadError(std::string(1'000'000, 'x')); });
-  EXPECT_EQ(complaint.size(), 16'383U);
-}
-
-TEST(TryInChild, HearsSignalsThatAreBlockedHere) {
-  sigset_t term, before;
-  ::sigemptyset(&term);
-  ::sigaddset(&term, SIGTERM);
-  ::pthread_sigmask(SIG_BLOCK, &term, &before);
-  const std::string complaint = complaintOf([] { ::raise(SIGTERM); });
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  EXPECT_NE(complaint.find("ended by Terminated"), std::string::npos) << complaint;
 }
 
 }  // namespace palpate::testing

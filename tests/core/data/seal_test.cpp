@@ -92,22 +92,6 @@ TEST_F(Seal, OfAFileThatGrowsIsNotAwaited) {
   EXPECT_GT(grown, kMuch / 2) << "the rest was not copied";
 }
 
-TEST_F(Seal, ACopyThatAnotherProcessSealedIsMapped) {
-  const SealedImage image(file_.path());
-  const SealedImage adopted = SealedImage::adopt(::dup(image.descriptor()), "model.h5");
-  EXPECT_TRUE(
-      std::equal(image.bytes().begin(), image.bytes().end(), adopted.bytes().begin(), adopted.bytes().end()));
-}
-
-TEST_F(Seal, AFileThatIsNotSealedIsNotAdopted) {
-  try {
-    (void)SealedImage::adopt(::open(file_.path().c_str(), O_RDONLY), "model.h5");
-    FAIL() << "it could change between a check and a use";
-  } catch (const LoadError& error) {
-    EXPECT_STREQ(error.what(), "model.h5: is no sealed copy of a file");
-  }
-}
-
 TEST_F(Seal, AnOpenFileIsCopiedLikeANamedOne) {
   const int file = ::open(file_.path().c_str(), O_RDONLY);
   ASSERT_GE(file, 0);

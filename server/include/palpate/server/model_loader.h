@@ -2,14 +2,13 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/data/try_in_child.h"
 #include "core/tick/coupling_choice.h"
 #include "palpate/rt/semaphore.h"
 #include "palpate/rt/thread.h"
@@ -18,9 +17,6 @@
 #include "palpate/server/organ_shape.h"
 
 namespace palpate::server {
-
-/// The first argument of this program where it is started to look at a model (tryInProgram()).
-inline constexpr const char* kTrialArgument = "--try-model";
 
 /// A model that is checked and mapped, and what costs time to find of it.
 struct LoadedModel {
@@ -32,16 +28,12 @@ struct LoadedModel {
 };
 
 /// Loads and frees models beside the one that answers, on an ordinary thread that gives way to all others of the server. Its
-/// checks, limits and refusals are those of the start; HDF5 looks at the file in another process, which is started without a
-/// fork() of this one. Threads: the functions are called on one. Real-time: no.
+/// checks, limits and refusals are those of the start; another process parses the file. Threads: the functions are called on
+/// one. Real-time: no.
 class ModelLoader {
  public:
-  /// Where HDF5 has a first look at a copy. @throw LoadError, also once the patience's `given_up` is set: the loader ends
-  using Trial =
-      std::function<void(const SealedImage& image, const std::string& name, const Patience& patience)>;
-
-  /// Starts the thread. @param[in] trial  tryInProgram() of kTrialArgument, or another for tests. @throw ConfigError
-  explicit ModelLoader(const std::filesystem::path& folder, Trial trial = &ModelLoader::tryInThisProgram);
+  /// Starts the thread. @param[in] reader  the program that parses, for tests; empty: palpate-read-model. @throw ConfigError
+  explicit ModelLoader(const std::filesystem::path& folder, std::filesystem::path reader = {});
   ~ModelLoader();
   ModelLoader(const ModelLoader&) = delete;
   ModelLoader& operator=(const ModelLoader&) = delete;
@@ -55,12 +47,11 @@ class ModelLoader {
   void discard(LoadedModel model);
 
  private:
-  static void tryInThisProgram(const SealedImage& image, const std::string& name, const Patience& patience);
   void run() noexcept;
   [[nodiscard]] LoadedModel read(const std::string& name) const;
 
   ModelsFolder folder_;
-  Trial trial_;
+  std::filesystem::path reader_;
   std::mutex mutex_;  // the next four
   std::optional<std::string> wanted_;
   std::optional<LoadedModel> loaded_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one file of core that knows HDF5.
-#include "core/data/hdf5_reader.h"
+// The one file of core that knows HDF5, but for palpate-read-model's own.
+#include "core/reader/hdf5_reader.h"
 
 #include <hdf5.h>
 
@@ -12,9 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/data/available_memory.h"
 #include "core/data/datasets.h"
-#include "core/data/load_error.h"
 
 namespace palpate {
 
@@ -38,17 +36,15 @@ std::string lastError() {
 /// Lets HDF5's core driver read the image where it lies, without a copy of its own: a sealed memory file
 /// cannot be opened by name (HDF5 resolves /proc/self/fd/N to a path, and there is none). Read-only, so
 /// nothing is written to it.
-H5FD_file_image_callbacks_t inPlace(const SealedImage& image) {
+H5FD_file_image_callbacks_t inPlace(const std::byte* image) {
   H5FD_file_image_callbacks_t callbacks{};
-  callbacks.image_malloc = [](std::size_t, H5FD_file_image_op_t, void* self) -> void* {
-    return const_cast<std::byte*>(static_cast<const SealedImage*>(self)->bytes().data());
-  };
+  callbacks.image_malloc = [](std::size_t, H5FD_file_image_op_t, void* self) -> void* { return self; };
   callbacks.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; };
   callbacks.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* { return nullptr; };
   callbacks.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
   callbacks.udata_copy = [](void* self) { return self; };
   callbacks.udata_free = [](void*) -> herr_t { return 0; };
-  callbacks.udata = const_cast<SealedImage*>(&image);
+  callbacks.udata = const_cast<std::byte*>(image);
   return callbacks;
 }
 
@@ -91,32 +87,23 @@ std::string describeType(hid_t type) {
 
 }  // namespace
 
-Hdf5Silence::Hdf5Silence() {
-  H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-Hdf5Silence::~Hdf5Silence() {
-  H5Eset_auto2(H5E_DEFAULT, function_, data_);
-}
-
-Hdf5Reader::Hdf5Reader(const SealedImage& image, std::string name)
-    : ModelSource(std::move(name)), image_(image), file_(openImage()) {}
+Hdf5Reader::Hdf5Reader(std::span<const std::byte> file, ModelAnswer& answer)
+    : ModelSource(""), image_(file), answer_(answer), file_(openImage()) {}
 
 Hdf5Handle Hdf5Reader::openImage() const {
   static constexpr std::array<unsigned char, 8> kSignature{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-  const auto bytes = image_.bytes();
+  const auto bytes = image_;
   if (bytes.size() < kSignature.size() ||
       std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0)
     fail("does not begin with the HDF5 signature, expected a model file");
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5FD_file_image_callbacks_t callbacks = inPlace(image_);
+  H5FD_file_image_callbacks_t callbacks = inPlace(bytes.data());
   constexpr std::size_t kIncrement = 1U << 16U;  // of a file that grows; this one does not
   const bool ready = H5Pset_fapl_core(access.get(), kIncrement, 0) >= 0 &&
                      H5Pset_file_image_callbacks(access.get(), &callbacks) >= 0 &&
                      H5Pset_file_image(access.get(), const_cast<std::byte*>(bytes.data()), bytes.size()) >= 0;
   if (!ready) fail("HDF5 cannot read from memory (" + lastError() + ")");
-  Hdf5Handle file(H5Fopen("palpate-model", H5F_ACC_RDONLY, access.get()), H5Fclose);
+  Hdf5Handle file(H5Fopen("/palpate-model", H5F_ACC_RDONLY, access.get()), H5Fclose);
   if (!file.valid())
     fail("HDF5 cannot open its " + std::to_string(bytes.size()) +
          " bytes, the file is truncated or damaged (" + lastError() + ")");
@@ -147,6 +134,7 @@ void Hdf5Reader::numbers(const char* attribute, std::span<double> values) const 
   const Hdf5Handle type(H5Aget_type(handle.get()), H5Tclose);
   if (H5Tget_class(type.get()) != H5T_FLOAT || H5Aread(handle.get(), H5T_NATIVE_DOUBLE, values.data()) < 0)
     fail(std::string("attribute ") + attribute + " is " + describeType(type.get()) + ", expected a float");
+  answer_.addNumbers(attribute, values);
 }
 
 int Hdf5Reader::integer(const char* attribute) const {
@@ -155,6 +143,8 @@ int Hdf5Reader::integer(const char* attribute) const {
   int value = 0;  // HDF5 saturates larger integers, so that a huge one stays out of range
   if (H5Tget_class(type.get()) != H5T_INTEGER || H5Aread(handle.get(), H5T_NATIVE_INT, &value) < 0)
     fail(std::string("attribute ") + attribute + " is " + describeType(type.get()) + ", expected an integer");
+  const double number = value;
+  answer_.addNumbers(attribute, {&number, 1});
   return value;
 }
 
@@ -169,12 +159,14 @@ std::string Hdf5Reader::text(const char* attribute) const {
     if (H5Aread(handle.get(), type.get(), static_cast<void*>(&value)) < 0) fail(refusal);
     std::string copy(value == nullptr ? "" : value);
     H5free_memory(value);
+    answer_.addText(attribute, copy);
     return copy;
   }
   const std::size_t size = H5Tget_size(type.get());
   if (size > kMaxFixedText) fail(refusal);
   std::vector<char> value(size + 1, '\0');
   if (H5Aread(handle.get(), type.get(), value.data()) < 0) fail(refusal);
+  answer_.addText(attribute, value.data());
   return value.data();
 }
 
@@ -209,6 +201,7 @@ ArrayShape Hdf5Reader::shape(const std::string& path, NumberType wanted) const {
   std::array<hsize_t, H5S_MAX_RANK> lengths{};
   if (rank > 0) H5Sget_simple_extent_dims(space.get(), lengths.data(), nullptr);
   out.lengths.assign(lengths.begin(), lengths.begin() + std::max(rank, 0));
+  shape_ = out;
   return out;
 }
 
@@ -229,15 +222,16 @@ void Hdf5Reader::checkLayout(const std::string& path, hid_t dataset) const {
     fail("/" + path + " lies in another file, expected the data in this file");
 }
 
-void Hdf5Reader::requireRoom(std::uint64_t bytes) const {
-  requireMemory(name(), "a copy of what it has in fewer bytes", bytes);
+const std::byte* Hdf5Reader::place(const std::string& path, std::uint64_t bytes) const {
+  answer_.addArray(path, shape_, offsetOf(path, bytes));
+  return nullptr;
 }
 
-const std::byte* Hdf5Reader::place(const std::string& path, std::uint64_t bytes) const {
+std::uint64_t Hdf5Reader::offsetOf(const std::string& path, std::uint64_t bytes) const {
   const Hdf5Handle dataset = openDataset(path);
   checkLayout(path, dataset.get());
-  if (bytes == 0) return nullptr;
-  const std::uint64_t size = image_.bytes().size();
+  if (bytes == 0) return 0;
+  const std::uint64_t size = image_.size();
   const haddr_t offset = H5Dget_offset(dataset.get());
   if (offset == HADDR_UNDEF)
     fail("/" + path + " has no place in the file (late allocation), expected early allocation");
@@ -249,7 +243,7 @@ const std::byte* Hdf5Reader::place(const std::string& path, std::uint64_t bytes)
   if (offset % kArrayAlignment != 0)
     fail("/" + path + " begins at byte " + std::to_string(offset) + ", expected a multiple of " +
          std::to_string(kArrayAlignment));
-  return image_.bytes().data() + offset;
+  return offset;
 }
 
 }  // namespace palpate
