@@ -76,7 +76,6 @@ void look(const server::ParameterBook& book) {
       require(tool.lowest.*field <= tool.now.*field && tool.now.*field <= tool.highest.*field,
               "what is in force is within the limits");
     }
-  (void)book.describe();
 }
 
 }  // namespace
@@ -111,6 +110,7 @@ bool parameters(Bytes input) {
     revision = book.revision();
     look(book);
   }
+  (void)book.describe();
   return accepted;
 }
 
