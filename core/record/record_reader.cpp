@@ -2,6 +2,7 @@
 #include "core/record/record_reader.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include "core/record/crc32.h"
 #include "core/record/layout.h"
@@ -21,14 +22,25 @@ class RecordReader::Block {
   ByteSource source_;
 };
 
-RecordReader::RecordReader(const std::filesystem::path& path)
-    : path_(path), file_(path, std::ios::binary), codec_(std::make_unique<TickCodec>()) {
-  if (!std::filesystem::is_regular_file(path) || !file_)
+namespace {
+
+std::unique_ptr<std::istream> opened(const std::filesystem::path& path) {
+  auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(path) || !*file)
     throw RecordError(path.string() + ": cannot be read as a file");
+  return file;
+}
+
+}  // namespace
+
+RecordReader::RecordReader(const std::filesystem::path& path) : RecordReader(path, opened(path)) {}
+
+RecordReader::RecordReader(const std::filesystem::path& path, std::unique_ptr<std::istream> file)
+    : path_(path), file_(std::move(file)), codec_(std::make_unique<TickCodec>()) {
   std::array<std::uint8_t, kMagic.size()> magic{};
   std::uint32_t version = 0;
-  file_.read(reinterpret_cast<char*>(magic.data()), static_cast<std::streamsize>(magic.size()));
-  if (!file_ || magic != kMagic) throw RecordError(path.string() + ": is no recording of palpate-server");
+  file_->read(reinterpret_cast<char*>(magic.data()), static_cast<std::streamsize>(magic.size()));
+  if (!*file_ || magic != kMagic) throw RecordError(path.string() + ": is no recording of palpate-server");
   offset_ = magic.size();
   read(&version, sizeof version);
   if (version != kVersion)
@@ -90,7 +102,7 @@ void RecordReader::readEnd() {
   if (end_.ticks != ticks_)
     refuse("the end tells of " + std::to_string(end_.ticks) + " ticks, " + std::to_string(ticks_) +
            " were found");
-  if (!block_->source().empty() || file_.peek() != std::ifstream::traits_type::eof())
+  if (!block_->source().empty() || file_->peek() != std::istream::traits_type::eof())
     refuse("something follows the end");
 }
 
@@ -107,8 +119,8 @@ std::uint32_t RecordReader::readBlock() {
 }
 
 void RecordReader::read(void* to, std::size_t size) {
-  file_.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
-  if (static_cast<std::size_t>(file_.gcount()) != size) refuseTruncated();
+  file_->read(static_cast<char*>(to), static_cast<std::streamsize>(size));
+  if (static_cast<std::size_t>(file_->gcount()) != size) refuseTruncated();
   offset_ += size;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <istream>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,6 +19,8 @@ class RecordReader {
  public:
   /// @throw RecordError  no such file, no recording of ours, another version, damaged header
   explicit RecordReader(const std::filesystem::path& path);
+  /// The same of a stream. @param[in] path  how it is called in messages
+  RecordReader(const std::filesystem::path& path, std::unique_ptr<std::istream> file);
   ~RecordReader();
   RecordReader(const RecordReader&) = delete;
   RecordReader& operator=(const RecordReader&) = delete;
@@ -45,7 +47,7 @@ class RecordReader {
   [[noreturn]] void refuseTruncated() const;
 
   std::filesystem::path path_;
-  std::ifstream file_;
+  std::unique_ptr<std::istream> file_;
   std::uint64_t offset_{0};       // of the next byte of the file
   std::uint64_t block_begin_{0};  // of the block that is being read
   SessionFacts facts_;

@@ -106,14 +106,9 @@ class KeyReader {
   std::set<std::string> asked_;
 };
 
-toml::table parseToml(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  if (!std::filesystem::is_regular_file(path) || !(text << stream.rdbuf())) {
-    throw ConfigError(path.string() + ": cannot be read as a file");
-  }
+toml::table parseToml(const std::filesystem::path& path, const std::string& text) {
   try {
-    return toml::parse(text.str(), path.string());
+    return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {
     throw ConfigError(path.string() + ":" + std::to_string(error.source().begin.line) + ": " +
                       std::string(error.description()));
@@ -175,7 +170,16 @@ void takeWord(const KeyReader& keys, const char* key, Take take) {
 }  // namespace
 
 void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
-  const toml::table root = parseToml(path);
+  std::ifstream stream(path);
+  std::ostringstream text;
+  if (!std::filesystem::is_regular_file(path) || !(text << stream.rdbuf())) {
+    throw ConfigError(path.string() + ": cannot be read as a file");
+  }
+  parseConfig(path, text.str(), config);
+}
+
+void parseConfig(const std::filesystem::path& path, const std::string& text, ServerConfig& config) {
+  const toml::table root = parseToml(path, text);
   KeyReader keys(root, path.string());
   std::string model, models;
   std::string realtime, parameters;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <iterator>
+#include <utility>
 
 #include "tools/mesh/mesh_error.h"
 
@@ -28,17 +30,25 @@ bool parse(std::string_view word, T& value) {
   return error == std::errc{} && end == word.data() + word.size();
 }
 
-}  // namespace
-
-ByteReader::ByteReader(const std::filesystem::path& path) : path_(path.string()) {
+std::string bytesOf(const std::filesystem::path& path) {
+  const std::string name = path.string();
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw MeshError(path_ + ": no such file");
-  if (!std::filesystem::is_regular_file(status)) throw MeshError(path_ + ": not a regular file");
+  if (!std::filesystem::exists(status)) throw MeshError(name + ": no such file");
+  if (!std::filesystem::is_regular_file(status)) throw MeshError(name + ": not a regular file");
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw MeshError(path_ + ": cannot be opened for reading");
-  bytes_.assign(std::istreambuf_iterator<char>(in), {});
-  if (in.bad()) throw MeshError(path_ + ": cannot be read");
+  if (!in) throw MeshError(name + ": cannot be opened for reading");
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
+  if (in.bad()) throw MeshError(name + ": cannot be read");
+  return bytes;
+}
+
+}  // namespace
+
+ByteReader::ByteReader(const std::filesystem::path& path) : ByteReader(path.string(), bytesOf(path)) {}
+
+ByteReader::ByteReader(std::string name, std::string bytes)
+    : path_(std::move(name)), bytes_(std::move(bytes)) {
   if (bytes_.empty()) throw MeshError(path_ + ": the file is empty");
 }
 
@@ -99,7 +109,8 @@ double ByteReader::textReal(const char* what) {
 
 std::size_t ByteReader::checkedCount(std::int64_t count, std::size_t bytes_each, const char* what) const {
   const std::size_t left = bytes_.size() - at_;
-  if (count < 0 || static_cast<std::uint64_t>(count) > left / bytes_each + 1) {
+  const std::size_t room = binary_ ? left : left + 1;  // no separator follows the last word of a text
+  if (count < 0 || static_cast<std::uint64_t>(count) > room / bytes_each) {
     fail(std::string(what) + " is " + std::to_string(count) + ", but only " + std::to_string(left) +
          " bytes of the file are left");
   }

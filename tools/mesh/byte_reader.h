@@ -15,6 +15,8 @@ class ByteReader {
  public:
   /// Reads the whole file. @throw MeshError when it is missing, a directory, unreadable or empty.
   explicit ByteReader(const std::filesystem::path& path);
+  /// Reads these bytes. @param[in] name  how the file is called in messages  @throw MeshError without any
+  ByteReader(std::string name, std::string bytes);
 
   /// From now on binary numbers are in the other byte order.
   void swapBytes(bool swap) { swap_ = swap; }

@@ -73,10 +73,9 @@ void checkHead(ByteReader& in) {
 
 }  // namespace
 
-RawMesh readMeditFile(const std::filesystem::path& path) {
+RawMesh readMedit(ByteReader in) {
   static const std::map<std::string, Element> kKept{
       {"Edges", {1, 2}}, {"Triangles", {2, 3}}, {"Quadrilaterals", {2, 4}}, {"Tetrahedra", {3, 4}}};
-  ByteReader in(path);
   RawMesh mesh;
   checkHead(in);
   for (std::string keyword(wordPastComments(in)); keyword != "End"; keyword = wordPastComments(in)) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-
+#include "tools/mesh/byte_reader.h"
 #include "tools/mesh/raw_mesh.h"
 
 namespace palpate::mesh {
 
 /// Reads a Medit .mesh file, for readMesh(). @throw MeshError
-RawMesh readMeditFile(const std::filesystem::path& path);
+RawMesh readMedit(ByteReader in);
 
 }  // namespace palpate::mesh

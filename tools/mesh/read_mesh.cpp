@@ -16,9 +16,9 @@ TetMesh readMesh(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".msh") return assemble(path, readMshFile(path));
-  if (extension == ".vtk") return assemble(path, readVtkFile(path));
-  if (extension == ".mesh") return assemble(path, readMeditFile(path));
+  if (extension == ".msh") return assemble(path, readMsh(ByteReader(path)));
+  if (extension == ".vtk") return assemble(path, readVtk(ByteReader(path)));
+  if (extension == ".mesh") return assemble(path, readMedit(ByteReader(path)));
   throw MeshError(path.string() + ": the extension '" + extension + "' is not one of .msh, .vtk, .mesh");
 }
 

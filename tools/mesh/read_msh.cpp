@@ -158,7 +158,7 @@ void skipSection(ByteReader& in, const std::string& name) {
 
 class MshFile {
  public:
-  explicit MshFile(const std::filesystem::path& path) : in_(path) {}
+  explicit MshFile(ByteReader in) : in_(std::move(in)) {}
 
   RawMesh read() {
     while (!in_.atEnd()) {
@@ -205,8 +205,8 @@ class MshFile {
 
 }  // namespace
 
-RawMesh readMshFile(const std::filesystem::path& path) {
-  return MshFile(path).read();
+RawMesh readMsh(ByteReader in) {
+  return MshFile(std::move(in)).read();
 }
 
 }  // namespace palpate::mesh

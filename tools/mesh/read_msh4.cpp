@@ -2,6 +2,7 @@
 #include "tools/mesh/read_msh4.h"
 
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 namespace palpate::mesh {
@@ -11,6 +12,8 @@ std::size_t count(ByteReader& in, std::size_t bytes_each, const char* what) {
   const auto number = in.integer64(what);
   return in.checkedCount(number, bytes_each, what);
 }
+
+constexpr std::int64_t kLargestGroup = std::numeric_limits<std::int32_t>::max();
 
 struct Block {
   std::int64_t dimension, entity, extra;  ///< extra: parametric flag of nodes, type of elements
@@ -35,6 +38,21 @@ void readPoint(ByteReader& in, RawMesh& mesh, int parameters) {
   for (int k = 0; k < parameters; ++k) in.real("a node's parameter");
 }
 
+// Each element of an entity is listed in all groups of it: many of both would fill the memory.
+void readGroups(ByteReader& in, std::vector<std::int64_t>& groups) {
+  constexpr std::size_t kMost = 16;  // as many groups as no file gives one entity
+  const std::size_t more = count(in, 2, "an entity's number of physical groups");
+  if (more + groups.size() > kMost)
+    in.fail("an entity is in " + std::to_string(more + groups.size()) +
+            " physical groups, expected at most " + std::to_string(kMost));
+  for (std::size_t k = 0; k < more; ++k) {
+    const std::int64_t group = in.integer32("an entity's physical group");
+    if (group < -kLargestGroup || group > kLargestGroup)
+      in.fail("an entity's physical group is " + std::to_string(group));
+    groups.push_back(std::abs(group));  // the sign is an orientation
+  }
+}
+
 }  // namespace
 
 void readMsh4Entities(ByteReader& in, const MshFormat& format, MshEntities& entities) {
@@ -45,11 +63,7 @@ void readMsh4Entities(ByteReader& in, const MshFormat& format, MshEntities& enti
     for (std::size_t i = 0; i < counts[dimension]; ++i) {
       const auto tag = in.integer32("an entity's number");
       for (int k = 0; k < box; ++k) in.real("an entity's bounding box");
-      auto& groups = entities[{dimension, tag}];
-      const auto group_count = count(in, 2, "an entity's number of physical groups");
-      for (std::size_t k = 0; k < group_count; ++k) {
-        groups.push_back(std::abs(in.integer32("an entity's physical group")));  // the sign is an orientation
-      }
+      readGroups(in, entities[{dimension, tag}]);
       if (dimension == 0) continue;
       const auto sides = count(in, 2, "an entity's number of bounding entities");
       for (std::size_t k = 0; k < sides; ++k) in.integer32("an entity's bounding entity");

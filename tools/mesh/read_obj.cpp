@@ -24,7 +24,7 @@ std::string_view nextWord(std::string_view& line) {
 
 class ObjFile {
  public:
-  explicit ObjFile(const std::filesystem::path& path) : in_(path) {}
+  explicit ObjFile(ByteReader in) : in_(std::move(in)) {}
 
   TriangleSurface read() {
     while (!in_.rest().empty()) {
@@ -137,8 +137,8 @@ class ObjFile {
 
 }  // namespace
 
-TriangleSurface readObjFile(const std::filesystem::path& path) {
-  return ObjFile(path).read();
+TriangleSurface readObj(ByteReader in) {
+  return ObjFile(std::move(in)).read();
 }
 
 }  // namespace palpate::mesh

@@ -107,8 +107,7 @@ TriangleSurface readText(ByteReader& in) {
 
 }  // namespace
 
-TriangleSurface readStlFile(const std::filesystem::path& path) {
-  ByteReader in(path);
+TriangleSurface readStl(ByteReader in) {
   return isBinary(in.rest()) ? readBinary(in) : readText(in);
 }
 

@@ -30,7 +30,7 @@ TriangleSurface readSurface(const std::filesystem::path& path) {
   if (extension != ".stl" && extension != ".obj") {
     throw MeshError(path.string() + ": the extension '" + extension + "' is not one of .stl, .obj");
   }
-  TriangleSurface surface = extension == ".stl" ? readStlFile(path) : readObjFile(path);
+  TriangleSurface surface = extension == ".stl" ? readStl(ByteReader(path)) : readObj(ByteReader(path));
   if (surface.triangles.empty()) throw MeshError(path.string() + ": the file holds no triangles");
   return surface;
 }

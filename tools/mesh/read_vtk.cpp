@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/mesh/byte_reader.h"
@@ -16,7 +17,7 @@ constexpr std::int64_t kMaxCorners = 1 << 20;  // of one cell; more is a corrupt
 // Reads a legacy VTK file: https://docs.vtk.org, "VTK legacy file format". Binary data are big-endian.
 class VtkFile {
  public:
-  explicit VtkFile(const std::filesystem::path& path) : in_(path) {
+  explicit VtkFile(ByteReader in) : in_(std::move(in)) {
     constexpr std::uint16_t kOne = 1;
     in_.swapBytes(*reinterpret_cast<const unsigned char*>(&kOne) == 1);
   }
@@ -207,8 +208,8 @@ class VtkFile {
 
 }  // namespace
 
-RawMesh readVtkFile(const std::filesystem::path& path) {
-  return VtkFile(path).read();
+RawMesh readVtk(ByteReader in) {
+  return VtkFile(std::move(in)).read();
 }
 
 }  // namespace palpate::mesh

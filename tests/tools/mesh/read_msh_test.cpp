@@ -149,6 +149,23 @@ TEST(ReadMsh, RefusesCountsThatTheFileCannotHold) {
     EXPECT_REFUSED(readText("a.msh", with(kMsh4, "2 1 2 1\n", std::string("2 1 2 ") + count + "\n")),
                    "size of a block", count);
   }
+  EXPECT_REFUSED(readText("a.msh", "$NOD\n3\n1 0 0 0\n2 0 0 0"), "number of nodes is 3, but only 16 bytes");
+  EXPECT_REFUSED(readText("a.msh", "$NOD\n2\n1 0 0 0\n2 0 0 0"), "the file ends where $ENDNOD is expected");
+}
+
+// All elements of an entity would be listed in each of its groups.
+TEST(ReadMsh, RefusesAnEntityInMoreGroupsThanAnyHas) {
+  const std::string entity = "1 0 0 0 1 1 1 ";  // its tag and its bounding box
+  const auto file = [&](const std::string& entities) {
+    return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 " + entities + "$EndEntities\n";
+  };
+  EXPECT_REFUSED(readText("a.msh", file("1\n" + entity + "17 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 0\n")),
+                 "line 6", "an entity is in 17 physical groups, expected at most 16");
+  EXPECT_REFUSED(
+      readText("a.msh", file("2\n" + entity + "9 1 2 3 4 5 6 7 8 9 0\n" + entity + "8 1 2 3 4 5 6 7 8 0\n")),
+      "an entity is in 17 physical groups");
+  EXPECT_REFUSED(readText("a.msh", file("1\n" + entity + "1 -9223372036854775808 0\n")),
+                 "an entity's physical group is -9223372036854775808");
 }
 
 TEST(ReadMsh, RefusesCountsThatDoNotMatch) {

@@ -163,9 +163,13 @@ std::string readText(const std::filesystem::path& path) {
 }  // namespace
 
 Case readCase(const std::filesystem::path& path) {
+  return parseCase(path, readText(path));
+}
+
+Case parseCase(const std::filesystem::path& path, std::string text) {
   const std::string file = path.string();
   Case c;
-  c.text = readText(path);
+  c.text = std::move(text);
   toml::table root;
   try {
     root = toml::parse(c.text, file);

@@ -141,6 +141,8 @@ void checkCase(const Case& c);
 /// range. checkCase() judges whether the keys fit the method, after the command line has changed the case.
 /// @throw CaseError
 [[nodiscard]] Case readCase(const std::filesystem::path& path);
+/// The same of a text. @param[in] path  of its file, for messages and relative paths
+[[nodiscard]] Case parseCase(const std::filesystem::path& path, std::string text);
 
 /// The mesh with the elements that the case asks for. Where it does not say: quadratic ones for a series in d and nu > 0.3,
 /// since linear ones lock (docs/design.md, Elements); the methods of the paper keep its linear ones; a quadratic mesh stays.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "palpate/server/config.h"
 
@@ -12,5 +13,8 @@ namespace palpate::server {
 /// @throw ConfigError "file:line: ..." for a syntax error, an unknown key, a wrong type or a value out of
 /// range
 void readConfigFile(const std::filesystem::path& path, ServerConfig& config);
+
+/// The same of a text. @param[in] path  of its file, for messages and relative paths
+void parseConfig(const std::filesystem::path& path, const std::string& text, ServerConfig& config);
 
 }  // namespace palpate::server

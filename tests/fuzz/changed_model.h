@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/data/array_reader.h"
+#include "good_model.h"
+#include "targets.h"
+
+namespace palpate::fuzz {
+
+/// A good model, changed: an input is the number of the model, then one change after the other. A change overwrites numbers,
+/// gives an array another type, shape and size, says something else in an attribute, or takes an array or an attribute away.
+[[nodiscard]] GoodModel changedModel(Bytes input);
+
+/// Lets a reader have it.
+void fill(ArrayReader& reader, const GoodModel& model);
+
+}  // namespace palpate::fuzz
