@@ -172,9 +172,8 @@ std::optional<Identity> identityFor(std::initializer_list<Role> roles, const fs:
   if (folder.empty()) return std::nullopt;
   Identity identity = Identity::load(folder);
   if (std::find(roles.begin(), roles.end(), identity.role()) == roles.end())
-    throw DdsError(folder.string() + ": " + identity.name() + " is a " +
-                   std::string(wordOf(identity.role())) + ", this program needs an identity of a " +
-                   wordsOf(roles));
+    throw DdsError(folder.string() + ": " + identity.name() + " has the role " +
+                   std::string(wordOf(identity.role())) + ", this program needs " + wordsOf(roles));
   return identity;
 }
 

@@ -80,9 +80,9 @@ dds::ServerParameters exchangeParameters(const dds::Participant& participant, dd
                                          std::chrono::milliseconds patience) {
   if (!participant.mayWrite(dds::TopicTraits<dds::ParameterRequest>::kName)) {
     if (request.fields != 0 || request.model[0] != '\0')
-      throw ClientError("the identity " + participant.identity()->name() + " is a " +
+      throw ClientError("the identity " + participant.identity()->name() + " has the role " +
                         std::string(dds::wordOf(participant.identity()->role())) +
-                        "'s: only an operator's may change parameters");
+                        ", only an operator may change parameters");
     return newestAnswer(participant, request, patience);
   }
   dds::Writer<dds::ParameterRequest> requests(participant);
