@@ -37,7 +37,7 @@ void checkMode(const fs::path& path, mode_t forbidden, const char* expected) {
   if (!S_ISREG(status.st_mode)) throw DdsError(path.string() + ": not a file");
   if (status.st_uid != geteuid() && status.st_uid != 0)
     throw DdsError(path.string() + ": belongs to user " + std::to_string(status.st_uid) +
-                   ", expected the user who runs this program, or root");
+                   ", expected the user who runs this program, or root; chown it");
   if ((status.st_mode & forbidden) != 0)
     throw DdsError(path.string() + ": mode is " + octal(status.st_mode) + ", others may " +
                    ((forbidden & S_IRGRP) != 0 ? "read" : "write") + " it; chmod " + expected + " " +

@@ -49,7 +49,7 @@ void tellOfMemory(bool locked, const rt::MemoryLock& lock) {
 
 // With an identity two servers hear of each other only after a handshake.
 double listenFirst(const ServerConfig& config) {
-  constexpr double kHandshake = 1.0;  // s; a third of that on a machine that does nothing else
+  constexpr double kHandshake = 1.0;  // s
   return config.listen_first > 0.0 && !config.security.empty() ? config.listen_first + kHandshake
                                                                : config.listen_first;
 }

@@ -3,6 +3,7 @@
 #include "palpate/idl/identity.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -69,6 +70,13 @@ TEST_F(IdentityTest, AKeyThatOthersMayReadIsRefused) {
 TEST_F(IdentityTest, AnAuthorityThatOthersMayReplaceIsRefused) {
   fs::permissions(folder_ / "authority.pem", fs::perms::others_write, fs::perm_options::add);
   expectContains(refusal(), "authority.pem: mode is 0646, others may write it");
+}
+
+TEST_F(IdentityTest, AKeyOfAnotherUserIsRefused) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root may give files away";
+  ASSERT_EQ(chown((folder_ / "identity.key").c_str(), 1, 1), 0);
+  expectContains(refusal(),
+                 "identity.key: belongs to user 1, expected the user who runs this program, or root");
 }
 
 TEST_F(IdentityTest, EachMissingFileIsNamed) {

@@ -12,7 +12,7 @@ namespace palpate::dds {
 
 /// Finds participants of others that a participant with an identity did not let in, or that did not let it in: DDS saw them
 /// and heard of no endpoint of theirs. DDS says so only where it finds a certificate or permissions wrong itself.
-/// Each is judged once, `patience` after it was found, since a handshake takes a third of a second. At most kMostAtOnce wait for
+/// Each is judged once, `patience` after it was found, since a handshake comes before endpoints. At most kMostAtOnce wait for
 /// that; the rest wait in DDS. Threads: one. Real-time: no. The participant must outlive it.
 class OutsiderWatch {
  public:
