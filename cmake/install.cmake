@@ -63,7 +63,7 @@ function(palpate_install_programs COMPONENT)
   install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${COMPONENT} OPTIONAL)
 endfunction()
 palpate_install_programs(programs palpate-server palpate-tool palpate-latency palpate-watch palpate-device palpate-parameters
-  palpate-list palpate-viewer palpate-inspect palpate-fit palpate-feel palpate-replay)
+  palpate-list palpate-security palpate-viewer palpate-inspect palpate-fit palpate-feel palpate-replay)
 # What links Gmsh or CHOLMOD: README.md, Licence.
 palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpate-certify palpate-reproduce)
 # What parses model files for all of them: core/data/ask_reader.cpp looks for it there.

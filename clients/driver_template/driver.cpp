@@ -71,7 +71,8 @@ struct Arguments {
   std::fprintf(
       code == 0 ? stdout : stderr,
       "Usage: palpate-driver-template [--domain N] [--server-id N] [--organ-id N] [--tool N] [--seconds N] "
-      "[--origin X Y Z]\n");
+      "[--origin X Y Z] "
+      "[--security FOLDER]\n");
   std::exit(code);
 }
 
@@ -109,6 +110,9 @@ Arguments parse(int argc, char** argv) {
       arguments.tool.organ_id = id(argc, argv, i, 4294967295U);
     } else if (std::strcmp(argv[i], "--tool") == 0) {
       arguments.tool.tool_id = id(argc, argv, i, 3);
+    } else if (std::strcmp(argv[i], "--security") == 0) {
+      if (++i == argc) usage(2);
+      arguments.tool.security = argv[i];
     } else if (std::strcmp(argv[i], "--seconds") == 0) {
       arguments.seconds = number(argc, argv, i);
     } else if (std::strcmp(argv[i], "--origin") == 0) {
@@ -138,6 +142,8 @@ int run(const Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
   Device device;
   palpate::haptic::HapticTool tool(arguments.tool);
+  if (const std::string warning = tool.securityWarning(); !warning.empty())
+    std::fprintf(stderr, "%s\n", warning.c_str());
   if (!tool.waitForServer(std::chrono::seconds(10))) {
     const std::string organ =
         arguments.tool.organ_id ? " with organ " + std::to_string(*arguments.tool.organ_id) : "";

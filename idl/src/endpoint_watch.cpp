@@ -7,6 +7,7 @@
 
 #include "palpate/idl/endpoint_fit.h"
 #include "palpate/idl/error.h"
+#include "palpate/idl/identity.h"
 #include "palpate/idl/printable.h"
 #include "palpate/idl/process_of.h"
 #include "palpate/idl/qos.h"
@@ -34,7 +35,10 @@ std::string reason(dds_entity_t ours, bool ours_writes, const std::string& our_t
   const QosPtr qos = qosOf(ours);
   const std::string policies =
       ours_writes ? policiesInTheWay(qos.get(), other.qos) : policiesInTheWay(other.qos, qos.get());
-  return policies.empty() ? "type (another version of palpate.idl?)" : policies;
+  if (!policies.empty()) return policies;
+  return hasIdentity(dds_get_participant(ours))
+             ? "type or permissions (another version of palpate.idl, or its identity's role may not?)"
+             : "type (another version of palpate.idl?)";
 }
 
 // Samples of a builtin topic, borrowed.

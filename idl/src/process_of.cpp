@@ -12,12 +12,7 @@ std::string Process::text() const {
   return name.empty() && host.empty() ? "" : name + " (" + pid + ") on " + host;
 }
 
-// Cyclone says it of its participants.
-Process processOf(dds_entity_t participants, dds_instance_handle_t participant) {
-  void* sample = nullptr;
-  dds_sample_info_t info;
-  if (dds_read_instance(participants, &sample, &info, 1, 1, participant) != 1) return {};
-  const dds_qos_t* qos = static_cast<const dds_builtintopic_participant_t*>(sample)->qos;
+Process processIn(const dds_qos_t* qos) {
   const auto property = [qos](const char* name) {
     char* value = nullptr;
     if (qos == nullptr || !dds_qget_prop(qos, name, &value)) return std::string();
@@ -25,7 +20,14 @@ Process processOf(dds_entity_t participants, dds_instance_handle_t participant) 
     dds_free(value);
     return text;
   };
-  Process process{property("__ProcessName"), property("__Pid"), property("__Hostname")};
+  return {property("__ProcessName"), property("__Pid"), property("__Hostname")};
+}
+
+Process processOf(dds_entity_t participants, dds_instance_handle_t participant) {
+  void* sample = nullptr;
+  dds_sample_info_t info;
+  if (dds_read_instance(participants, &sample, &info, 1, 1, participant) != 1) return {};
+  Process process = processIn(static_cast<const dds_builtintopic_participant_t*>(sample)->qos);
   dds_return_loan(participants, &sample, 1);
   return process;
 }

@@ -29,6 +29,7 @@ struct Given {
   std::optional<std::string> record;
   std::optional<std::string> realtime;
   std::optional<std::int64_t> domain;
+  std::optional<std::string> security;
   std::optional<std::int64_t> server_id;
   std::optional<bool> addressed_only;
   std::optional<double> listen_first;
@@ -108,6 +109,11 @@ void declare(program::Options line, Given& given) {
   line.add("--record", &given.record, "Record every tick's input and answer in this file, for palpate-replay")
       .valueName("FILE");
   line.add("--domain", &given.domain, "DDS domain, 0 to 230, default 0");
+  line.add("--security", &given.security,
+           "Folder with this server's identity (palpate-security issue), where topics are signed and "
+           "encrypted; "
+           "default: they are not")
+      .valueName("FOLDER");
   line.add("--rate", &given.rate,
            "Ticks per second, 50 to 10000, default 1000 (lower with a longer tool.stale_timeout)")
       .valueName("HZ");
@@ -200,6 +206,9 @@ ServerConfig combine(const Given& given) {
     throw ConfigError("--record is empty, expected the path of a file");
   if (given.record) program::checkOutput("--record", *given.record);
   overwrite(given.domain, config.domain);
+  if (given.security) config.security = *given.security;
+  if (given.security && given.security->empty())
+    throw ConfigError("--security is empty, expected the path of a folder");
   overwrite(given.rate, config.rate);
   overwrite(given.server_id, config.server_id);
   overwrite(given.addressed_only, config.addressed_only);

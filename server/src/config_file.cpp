@@ -181,11 +181,12 @@ void readConfigFile(const std::filesystem::path& path, ServerConfig& config) {
 void parseConfig(const std::filesystem::path& path, const std::string& text, ServerConfig& config) {
   const toml::table root = parseToml(path, text);
   KeyReader keys(root, path.string());
-  std::string model, models;
+  std::string model, models, security;
   std::string realtime, parameters;
   keys.read("model", model);
   keys.read("models", models);
   keys.read("domain", config.domain);
+  keys.read("security", security);
   keys.read("rate", config.rate);
   keys.read("realtime", realtime);
   keys.read("parameters", parameters);
@@ -212,6 +213,10 @@ void parseConfig(const std::filesystem::path& path, const std::string& text, Ser
   if (root.contains("models")) {
     if (models.empty()) keys.refuse("models", "is empty, expected the path of a folder");
     config.models = path.parent_path() / models;
+  }
+  if (root.contains("security")) {
+    if (security.empty()) keys.refuse("security", "is empty, expected the path of a folder");
+    config.security = path.parent_path() / security;
   }
   takeWord(keys, "realtime", [&] {
     if (root.contains("realtime")) config.realtime = parsePolicy(realtime);

@@ -23,5 +23,6 @@ constexpr std::uint64_t kAnnouncedKind = kOverrunKind + 13;
 constexpr std::uint64_t kAnnouncementFloodKind = kOverrunKind + 14;
 constexpr std::uint64_t kLateKind = kOverrunKind + 15;
 constexpr std::uint64_t kClockStepKind = kOverrunKind + 16;
+constexpr std::uint64_t kOutsiderKind = kOverrunKind + 17;
 
 }  // namespace palpate::server

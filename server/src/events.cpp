@@ -68,6 +68,7 @@ void Events::drain(std::int64_t now_ns) {
   noteRivals(now_ns);
   noteRecording(now_ns);
   noteMisfits(now_ns);
+  noteSecurity(now_ns);
   const std::uint64_t failed = channels_.failed_writes.load(std::memory_order_relaxed);
   if (failed > health_.failed_writes) {
     warn(kFailedWriteKind, "DDS refused to send (" + std::to_string(failed) + " so far)", now_ns);
@@ -81,20 +82,13 @@ void Events::noteParameters() {
   health_.parameters_revision = parameters_.book().revision();
 }
 
-// An endpoint is reported once. Those that come within a second of another are only counted.
+// An endpoint is reported once.
 void Events::noteMisfits(std::int64_t now_ns) {
-  if (endpoints_ == nullptr) return;
-  for (std::string& line : endpoints_->poll()) {
-    if (untold_misfits_ > 0) line += " (" + std::to_string(untold_misfits_) + " more before it)";
-    if (!isDue(kMisfitKind, now_ns)) {
-      ++untold_misfits_;
-      continue;
-    }
-    untold_misfits_ = 0;
-    spdlog::warn(line);
-    health_.message = line;
-    changed_ = true;
-  }
+  if (endpoints_ != nullptr) warnOfSome(kMisfitKind, endpoints_->poll(), untold_misfits_, now_ns);
+}
+
+void Events::noteSecurity(std::int64_t now_ns) {
+  if (security_ != nullptr) warnOfSome(kOutsiderKind, security_->poll(now_ns), untold_outsiders_, now_ns);
 }
 
 void Events::noteUnknownTools(std::int64_t now_ns) {
@@ -246,6 +240,21 @@ void Events::warn(std::uint64_t kind, const std::string& text, std::int64_t now_
   spdlog::warn(text);
   health_.message = text;
   changed_ = true;
+}
+
+void Events::warnOfSome(std::uint64_t kind, std::vector<std::string> lines, std::uint64_t& untold,
+                        std::int64_t now_ns) {
+  for (std::string& line : lines) {
+    if (untold > 0) line += " (" + std::to_string(untold) + " more before it)";
+    if (!isDue(kind, now_ns)) {
+      ++untold;
+      continue;
+    }
+    untold = 0;
+    spdlog::warn(line);
+    health_.message = line;
+    changed_ = true;
+  }
 }
 
 void Events::info(const std::string& text) {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "palpate/idl/certificate.h"
 #include "palpate/rt/memory.h"
 #include "palpate/rt/spin_guard.h"
 #include "palpate/server/startup.h"
@@ -46,6 +47,13 @@ void tellOfMemory(bool locked, const rt::MemoryLock& lock) {
   }
 }
 
+// With an identity two servers hear of each other only after a handshake.
+double listenFirst(const ServerConfig& config) {
+  constexpr double kHandshake = 1.0;  // s
+  return config.listen_first > 0.0 && !config.security.empty() ? config.listen_first + kHandshake
+                                                               : config.listen_first;
+}
+
 // What a tick's thread gets, tried once before any thread exists. @throw rt::RealtimeError under policy
 // require
 bool probeRealtime(rt::RealtimePolicy policy) {
@@ -65,9 +73,10 @@ std::string describeRealtime(rt::RealtimePolicy policy, bool realtime) {
 Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig& config)
     : facts_(factsOf(*model, config)),
       first_(std::make_unique<Engine>(model, facts_.step)),
-      participant_(static_cast<std::uint32_t>(config.domain)),
+      participant_(static_cast<std::uint32_t>(config.domain),
+                   dds::identityFor({dds::Role::kServer}, config.security)),
       status_out_(participant_, facts_),
-      rivals_(participant_, facts_, status_out_, config.listen_first),
+      rivals_(participant_, facts_, status_out_, listenFirst(config)),
       force_out_(participant_, channels_, facts_),
       rest_surface_(participant_, facts_, std::make_unique<const OrganShape>(*model)),
       surface_out_(participant_, channels_, facts_),
@@ -81,6 +90,7 @@ Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig
       processes_(participant_),
       ramp_time_(config.step.ramp_time) {
   watchEndpoints();
+  startSecurity();
   parameters_.listenToDrivers(poses_in_.handle());
   parameters_.serveModels(exchange_);
   if (!config.record.empty()) {
@@ -113,6 +123,14 @@ void Server::watchEndpoints() {
   parameters_.show(endpoints_);
   events_.serveStrangers(endpoints_, rest_surface_);
   events_.lookForOwners(processes_, poses_in_.handle());
+}
+
+void Server::startSecurity() {
+  const std::optional<dds::Identity>& identity = participant_.identity();
+  if (!identity) return;
+  spdlog::info("topics are signed and encrypted; this is {}, until {}", identity->name(),
+               dds::utcOf(identity->expires()));
+  events_.watchSecurity(security_.emplace(participant_));
 }
 
 void Server::settleRealtime(rt::RealtimePolicy policy) {

@@ -71,6 +71,10 @@ TEST(HapticC, AnswersBadArgumentsWithACode) {
   EXPECT_STREQ(error, "force limit is miss");
   EXPECT_EQ(palpate_haptic_open(nullptr, error, sizeof error), nullptr);
   options.force_limit = 50.0;
+  options.security = "/none";
+  EXPECT_EQ(palpate_haptic_open(&options, error, sizeof error), nullptr);
+  EXPECT_STREQ(error, "/none: no such fold");
+  options.security = nullptr;
   palpate_haptic* tool = palpate_haptic_open(&options, nullptr, 0);
   ASSERT_NE(tool, nullptr);
   EXPECT_EQ(palpate_haptic_send(tool, nullptr, nullptr, 0), PALPATE_HAPTIC_INVALID_ARGUMENT);
@@ -78,6 +82,8 @@ TEST(HapticC, AnswersBadArgumentsWithACode) {
   EXPECT_EQ(palpate_haptic_wait_for_server(tool, -1.0), PALPATE_HAPTIC_INVALID_ARGUMENT);
   EXPECT_EQ(palpate_haptic_wait_for_server(tool, NAN), PALPATE_HAPTIC_INVALID_ARGUMENT);
   EXPECT_EQ(palpate_haptic_wait_for_server(tool, 0.01), PALPATE_HAPTIC_NO_SERVER);
+  palpate_haptic_security_warning(tool, error, sizeof error);
+  EXPECT_STREQ(error, "") << "it has no identity that could end";
   palpate_haptic_close(tool);
 }
 

@@ -110,6 +110,7 @@ WRONG = [
     (["palpate-watch", "--vtk", "surface.png"], "--vtk"),
     (["palpate-parameters", "--tool", "7"], "--tool"),
     (["palpate-list", "--timeout", "0"], "--timeout"),
+    (["palpate-security", "issue", "king", "desk"], "role"),
 ]
 
 

@@ -54,6 +54,11 @@ TEST_F(ConfigFile, SetsWhatItNamesAndLeavesTheRest) {
   EXPECT_EQ(config.step.tip_radius, StepConfig{}.tip_radius);
 }
 
+TEST_F(ConfigFile, TheFolderOfTheIdentityIsTakenFromTheFilesOwn) {
+  EXPECT_EQ(read("security = \"desk\"").security, path_.parent_path() / "desk");
+  EXPECT_THROW((void)read("security = \"\""), ConfigError);
+}
+
 TEST_F(ConfigFile, AnAbsoluteModelPathStaysAsItIs) {
   EXPECT_EQ(read("model = \"/data/organ.h5\"").model, "/data/organ.h5");
 }

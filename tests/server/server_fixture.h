@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,7 +71,7 @@ class ServerEndToEnd : public ::testing::Test {
       arguments.insert(arguments.end(), {"--device", "custom", "--friction", "inf"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     server_ = std::make_unique<ServerProcess>(arguments, log_fd_);
-    client_ = std::make_unique<TestClient>(domain_, 0);
+    client_ = std::make_unique<TestClient>(domain_, 0, identity_);
     ASSERT_TRUE(client_->connect()) << server_->log();
     const auto target = client_->findTarget();
     ASSERT_TRUE(target.has_value()) << server_->log();
@@ -111,6 +112,7 @@ class ServerEndToEnd : public ::testing::Test {
   const palpate::testing::TemporaryFile model_file_{"e2e.h5"};
   const std::filesystem::path model_ = model_file_.path();
   int log_fd_ = -1;
+  std::optional<dds::Identity> identity_;  // of the client
   std::unique_ptr<ServerProcess> server_;
   std::unique_ptr<TestClient> client_;
   Target target_;

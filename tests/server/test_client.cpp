@@ -52,9 +52,9 @@ std::int64_t senderNow() {
 
 }  // namespace
 
-TestClient::TestClient(std::uint32_t domain, std::uint32_t tool_id)
+TestClient::TestClient(std::uint32_t domain, std::uint32_t tool_id, std::optional<dds::Identity> identity)
     : tool_id_(tool_id),
-      participant_(domain),
+      participant_(domain, std::move(identity)),
       poses_(participant_),
       announcements_(participant_),
       surface_(participant_),

@@ -34,7 +34,7 @@ struct Target {
 /// What a haptic device's driver does, with a memory: sends poses of one tool at 1 kHz, keeps every answer.
 class TestClient {
  public:
-  TestClient(std::uint32_t domain, std::uint32_t tool_id);
+  TestClient(std::uint32_t domain, std::uint32_t tool_id, std::optional<dds::Identity> identity = {});
   ~TestClient();
 
   /// Waits for the server's surface. @return nothing when none came within 20 s

@@ -58,10 +58,33 @@ std::string missing(std::uint32_t server_id, const dds::Participant& participant
   return mismatch.empty() ? text + kNoServerHint : text + "; " + mismatch;
 }
 
+// What a server answered last, to whomever.
+dds::ServerParameters newestAnswer(const dds::Participant& participant, const dds::ParameterRequest& question,
+                                   std::chrono::milliseconds patience) {
+  const dds::Reader<dds::ServerParameters> answers(participant);
+  const Clock::time_point end = Clock::now() + patience;
+  std::array<dds::ServerParameters, dds::kMaxTake> samples;
+  while (Clock::now() <= end && !stopRequested()) {
+    for (std::size_t i = answers.view().take(samples); i-- > 0;)
+      if (samples[i].server_id == question.server_id &&
+          (question.session == 0 || samples[i].session == question.session))
+        return samples[i];
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  throw ClientError(missing(question.server_id, participant, answers, patience));
+}
+
 }  // namespace
 
 dds::ServerParameters exchangeParameters(const dds::Participant& participant, dds::ParameterRequest request,
                                          std::chrono::milliseconds patience) {
+  if (!participant.mayWrite(dds::TopicTraits<dds::ParameterRequest>::kName)) {
+    if (request.fields != 0 || request.model[0] != '\0')
+      throw ClientError("the identity " + participant.identity()->name() + " has the role " +
+                        std::string(dds::wordOf(participant.identity()->role())) +
+                        ", only an operator may change parameters");
+    return newestAnswer(participant, request, patience);
+  }
   dds::Writer<dds::ParameterRequest> requests(participant);
   const dds::Reader<dds::ServerParameters> answers(participant);
   request.request_id = firstRequestId();

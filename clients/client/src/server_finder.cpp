@@ -11,11 +11,22 @@
 #include "palpate/client/error.h"
 #include "palpate/client/no_server.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/idl/outsider_watch.h"
 
 namespace palpate::client {
+namespace {
+
+// One that is there and does not meet us, where topics are signed. Without an identity of ours DDS keeps silent about it.
+std::string outsiderOf(const dds::Participant& participant) {
+  if (!participant.identity()) return {};
+  const std::vector<std::string> lines = dds::OutsiderWatch(participant, std::chrono::milliseconds(0)).poll();
+  return lines.empty() ? std::string() : lines.front();
+}
+
+}  // namespace
 
 ServerFinder::ServerFinder(const dds::Participant& participant, const WantedServer& wanted)
-    : domain_(participant.domain()),
+    : participant_(participant),
       wanted_(wanted),
       statuses_(participant, nullptr, nullptr, dds::Wants::kHistory),
       surfaces_(participant, nullptr, this, &ServerFinder::onSurface) {}
@@ -78,10 +89,12 @@ std::vector<std::string> ServerFinder::others(const ServerInfo& found) const {
 }
 
 std::string ServerFinder::missing(std::chrono::milliseconds waited) const {
-  const std::string where = client::where(domain_, waited);
+  const std::string where = client::where(participant_.domain(), waited);
   for (const std::string& mismatch : {statuses_.mismatch(), surfaces_.mismatch()})
     if (!mismatch.empty()) return "no server fits" + where + ": " + mismatch;
   if (!refusal_.empty()) return refusal_;
+  if (const std::string outsider = outsiderOf(participant_); !has_status_ && !outsider.empty())
+    return "no server" + where + "; " + outsider;
   if (!has_status_ && !wanted_.any()) return "no " + nameOf(wanted_) + where + kNoServerHint;
   if (!has_status_ && kept_.empty()) return "no server" + where + kNoServerHint;
   if (!has_status_)

@@ -2,6 +2,7 @@
 // palpate-device: a simulated haptic device in a hand touches the organ, driven by the server's forces.
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "core/devices/sim/delays.h"
 #include "device_report.h"
 #include "palpate/client/error.h"
+#include "palpate/client/joining.h"
 #include "palpate/client/parameter_exchange.h"
 #include "palpate/client/place.h"
 #include "palpate/client/stop_signal.h"
@@ -35,6 +37,7 @@ struct Arguments {
   std::string at;
   std::uint32_t tool_id{0};
   std::uint32_t domain{0};
+  std::filesystem::path security;
   client::WantedServer wanted;
   double wait_s{10.0};
   bool json{false};
@@ -72,6 +75,7 @@ void addOptions(program::Options line, Arguments& arguments) {
       .valueName("FILE");
   line.add("--tool", &arguments.tool_id, "tool id, 0 to 3").range(0, 3);
   line.add("--domain", &arguments.domain, "DDS domain").range(0, 230);
+  line.add("--security", &arguments.security, client::kSecurityHelp).valueName("FOLDER");
   line.add("--server-id", &arguments.wanted.server_id, "which server of the domain; default: the first found")
       .range(std::int64_t{0}, client::kMaxServerId);
   line.add("--organ-id", &arguments.wanted.organ_id, client::kOrganIdHelp)
@@ -194,7 +198,8 @@ int body(int argc, char** argv) {
   client::catchStopSignals();
 
   // 2. Find the server and its organ.
-  const dds::Participant participant(arguments.domain);
+  const dds::Participant participant =
+      client::join(arguments.domain, arguments.security, {dds::Role::kDriver});
   const client::ServerInfo server = client::findServer(participant, arguments.wait_s, arguments.wanted);
 
   // 3. The motion there, once without the organ and once against the server.

@@ -52,6 +52,9 @@ typedef struct palpate_haptic_options {
   int64_t
       organ_id; /* the server of this organ, 0 to 4294967295; PALPATE_HAPTIC_ANY_ORGAN: of any. Until its status has come no pose goes
                        out: palpate_haptic_wait_for_server waits for it */
+  const char*
+      security; /* folder with the identity of a driver (palpate-security issue driver NAME), where topics are signed and encrypted;
+                   null: they are not */
 } palpate_haptic_options;
 
 typedef struct palpate_haptic_force {
@@ -102,6 +105,11 @@ PALPATE_HAPTIC_C_API double palpate_haptic_nearest(const palpate_haptic* tool);
 /* The tip radius (m) and the force limit (N) from the server's status; 0 until it has come, or for null. */
 PALPATE_HAPTIC_C_API double palpate_haptic_tip_radius(const palpate_haptic* tool);
 PALPATE_HAPTIC_C_API double palpate_haptic_server_force_limit(const palpate_haptic* tool);
+
+/* One line for who runs the driver, from 30 days before the identity in palpate_haptic_options.security ends; else empty. Cut to
+ * `size`, always terminated. */
+PALPATE_HAPTIC_C_API void palpate_haptic_security_warning(const palpate_haptic* tool, char* text,
+                                                          size_t size);
 
 /* One line about a code; never null. */
 PALPATE_HAPTIC_C_API const char* palpate_haptic_error_text(int code);

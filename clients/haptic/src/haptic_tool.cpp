@@ -48,7 +48,7 @@ class HapticTool::Impl {
       : limit_(checked(options).force_limit),
         tool_id_(options.tool_id),
         renderer_(options.max_extrapolation),
-        participant_(options.domain),
+        participant_(options.domain, dds::identityFor({dds::Role::kDriver}, options.security)),
         wanted_{options.server_id, options.organ_id},
         announcements_(participant_),
         statuses_(participant_, &Impl::onStatus, this),
@@ -93,6 +93,9 @@ class HapticTool::Impl {
   [[nodiscard]] std::uint64_t leftOut() const noexcept { return tool_.hold().leftOut().count; }
   [[nodiscard]] double nearest() const noexcept { return renderer_.nearest(); }
   [[nodiscard]] double tipRadius() const noexcept { return tip_radius_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::string securityWarning() const {
+    return participant_.identity() ? participant_.identity()->warning() : std::string();
+  }
   [[nodiscard]] double serverLimit() const noexcept { return server_limit_.load(std::memory_order_relaxed); }
 
  private:
@@ -223,6 +226,10 @@ double HapticTool::nearest() const noexcept {
 
 double HapticTool::tipRadius() const noexcept {
   return impl_->tipRadius();
+}
+
+std::string HapticTool::securityWarning() const {
+  return impl_->securityWarning();
 }
 
 double HapticTool::serverForceLimit() const noexcept {

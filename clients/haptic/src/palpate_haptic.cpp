@@ -28,7 +28,8 @@ Options optionsOf(const palpate_haptic_options& from) {
           from.max_extrapolation,
           from.receive_priority,
           from.device == nullptr ? "" : from.device,
-          from.organ_id == PALPATE_HAPTIC_ANY_ORGAN ? std::nullopt : std::optional(from.organ_id)};
+          from.organ_id == PALPATE_HAPTIC_ANY_ORGAN ? std::nullopt : std::optional(from.organ_id),
+          from.security == nullptr ? "" : from.security};
 }
 
 void tell(std::string_view text, char* error, std::size_t error_size) noexcept {
@@ -73,7 +74,8 @@ void palpate_haptic_default_options(palpate_haptic_options* options) {
               defaults.max_extrapolation,
               defaults.receive_priority,
               nullptr,
-              PALPATE_HAPTIC_ANY_ORGAN};
+              PALPATE_HAPTIC_ANY_ORGAN,
+              nullptr};
 }
 
 palpate_haptic* palpate_haptic_open(const palpate_haptic_options* options, char* error, size_t error_size) {
@@ -132,6 +134,15 @@ double palpate_haptic_tip_radius(const palpate_haptic* tool) {
 
 double palpate_haptic_server_force_limit(const palpate_haptic* tool) {
   return tool == nullptr ? 0.0 : tool->tool.serverForceLimit();
+}
+
+void palpate_haptic_security_warning(const palpate_haptic* tool, char* text, size_t size) {
+  tell("", text, size);
+  if (tool == nullptr) return;
+  try {
+    tell(tool->tool.securityWarning(), text, size);
+  } catch (...) {  // no memory for a line: none is told
+  }
 }
 
 const char* palpate_haptic_error_text(int code) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-latency: how long a pose takes to become a force, and how steadily the server ticks.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "hdr_log.h"
 #include "latency_report.h"
 #include "palpate/client/error.h"
+#include "palpate/client/joining.h"
 #include "palpate/client/sending.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
@@ -32,6 +34,7 @@ struct Options {
   int tools{1};
   std::string at;
   std::uint32_t domain{0};
+  std::filesystem::path security;
   client::WantedServer wanted;
   double wait_s{10.0};
   bool json{false};
@@ -51,6 +54,7 @@ void addOptions(program::Options line, Options& options) {
            "each")
       .range(1, 4);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--security", &options.security, client::kSecurityHelp).valueName("FOLDER");
   line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found")
       .range(std::int64_t{0}, client::kMaxServerId);
   line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp)
@@ -174,7 +178,7 @@ int body(int argc, char** argv) {
   client::catchStopSignals();
 
   // 2. Find the server and a place to press.
-  const dds::Participant participant(options.domain);
+  const dds::Participant participant = client::join(options.domain, options.security, {dds::Role::kDriver});
   client::ServerInfo server = client::findServer(participant, options.wait_s, options.wanted);
   const client::StatusBoard statuses(participant);
   const std::vector<client::Spot> spots =

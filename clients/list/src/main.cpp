@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-list: servers, organs, tools and who drives them, on a DDS domain.
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
 #include "list_report.h"
 #include "palpate/client/error.h"
+#include "palpate/client/joining.h"
 #include "palpate/client/no_server.h"
 #include "palpate/client/stop_signal.h"
 #include "tools/program/command_line.h"
@@ -16,12 +18,14 @@ namespace {
 
 struct Options {
   std::uint32_t domain{0};
+  std::filesystem::path security;
   double timeout_s{2.0};
   bool json{false};
 };
 
 void addOptions(program::Options line, Options& options) {
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--security", &options.security, client::kSecurityHelp).valueName("FOLDER");
   line.add("--timeout", &options.timeout_s,
            "how long to listen; a server says its status once a second, a latched one at once")
       .range(0.1, 600.0, "s");
@@ -49,7 +53,7 @@ int body(int argc, char** argv) {
   client::catchStopSignals();
 
   // 2. Listen.
-  const dds::Participant participant(options.domain);
+  const dds::Participant participant = client::join(options.domain, options.security, client::kReaders);
   const Survey survey(participant);
   listen(options.timeout_s);
 

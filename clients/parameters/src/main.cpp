@@ -3,11 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <optional>
 #include <string>
 
+#include "palpate/client/joining.h"
 #include "palpate/client/parameter_exchange.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
@@ -22,6 +24,7 @@ namespace {
 struct Options {
   LiveFields<std::optional<double>> values;
   std::uint32_t domain{0};
+  std::filesystem::path security;
   std::optional<std::int64_t> server_id;
   std::optional<std::int64_t> organ_id;
   std::optional<int> tool;
@@ -37,6 +40,7 @@ void addOptions(program::Options line, Options& options) {
              std::string(info.help) + "; default: stays as it is");
   }
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--security", &options.security, client::kSecurityHelp).valueName("FOLDER");
   line.add("--tool", &options.tool, "change this tool only, 0 to 3; default: all of them").range(0, 3);
   line.add("--model", &options.model,
            "have the server answer with this model file from now on: a path within its folder of models "
@@ -164,7 +168,7 @@ int body(int argc, char** argv) {
   client::catchStopSignals();
 
   // 2. Ask, until the server answers.
-  const dds::Participant participant(options.domain);
+  const dds::Participant participant = client::join(options.domain, options.security, {dds::Role::kOperator});
   if (options.organ_id) findOrgan(participant, options, request);
   const auto patience = std::chrono::milliseconds(static_cast<long>(options.wait_s * 1e3));
   std::cerr << "waiting for server " << request.server_id << " on DDS domain " << options.domain << "\n";

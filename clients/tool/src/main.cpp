@@ -2,11 +2,13 @@
 // palpate-tool: a scripted tool, or the tools of a recorded session, touch the organ; prints the force over time.
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <thread>
 
 #include "palpate/client/error.h"
+#include "palpate/client/joining.h"
 #include "palpate/client/place.h"
 #include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
@@ -39,6 +41,7 @@ struct Options {
   std::string at, beside;
   std::optional<int> tool_id;
   std::uint32_t domain{0};
+  std::filesystem::path security;
   client::WantedServer wanted;
   double wait_s{10.0};
   bool json{false};
@@ -78,6 +81,7 @@ void addOptions(program::Options line, Options& options) {
       .range(0.0, 0.05, "m");
   line.add("--tool", &options.tool_id, "tool id, 0 to 3; default: 0, of a recording as recorded").range(0, 3);
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--security", &options.security, client::kSecurityHelp).valueName("FOLDER");
   line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found")
       .range(std::int64_t{0}, client::kMaxServerId);
   line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp)
@@ -166,7 +170,7 @@ int playBack(const Options& options) {
                               ": several tools were recorded; --recorded-tool chooses one");
   client::catchStopSignals();
   // 2. The server.
-  const dds::Participant participant(options.domain);
+  const dds::Participant participant = client::join(options.domain, options.security, {dds::Role::kDriver});
   const client::ServerInfo server = client::findServer(participant, options.wait_s, options.wanted);
   std::cerr << notesOf(options.recording, session, asId(options.tool_id), server);
   // 3. Play, and tell.
@@ -197,7 +201,7 @@ int body(int argc, char** argv) {
   client::catchStopSignals();
 
   // 2. Find the server and its organ.
-  const dds::Participant participant(options.domain);
+  const dds::Participant participant = client::join(options.domain, options.security, {dds::Role::kDriver});
   const client::ServerInfo server = client::findServer(participant, options.wait_s, options.wanted);
 
   const auto at = report::askedPlace(server.surface, "--at", options.at);

@@ -4,12 +4,14 @@
 #include <spdlog/spdlog.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <optional>
 
 #include "export_page.h"
 #include "palpate/client/error.h"
+#include "palpate/client/joining.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/receive_threads.h"
 #include "palpate/rt/scheduling.h"
@@ -32,6 +34,7 @@ struct Options {
   std::string model;
   std::string token_file;
   std::uint32_t domain{0};
+  std::filesystem::path security;
   client::WantedServer wanted;
   std::vector<std::uint32_t> tools{3, 2, 1, 0};  // a device's usual tool, 0, last
   bool json{false};
@@ -40,6 +43,7 @@ struct Options {
 void addOptions(program::Options line, Options& options) {
   WebOptions& web = options.web;
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--security", &options.security, client::kSecurityHelp).valueName("FOLDER");
   line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found")
       .range(std::int64_t{0}, client::kMaxServerId);
   line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp)
@@ -143,7 +147,7 @@ int body(int argc, char** argv) {
 
   // 2. Listen, and join the domain.
   WebServer server(options.web);
-  const dds::Participant participant(options.domain);
+  const dds::Participant participant = client::join(options.domain, options.security, client::kReaders);
   Viewer viewer(participant, options.wanted, options.web.rate_hz, options.tools, &WebServer::wake, &server);
   // Where the kernel grants it: browsers keep a machine busy.
   (void)rt::raiseThreadsNamed(dds::kReceiveThreads, kReceivePriority);

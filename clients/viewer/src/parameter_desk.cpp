@@ -26,8 +26,9 @@ dds::ParameterRequest requestOf(const SetParameters& wanted, double model_youngs
   return request;
 }
 
-ParameterDesk::ParameterDesk(const dds::Participant& participant)
-    : writer_(participant), next_id_(client::firstRequestId()) {}
+ParameterDesk::ParameterDesk(const dds::Participant& participant) : next_id_(client::firstRequestId()) {
+  if (participant.mayWrite(dds::TopicTraits<dds::ParameterRequest>::kName)) writer_.emplace(participant);
+}
 
 void ParameterDesk::set(std::uint64_t page_id, const SetParameters& wanted) {
   Wish& wish = wishes_[page_id];
@@ -45,6 +46,11 @@ void ParameterDesk::saw(const dds::ServerParameters& answer) {
 
 bool ParameterDesk::startNext(std::uint64_t page_id, Wish& wish,
                               const std::optional<dds::ServerParameters>& server, std::int64_t now_ns) {
+  if (!writer_) {
+    answers_.push_back({page_id, wish.waiting->request, false, "this page may not change parameters"});
+    wish.waiting.reset();
+    return false;
+  }
   if (!server) {
     answers_.push_back({page_id, wish.waiting->request, false, "no server has said its parameters yet"});
     wish.waiting.reset();
@@ -68,7 +74,7 @@ void ParameterDesk::tend(const std::optional<dds::ServerParameters>& server, std
     }
     if (!wish.asked && wish.waiting && !startNext(page_id, wish, server, now_ns)) continue;
     if (!wish.asked || now_ns - wish.sent_ns < kRepeatNs) continue;
-    if (writer_.matched() > 0 && writer_.write(wish.request)) wish.sent_ns = now_ns;
+    if (writer_->matched() > 0 && writer_->write(wish.request)) wish.sent_ns = now_ns;
   }
 }
 

@@ -33,7 +33,7 @@ class ParameterDesk {
     std::string message;
   };
 
-  /// @throw dds::DdsError
+  /// A participant whose role may not write requests refuses them itself. @throw dds::DdsError
   explicit ParameterDesk(const dds::Participant& participant);
 
   void set(std::uint64_t page_id, const SetParameters& wanted);
@@ -58,7 +58,7 @@ class ParameterDesk {
   bool startNext(std::uint64_t page_id, Wish& wish, const std::optional<dds::ServerParameters>& server,
                  std::int64_t now_ns);
 
-  dds::Writer<dds::ParameterRequest> writer_;
+  std::optional<dds::Writer<dds::ParameterRequest>> writer_;  // where the identity may
   std::uint64_t next_id_;
   std::map<std::uint64_t, Wish> wishes_;  // by page
   std::vector<Answer> answers_;

@@ -26,7 +26,8 @@ dds::ToolPose poseAt(std::uint32_t server_id, std::uint32_t tool_id, std::uint64
 }  // namespace
 
 ToolDesk::ToolDesk(const dds::Participant& participant, std::vector<std::uint32_t> ids)
-    : ids_(std::move(ids)), writer_(participant) {
+    : ids_(std::move(ids)) {
+  if (participant.mayWrite(dds::TopicTraits<dds::ToolPose>::kName)) writer_.emplace(participant);
   for (Tool& tool : tools_) tool.seq = static_cast<std::uint64_t>(rt::monotonicNow());
   thread_ = std::thread([this] { run(); });
 }
@@ -63,6 +64,7 @@ void ToolDesk::sawForeignPose(std::uint32_t tool_id, std::int64_t now_ns) noexce
 }
 
 ToolGrant ToolDesk::grab(std::uint64_t page_id) {
+  if (!writer_) return {false, 0, "this page may look only"};
   if (server_tools_ == 0) return {false, 0, "no server answers tools yet"};
   const std::int64_t now_ns = rt::monotonicNow();
   const std::lock_guard lock(mutex_);
@@ -131,7 +133,8 @@ std::optional<device::Point> ToolDesk::tipOf(std::uint32_t tool_id) const {
 
 dds_instance_handle_t ToolDesk::writerId() const noexcept {
   dds_instance_handle_t id = 0;
-  return dds_get_instance_handle(writer_.handle(), &id) == DDS_RETCODE_OK ? id : 0;
+  if (!writer_) return 0;
+  return dds_get_instance_handle(writer_->handle(), &id) == DDS_RETCODE_OK ? id : 0;
 }
 
 ToolDesk::Tool* ToolDesk::find(std::uint64_t page_id) {
@@ -182,7 +185,7 @@ void ToolDesk::run() {
     while (!stop_ && anyDriven()) {
       stepAll(rt::monotonicNow(), poses);
       lock.unlock();
-      for (const dds::ToolPose& pose : poses) (void)writer_.write(pose);
+      for (const dds::ToolPose& pose : poses) (void)writer_->write(pose);
       pacer.wait();
       lock.lock();
     }

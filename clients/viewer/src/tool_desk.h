@@ -43,7 +43,7 @@ class ToolDesk {
   };
 
   /// @param[in] ids  tools that pages may drive, in the order of preference
-  /// @throw dds::DdsError
+  /// A participant whose role may not write poses gives no page a tool. @throw dds::DdsError
   ToolDesk(const dds::Participant& participant, std::vector<std::uint32_t> ids);
   ~ToolDesk();
   ToolDesk(const ToolDesk&) = delete;
@@ -100,8 +100,8 @@ class ToolDesk {
   std::uint64_t session_{0};
   double speed_{kMaxSpeed};
   Outward outward_;
-  dds::Writer<dds::ToolPose> writer_;
-  mutable std::mutex mutex_;  // what is below
+  std::optional<dds::Writer<dds::ToolPose>> writer_;  // where the identity may
+  mutable std::mutex mutex_;                          // what is below
   std::condition_variable driven_;
   std::uint32_t server_id_{dds::kServerAny};
   std::array<Tool, kTools> tools_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-watch: a viewer without a screen; follows the displacement of an organ's surface.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "next_surface.h"
 #include "palpate/client/error.h"
 #include "palpate/client/frame_pace.h"
+#include "palpate/client/joining.h"
 #include "palpate/client/server_finder.h"
 #include "palpate/client/stop_signal.h"
 #include "palpate/idl/printable.h"
@@ -29,6 +31,7 @@ namespace {
 struct Options {
   double seconds{10.0};
   std::uint32_t domain{0};
+  std::filesystem::path security;
   client::WantedServer wanted;
   double wait_s{10.0};
   double rate_hz{0.0};
@@ -47,6 +50,7 @@ void addOptions(program::Options line, Options& options) {
   line.add("--rate", &options.rate_hz, "most fields per second to look at; 0: all of them")
       .range(0.0, 10000.0, "Hz");
   line.add("--domain", &options.domain, "DDS domain").range(0, 230);
+  line.add("--security", &options.security, client::kSecurityHelp).valueName("FOLDER");
   line.add("--server-id", &options.wanted.server_id, "which server of the domain; default: the first found")
       .range(std::int64_t{0}, client::kMaxServerId);
   line.add("--organ-id", &options.wanted.organ_id, client::kOrganIdHelp)
@@ -123,7 +127,7 @@ int body(int argc, char** argv) {
   client::catchStopSignals();
 
   // 2. Find the server and its organ.
-  const dds::Participant participant(options.domain);
+  const dds::Participant participant = client::join(options.domain, options.security, client::kReaders);
   const auto surface = std::make_shared<const client::Surface>(
       client::findServer(participant, options.wait_s, options.wanted).surface);
 

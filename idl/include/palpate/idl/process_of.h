@@ -19,6 +19,9 @@ struct Process {
   [[nodiscard]] std::string text() const;
 };
 
+/// As a participant's QoS says it. Cyclone says nothing of participants with an identity.
+[[nodiscard]] Process processIn(const dds_qos_t* qos);
+
 /// Of a participant that a reader of DCPSParticipant knows. @param[in] participants  that reader
 [[nodiscard]] Process processOf(dds_entity_t participants, dds_instance_handle_t participant);
 

@@ -60,7 +60,9 @@ struct ServerConfig {
   std::filesystem::path model;   ///< model file; no default
   std::filesystem::path models;  ///< folder whose models clients may ask for; empty: they may not
   std::int64_t domain{0};        ///< DDS domain, in [0, 230]
-  double rate{1000.0};           ///< ticks per second, Hz, in [10, 10000]
+  std::filesystem::path
+      security;         ///< folder of the server's identity; empty: topics are neither signed nor encrypted
+  double rate{1000.0};  ///< ticks per second, Hz, in [10, 10000]
   rt::RealtimePolicy realtime{rt::RealtimePolicy::kPrefer};  ///< require, prefer or off
   std::int64_t server_id{0};           ///< names it in poses and answers, in [0, 2^32 - 2]
   bool addressed_only{false};          ///< poses for any server are left to others

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "palpate/idl/endpoint_watch.h"
 #include "palpate/idl/process_of.h"
@@ -14,6 +15,7 @@
 #include "palpate/server/parameter_service.h"
 #include "palpate/server/rest_surface.h"
 #include "palpate/server/rival_watch.h"
+#include "palpate/server/security_watch.h"
 #include "palpate/server/status_publisher.h"
 
 namespace palpate::server {
@@ -45,6 +47,9 @@ class Events {
     poses_ = poses;
   }
 
+  /// Also log who is not let in. Before run(); `security` must outlive the thread.
+  void watchSecurity(SecurityWatch& security) noexcept { security_ = &security; }
+
   /// Body of the events thread. Returns when the server stops, after it has published that.
   void run() noexcept;
 
@@ -56,6 +61,7 @@ class Events {
  private:
   void noteParameters();
   void noteMisfits(std::int64_t now_ns);
+  void noteSecurity(std::int64_t now_ns);
   void noteUnknownTools(std::int64_t now_ns);
   void noteRivals(std::int64_t now_ns);
   void noteMisaddressed(std::int64_t now_ns);
@@ -72,6 +78,9 @@ class Events {
   /// Whether a line of this kind may be written: once a second.
   [[nodiscard]] bool isDue(std::uint64_t kind, std::int64_t now_ns);
   void warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns);
+  /// Of lines that come within a second of another only their number is told, with the next one.
+  void warnOfSome(std::uint64_t kind, std::vector<std::string> lines, std::uint64_t& untold,
+                  std::int64_t now_ns);
   void info(const std::string& text);
   void publishIfDue(std::int64_t now_ns);
 
@@ -81,7 +90,9 @@ class Events {
   RivalWatch& rivals_;
   dds::EndpointWatch* endpoints_{nullptr};
   RestSurface* rest_surface_{nullptr};
+  SecurityWatch* security_{nullptr};
   std::uint64_t untold_misfits_{0};
+  std::uint64_t untold_outsiders_{0};
   const dds::ProcessBook* processes_{nullptr};
   dds_entity_t poses_{0};
   std::array<std::uint64_t, kMaxTools> owners_{};  // as channels_.owners, looked up

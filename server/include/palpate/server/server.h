@@ -22,6 +22,7 @@
 #include "palpate/server/recorder.h"
 #include "palpate/server/rest_surface.h"
 #include "palpate/server/rival_watch.h"
+#include "palpate/server/security_watch.h"
 #include "palpate/server/surface_publisher.h"
 #include "palpate/server/tick.h"
 
@@ -45,6 +46,7 @@ class Server {
 
  private:
   void watchEndpoints();
+  void startSecurity();
   void settleRealtime(rt::RealtimePolicy policy);
   void startThreads(const ServerConfig& config);
   void sendZeroForce();
@@ -57,6 +59,7 @@ class Server {
 
   // The place of this server on its domain, before anything else is sent.
   dds::Participant participant_;
+  std::optional<SecurityWatch> security_;  // with an identity
   StatusPublisher status_out_;
   RivalWatch rivals_;
 

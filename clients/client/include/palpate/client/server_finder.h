@@ -45,7 +45,7 @@ class ServerFinder {
   void takeSurfaces();
   [[nodiscard]] std::string missing(std::chrono::milliseconds waited) const;
 
-  std::uint32_t domain_;
+  const dds::Participant& participant_;
   WantedServer wanted_;
   StatusBoard statuses_;
   std::vector<Surface> kept_;

@@ -47,6 +47,9 @@ struct Options {
   /// The server of this organ, by the id that the server gave it (palpate-server --organ-id), 0 to 4294967295; empty: of any. With it
   /// no pose goes out until that server's status has come, within a second.
   std::optional<std::int64_t> organ_id{};
+  /// Folder with the identity of a driver (palpate-security issue driver NAME), where topics are signed and encrypted
+  /// (docs/security.md). Empty: they are not
+  std::string security{};
 };
 
 /// One tool of one server. It holds on to one run of one server: the first that answers, or that of `server_id`. Forces of other
@@ -107,6 +110,9 @@ class PALPATE_HAPTIC_API HapticTool {
   /// The tip radius that the server assumes, m, and its force limit, N; 0 until its status has come.
   [[nodiscard]] double tipRadius() const noexcept;
   [[nodiscard]] double serverForceLimit() const noexcept;
+
+  /// One line for who runs the driver, from 30 days before the identity in Options::security ends; else empty. Real-time: no
+  [[nodiscard]] std::string securityWarning() const;
 
  private:
   class Impl;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "palpate/idl/outsider_watch.h"
+
+namespace palpate::server {
+
+/// What there is to tell of a server with an identity: who is not let in, what DDS finds wrong with others' certificates and
+/// permissions, and that its own end or have ended: DDS then leaves the domain, so that no pose comes any more. While it lives, DDS logs here instead of to standard error; one at a time.
+/// Threads: poll() on one; DDS logs on any. The participant must outlive it. Real-time: no.
+class SecurityWatch {
+ public:
+  /// @param[in] participant  one with an identity
+  explicit SecurityWatch(const dds::Participant& participant);
+  ~SecurityWatch();
+  SecurityWatch(const SecurityWatch&) = delete;
+  SecurityWatch& operator=(const SecurityWatch&) = delete;
+
+  /// Lines since the last call. Of DDS's own the first, with the number of those that came behind it: others decide how many
+  /// there are. That the identity ends: 30 days before, at the first call and each day.
+  [[nodiscard]] std::vector<std::string> poll(std::int64_t now_ns);
+
+ private:
+  static void onLine(void* self, const dds_log_data_t* line);
+
+  const dds::Participant& participant_;
+  dds::OutsiderWatch outsiders_;
+  std::int64_t warned_ns_{0};  // 0: not yet
+  bool expired_{false};
+  std::mutex mutex_;  // what is below
+  std::string line_;
+  std::uint64_t more_{0};
+};
+
+}  // namespace palpate::server

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palpate/server/security_watch.h"
+
+#include <algorithm>
+#include <ctime>
+#include <string_view>
+#include <utility>
+
+#include "palpate/idl/printable.h"
+
+namespace palpate::server {
+namespace {
+
+constexpr std::int64_t kDay = 86'400'000'000'000;
+
+}  // namespace
+
+SecurityWatch::SecurityWatch(const dds::Participant& participant)
+    : participant_(participant), outsiders_(participant) {
+  dds_set_log_sink(&SecurityWatch::onLine, this);
+}
+
+SecurityWatch::~SecurityWatch() {
+  dds_set_log_sink(nullptr, nullptr);  // returns when no thread is inside
+}
+
+std::vector<std::string> SecurityWatch::poll(std::int64_t now_ns) {
+  std::vector<std::string> lines = outsiders_.poll();
+  if (warned_ns_ == 0 || now_ns - warned_ns_ >= kDay) {
+    warned_ns_ = now_ns;
+    if (std::string warning = participant_.identity()->warning(); !warning.empty())
+      lines.push_back(std::move(warning));
+  }
+  if (!expired_ && std::time(nullptr) >= participant_.identity()->expires()) {
+    expired_ = true;
+    lines.push_back(participant_.identity()->folder().string() +
+                    ": has expired, DDS has left the domain and no pose is answered; palpate-security issue "
+                    "--renew makes "
+                    "a new one, with which the server is to be started again");
+  }
+  const std::lock_guard lock(mutex_);
+  if (line_.empty()) return lines;
+  lines.push_back("DDS: " + std::exchange(line_, {}));
+  if (const std::uint64_t more = std::exchange(more_, 0); more > 0)
+    lines.back() += " (and " + std::to_string(more) + " more lines)";
+  return lines;
+}
+
+// What others' certificates say is printed too.
+void SecurityWatch::onLine(void* self, const dds_log_data_t* line) {
+  constexpr std::size_t kLongest = 400;
+  auto& watch = *static_cast<SecurityWatch*>(self);
+  std::string_view text(line->message, std::min<std::size_t>(line->size, kLongest));
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\0')) text.remove_suffix(1);
+  const std::lock_guard lock(watch.mutex_);
+  if (watch.line_.empty())
+    watch.line_ = dds::printable(std::string(text).c_str(), kLongest);
+  else
+    ++watch.more_;
+}
+
+}  // namespace palpate::server

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who should not get in, as a process: joins a domain and writes poses of tools 0 and 1, forces of a session of its own, and
+// requests for another friction, 200 a second, for some seconds. Says how many readers each of its writers matched.
+//   security_intruder DOMAIN SECONDS [FOLDER [PROPERTY=VALUE...]]
+// With FOLDER, an identity, whose properties may be replaced one by one, without the checks of dds::Identity.
+#include "intruder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "palpate/idl/entity.h"
+#include "palpate/idl/error.h"
+#include "palpate/idl/identity.h"
+#include "palpate/idl/raw.h"
+#include "palpate/idl/topics.h"
+
+namespace palpate::dds {
+namespace {
+
+template <class T>
+class Intruding {
+ public:
+  explicit Intruding(const Entity& participant) {
+    using Traits = TopicTraits<T>;
+    const dds_entity_t topic = raw::createTopic(participant.handle(), Traits::descriptor(), Traits::kName);
+    try {
+      writer_ = Entity(raw::createWriter(participant.handle(), topic, Traits::kName, Traits::kProfile));
+    } catch (const DdsError& error) {
+      std::cout << error.what() << "\n";
+    }
+  }
+  void write(const T& sample) {
+    if (writer_.handle() <= 0) return;
+    matched_ = std::max(matched_, raw::matchedReaders(writer_.handle()));
+    (void)dds_write(writer_.handle(), &sample);
+  }
+  void tell() const { std::cout << TopicTraits<T>::kName << ": " << matched_ << " readers\n"; }
+
+ private:
+  Entity writer_;
+  unsigned matched_{0};
+};
+
+Entity join(const std::vector<std::string>& words) {
+  const QosPtr qos(dds_create_qos());
+  if (words.size() > 2) Identity::load(words[2]).applyTo(*qos);
+  char* plugin = nullptr;  // for lenient_access_control.c
+  if (dds_qget_prop(qos.get(), "dds.sec.access.library.path", &plugin))
+    setenv("PALPATE_ACCESS_CONTROL", plugin, 1);
+  dds_free(plugin);
+  for (std::size_t i = 3; i < words.size(); ++i) {
+    const std::size_t equals = words[i].find('=');
+    dds_qset_prop(qos.get(), words[i].substr(0, equals).c_str(), words[i].substr(equals + 1).c_str());
+  }
+  const auto domain = static_cast<dds_domainid_t>(std::stoul(words[0]));
+  return Entity(checked(dds_create_participant(domain, qos.get(), nullptr), "cannot join"));
+}
+
+ToolPose poseOf(std::uint32_t tool, std::uint64_t seq) {
+  ToolPose pose{};
+  pose.server_id = kServerAny;
+  pose.tool_id = tool;
+  pose.seq = seq;
+  pose.position[0] = 1.0;
+  pose.orientation[3] = 1.0;
+  return pose;
+}
+
+int run(const std::vector<std::string>& words) {
+  const Entity participant = join(words);
+  Intruding<ToolPose> poses(participant);
+  Intruding<ToolForce> forces(participant);
+  Intruding<ParameterRequest> requests(participant);
+  ToolForce force{};
+  force.session = testing::kIntrudersSession;
+  ParameterRequest request{};
+  request.request_id = testing::kIntrudersSession;
+  request.tool_id = kAllTools;
+  request.fields = parameter::kFriction;
+  request.friction = 0.01;
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::milliseconds(std::lround(1e3 * std::stod(words[1])));
+  for (std::uint64_t seq = 1; std::chrono::steady_clock::now() < end; ++seq) {
+    for (const std::uint32_t tool : {0U, 1U}) poses.write(poseOf(tool, seq));
+    force.seq = seq;
+    forces.write(force);
+    if (seq % 20 == 0) requests.write(request);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  poses.tell();
+  forces.tell();
+  requests.tell();
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::dds
+
+int main(int argc, char** argv) {
+  try {
+    return palpate::dds::run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::cout << error.what() << "\n";
+    return 1;
+  }
+}
