@@ -154,7 +154,7 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
   std::filesystem::copy_file(folder_ / "stiff.h5", folder_ / "sparse.h5");
   std::filesystem::resize_file(folder_ / "sparse.h5", std::uint64_t{1} << 40U);
   std::string bytes = palpate::testing::contentOf(folder_ / "stiff.h5");
-  const std::uint64_t tree = bytes.find("TREE");  // of names; level, then the first child: HDF5 never comes to its end
+  const std::uint64_t tree = bytes.find("TREE");  // its level, then its first child: itself
   bytes[tree + 5] = 1;
   std::memcpy(bytes.data() + tree + 32, &tree, sizeof tree);
   (void)folder_.write("endless.h5", bytes);
