@@ -46,10 +46,12 @@ class Texts:
         return [self.texts[key] for key in sorted(self.texts)]
 
     def of_debian(self, name):
-        """What the package's copyright file says of most of its files; where that has no name, the whole of it."""
+        """What the package's copyright file says of all files but Debian's own; the whole of it where that has no name, or
+        differs from file to file: one source package may hold a library under one licence and programs under another."""
         text = pathlib.Path("/usr/share/doc", name, "copyright").read_text(errors="replace")
-        found = re.search(r"^Files:\s*\*\s*$.*?^License:\s*(\S.*?)$", text, re.M | re.S)
-        return (found and spdx_name(found.group(1))) or self.named(text, name)
+        stanzas = re.findall(r"^Files:\s*(.*?)^License:\s*(\S.*?)$", text, re.M | re.S)
+        said = {licence.strip() for files, licence in stanzas if not files.startswith("debian/")}
+        return (len(said) == 1 and spdx_name(said.pop())) or self.named(text, name)
 
     def of_npm(self, entry, folder):
         """What the package's entry of the lock file says, or the text that it points at."""

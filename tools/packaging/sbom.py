@@ -5,7 +5,7 @@
 Usage: sbom.py STAGE BUILD VERSION > palpate.spdx.json
 STAGE/PACKAGE holds the files of each package as installed, BUILD is the folder that Ninja built them in. Versions are
 those of the Debian packages that the libraries and headers come from; the page's are those of package-lock.json, with its
-checksums. What only builds is there as well.
+checksums. Compilers, CMake, Ninja and npm's build tools are there as well.
 """
 import functools
 import hashlib
@@ -17,7 +17,7 @@ import subprocess
 import sys
 import time
 
-from licences import EMSCRIPTEN, Texts, emscripten_libraries, npm_checksum
+from licences import Texts, emscripten_libraries, npm_checksum
 
 WEB = pathlib.Path("clients/viewer/web")
 BUILD_TOOLS = ("g++-12", "gcc-12", "binutils", "cmake", "ninja-build", "cyclonedds-tools", "emscripten")
@@ -126,9 +126,9 @@ class Bill:
         for name in sorted({owners()[file] for file in read if file in owners()}):
             self.relate(self.debian(name), "BUILD_DEPENDENCY_OF", spdx_id("palpate"))
 
-    def page(self):
+    def page(self, stage):
         """What the page holds of npm, and of emscripten's libraries, which core as WebAssembly is linked with."""
-        for name, version, licence in emscripten_libraries() if EMSCRIPTEN.exists() else []:
+        for name, version, licence in emscripten_libraries() if any(stage.rglob("*.wasm")) else []:
             identity = spdx_id("emscripten", name)
             self.packages[identity] = package(identity, name, version, licence)
             self.relate(spdx_id("palpate"), "STATIC_LINK", identity)
@@ -175,7 +175,7 @@ def main():
     for folder in sorted(stage.iterdir()):
         bill.ours(folder, version)
     bill.headers(build)
-    bill.page()
+    bill.page(stage)
     bill.tools()
     json.dump(bill.document(version), sys.stdout, indent=1)
     print()
