@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "palpate/client/error.h"
 
@@ -142,7 +141,8 @@ Spot chooseSpot(const Surface& surface, const std::optional<device::Point>& at) 
       *std::min_element(nodes.begin(), nodes.end(), [&](auto a, auto b) { return cost(a) < cost(b); });
   const device::Point sum = normalAt(surface, node);
   const double size = length(sum);
-  if (!(size > std::numeric_limits<double>::min()))
+  constexpr double kLeast = 1e-100;  // rad; the squares of much smaller angles have lost their digits
+  if (!(size > kLeast && std::isfinite(size)))
     throw ClientError("the surface has no normal at node " + std::to_string(node));
   return {node, surface.mesh_tags[node], surface.positions[node], (1.0 / size) * sum};
 }
