@@ -50,7 +50,7 @@ std::optional<ExchangeOutcome> ModelExchange::poll(std::int64_t now_ns) {
 }
 
 void ModelExchange::restFrom(std::int64_t now_ns) noexcept {
-  rests_until_ns_ = now_ns + (now_ns - asked_ns_) + kRest;
+  rests_until_ns_ = now_ns + std::max(now_ns - asked_ns_, kRest);
 }
 
 // The request is over, and nothing has changed unless its model was taken.

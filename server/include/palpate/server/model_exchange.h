@@ -41,8 +41,8 @@ class ModelExchange {
   ModelExchange(Channels& channels, const Served& served, std::unique_ptr<Engine> first,
                 std::unique_ptr<ModelLoader> loader);
 
-  /// After a look at a model, taken or refused, all requests are refused for as long as it took, and this: nobody keeps the forces at
-  /// zero by asking, or the loader's thread busy.
+  /// After a look at a model, taken or refused, requests are refused for as long as it took, and at least for this: nobody keeps the forces
+  /// at zero by asking, or the loader's thread busy.
   static constexpr std::int64_t kRest = 1'000'000'000;  // ns
 
   /// The session is recorded: each model gets a file of its own. Before the first poll().
