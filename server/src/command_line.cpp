@@ -106,7 +106,9 @@ void declare(program::Options line, Given& given) {
            "Options as TOML; all of them with their defaults: " +
                program::installedText(PALPATE_CONFIG_FROM_BIN))
       .valueName("FILE");
-  line.add("--record", &given.record, "Record every tick's input and answer in this file, for palpate-replay")
+  line.add("--record", &given.record,
+           "Record every tick's input and answer in this file, for palpate-replay; for another organ in the "
+           "next one beside it (FILE-2 and on), 1000 in all; how large they get the disk alone bounds")
       .valueName("FILE");
   line.add("--domain", &given.domain, "DDS domain, 0 to 230, default 0");
   line.add("--security", &given.security,

@@ -15,7 +15,6 @@
 #include "palpate/rt/spin_guard.h"
 #include "palpate/server/machine_check.h"
 #include "palpate/server/model_loader.h"
-#include "palpate/server/parameter_book.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
 #include "tools/program/certificate_line.h"
@@ -95,11 +94,6 @@ void logModel(const MetaModel& model, const ServerConfig& config) {
   spdlog::info(program::certificateLine(model.attributes().certificate));
 }
 
-void logContact(const Facts& facts) {
-  spdlog::info("{}; {} tools; the organ has up to {:.0f} N/m at {:g} Pa", ParameterBook(facts).describe(),
-               facts.step.tools, facts.organ.largest, facts.organ.youngs_modulus);
-}
-
 int serve(int argc, char** argv) {
   // 1. Options.
   std::optional<ServerConfig> config;
@@ -115,7 +109,6 @@ int serve(int argc, char** argv) {
   logModel(*model, *config);
   // 4. From here on poses are answered.
   Server server(std::exchange(model, nullptr), *config);
-  logContact(server.facts());
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
   // 5. Until a signal says stop,
   const int signal = waitForSignal();

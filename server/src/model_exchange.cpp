@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/server/model_exchange.h"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -18,8 +21,11 @@ std::string ModelExchange::ask(const std::string& name, std::uint64_t request_id
   if (request_id == 0) return "request_id is 0: an answer could not be told from others";
   if (const std::string complaint = ModelsFolder::complaintAbout(name); !complaint.empty()) return complaint;
   if (state_ != State::kResting) return "another model is on its way: \"" + name_ + "\"";
-  if (taken_ns_ != 0 && now_ns - taken_ns_ < kRest) return "the model was changed less than a second ago";
+  if (now_ns < rests_until_ns_)
+    return fmt::format("a model was looked at a moment ago, the next one may be asked for in {:.1f} s",
+                       1e-9 * static_cast<double>(rests_until_ns_ - now_ns));
   state_ = State::kLoading;
+  asked_ns_ = now_ns;
   asker_ = request_id;
   name_ = name;
   loader_->load(name);
@@ -28,7 +34,10 @@ std::string ModelExchange::ask(const std::string& name, std::uint64_t request_id
 
 std::optional<ExchangeOutcome> ModelExchange::poll(std::int64_t now_ns) {
   if (state_ == State::kLoading)
-    if (std::optional<LoadedModel> loaded = loader_->poll()) return offer(std::move(*loaded));
+    if (std::optional<LoadedModel> loaded = loader_->poll()) {
+      restFrom(now_ns);
+      return offer(std::move(*loaded));
+    }
   if (state_ == State::kLeaving &&
       channels_.engine_in_use.load(std::memory_order_acquire) == next_->number)  // SYNC TAKEN
     return take(now_ns);
@@ -38,6 +47,10 @@ std::optional<ExchangeOutcome> ModelExchange::poll(std::int64_t now_ns) {
     state_ = State::kResting;
   }
   return std::nullopt;
+}
+
+void ModelExchange::restFrom(std::int64_t now_ns) noexcept {
+  rests_until_ns_ = now_ns + std::max(now_ns - asked_ns_, kRest);
 }
 
 // The request is over, and nothing has changed unless its model was taken.
@@ -92,7 +105,7 @@ ExchangeOutcome ModelExchange::take(std::int64_t now_ns) {
   if (!record_.empty()) outcome.line += "; the recording goes on in " + record_;
   loaded_ = {};
   state_ = State::kClearing;
-  taken_ns_ = now_ns;
+  rests_until_ns_ = std::max(rests_until_ns_, now_ns + kRest);
   return outcome;
 }
 

@@ -26,6 +26,9 @@ Recorder::Recorder(Channels& channels, const std::filesystem::path& path, const 
 std::filesystem::path Recorder::expect(std::uint64_t engine, const record::SessionFacts& facts) {
   std::filesystem::path path;
   do {
+    if (files_ >= kMostFiles)
+      throw record::RecordError(first_path_.string() + ": this session has " + std::to_string(kMostFiles) +
+                                " files for its models, and gets no more");
     path = first_path_.parent_path() /
            (first_path_.stem().string() + "-" + std::to_string(++files_) + first_path_.extension().string());
   } while (std::filesystem::exists(path));

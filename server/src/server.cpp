@@ -102,6 +102,7 @@ Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig
   facts_.memory_locked = facts_.process_locked && model->locked();
   tellOfMemory(facts_.memory_locked, startup.memory);
   settleRealtime(config.realtime);
+  tellOfContact();
   try {
     startThreads(config);
   } catch (...) {
@@ -151,6 +152,12 @@ void Server::settleRealtime(rt::RealtimePolicy policy) {
   if (rt::raiseThreadsNamed(kReceiveThreads, kReceivePriority) == 0) {
     spdlog::warn("real time: no receive thread of DDS was found to raise");
   }
+}
+
+// Before there are threads: another model changes what it reads.
+void Server::tellOfContact() const {
+  spdlog::info("{}; {} tools; the organ has up to {:.0f} N/m at {:g} Pa", parameters_.book().describe(),
+               facts_.step.tools, facts_.organ.largest, facts_.organ.youngs_modulus);
 }
 
 void Server::startThreads(const ServerConfig& config) {

@@ -91,6 +91,40 @@ TEST(HapticTool, TouchesTheOrganThatItWantsOnly) {
   ASSERT_TRUE(says(7, true)) << "and back";
 }
 
+TEST(HapticTool, GoesOverToAnotherServerOfItsOrganWhenItsOwnIsGone) {
+  Server server, next, stranger;
+  server.organ = next.organ = 7;
+  next.id = 5;
+  next.session = 2;
+  stranger.id = 6;
+  stranger.session = 3;
+  Options options = onTool1();
+  options.organ_id = 7;
+  HapticTool tool(options);
+  stranger.say(0.6);
+  for (int i = 0; i < 500 && tool.send({0, 0, 0}) == 0; ++i, std::this_thread::sleep_for(10ms))
+    server.say(0.7);
+  next.say(0.9);
+  ASSERT_EQ(pressed(server, tool, {0, 0, 0}, 1.0).gain, 1.0);
+  EXPECT_EQ(server.addressed(), 4U) << "the first that was heard";
+  EXPECT_EQ(tool.serverForceLimit(), 0.7);
+  Force force;
+  for (int i = 0; i < 20'000 && (force.session != 2 || force.gain < 1.0); ++i) {  // the first is silent
+    if (i % 100 == 0) stranger.say(0.6);
+    if (i % 100 == 50) next.say(0.9);
+    const std::uint64_t seq = tool.send({0, 0, 0});
+    stranger.push(seq, 8.0);
+    next.push(seq, 0.8);
+    std::this_thread::sleep_for(1ms);
+    force = tool.force();
+    ASSERT_LE(force.force[2], 1.0) << "nothing of a server of another organ";
+  }
+  EXPECT_EQ(force.server_id, 5U);
+  EXPECT_EQ(force.force[2], 0.8);
+  EXPECT_EQ(next.addressed(), 5U);
+  EXPECT_EQ(tool.serverForceLimit(), 0.9);
+}
+
 TEST(HapticTool, LetsGoWhenTheServerFallsSilent) {
   Server server;
   HapticTool tool(onTool1());

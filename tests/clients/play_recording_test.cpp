@@ -48,9 +48,26 @@ TEST(StallMemory, WhatOnlyOneServerBlendsIsForgottenWhenNothingPressesInBoth) {
 
 TEST(StallMemory, ASlideForgetsToo) {
   StallMemory stalls;
-  EXPECT_TRUE(stalls.add(true, 0, recorded(kSlide), now(kSlide)));
-  for (int i = 0; i < 99; ++i) EXPECT_TRUE(stalls.add(false, 0, recorded(kSlide), now(kSlide))) << i;
-  EXPECT_FALSE(stalls.add(false, 0, recorded(kSlide), now(kSlide)));
+  dds::ToolForce slides = now(kSlide);
+  slides.anchor[0] = 1e-5;  // m, from the recorded one
+  EXPECT_TRUE(stalls.add(true, 0, recorded(kSlide), slides));
+  for (int i = 0; i < 99; ++i) EXPECT_TRUE(stalls.add(false, 0, recorded(kSlide), slides)) << i;
+  EXPECT_FALSE(stalls.add(false, 0, recorded(kSlide), slides));
+}
+
+TEST(StallMemory, ContactsThatHoldTheSamePointAreTheSame) {
+  StallMemory stalls;
+  dds::ToolForce here = now(kStick), beside = here;
+  beside.anchor[1] = 3e-6;
+  EXPECT_TRUE(stalls.add(true, 0, recorded(kStick), here));
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(stalls.add(false, 0, recorded(kStick), beside)) << i;
+  for (int i = 0; i < 9; ++i) EXPECT_TRUE(stalls.add(false, 0, recorded(kStick), here)) << i;
+  EXPECT_TRUE(stalls.add(false, 0, recorded(kStick), beside)) << "not ten in a row";
+  for (int i = 0; i < 20; ++i)
+    EXPECT_TRUE(
+        stalls.add(false, 0, recorded(kStick, dds::flag::kRamping), now(kStick, dds::flag::kRamping)));
+  for (int i = 0; i < 9; ++i) EXPECT_TRUE(stalls.add(false, 0, recorded(kStick), here)) << i;
+  EXPECT_FALSE(stalls.add(false, 0, recorded(kStick), here));
 }
 
 TEST(StallMemory, AShortStallIsForgottenSoon) {

@@ -23,13 +23,14 @@ struct Server {
   dds::Writer<dds::ToolForce> forces{participant};
   dds::Writer<dds::ServerStatus> statuses{participant};
   std::uint64_t seq{0};
+  std::uint32_t id{4};
   std::uint64_t session{1};
   std::uint32_t organ{0};
 
   void say(double force_limit) {
     dds::ServerStatus status{};
     status.state = dds::server_state::kRunning;
-    status.server_id = 4;
+    status.server_id = id;
     status.session = session;
     status.organ_id = organ;
     status.force_limit = force_limit;
@@ -37,9 +38,16 @@ struct Server {
     ASSERT_TRUE(statuses.waitForReaders(1, 5s));
     ASSERT_TRUE(statuses.write(status));
   }
+  // Whom the newest pose is for.
+  std::uint32_t addressed() {
+    dds::ToolPose pose{};
+    while (poses.take({&pose, 1}) == 1) {
+    }
+    return pose.server_id;
+  }
   void push(std::uint64_t pose_seq, double fz, std::uint32_t flags = dds::flag::kInContact) {
     dds::ToolForce force{};
-    force.server_id = 4;
+    force.server_id = id;
     force.session = session;
     force.tool_id = 1;
     force.seq = ++seq;

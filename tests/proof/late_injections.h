@@ -9,7 +9,10 @@ namespace palpate::proof {
 inline constexpr const char* kLateCauseVariable = "PALPATE_LATE_CAUSE";
 inline constexpr std::string_view kWork = "work";    ///< the tick computes for 5 ms
 inline constexpr std::string_view kFault = "fault";  ///< the tick touches 4000 fresh pages
-inline constexpr std::string_view kLeap = "leap";    ///< CLOCK_MONOTONIC leaps ahead by 5 ms
+/// the tick reads for 5 ms, from a file whose pages are not in memory
+inline constexpr std::string_view kRead = "read";
+inline constexpr const char* kLateFileVariable = "PALPATE_LATE_FILE";
+inline constexpr std::string_view kLeap = "leap";  ///< CLOCK_MONOTONIC leaps ahead by 5 ms
 /// CLOCK_REALTIME is set 2 s ahead, once; the tick computes for 5 ms
 inline constexpr std::string_view kWall = "wall";
 

@@ -2,6 +2,7 @@
 // Loaded before all other libraries of palpate-server (LD_PRELOAD): makes ticks late, for a cause that is known. It begins at
 // SIGUSR2, acts where a tick wakes the thread that sends forces, and pauses after kInjections.
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <semaphore.h>
 #include <sys/mman.h>
@@ -98,6 +99,26 @@ std::int64_t now() noexcept {
   return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
 }
 
+// Pages of a file that were put out of memory: each is waited for.
+void readFromDisk() noexcept {
+  const char* const name = std::getenv(kLateFileVariable);
+  const int file = open(name == nullptr ? "" : name, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
+  const void* const pages =
+      mmap(nullptr, kPages * kPage, PROT_NONE, MAP_PRIVATE | MAP_NORESERVE, file, 0);  // none to lock
+  if (pages == MAP_FAILED) return;
+  void* const bytes = const_cast<void*>(pages);
+  munlock(bytes, kPages * kPage);
+  mprotect(bytes, kPages * kPage, PROT_READ);
+  madvise(bytes, kPages * kPage, MADV_RANDOM);  // one at a time
+  const std::int64_t end = now() + kLong;
+  for (std::size_t i = 0; i < kPages && now() < end; ++i)
+    static_cast<void>(static_cast<const volatile char*>(pages)[(i * 37 % kPages) * kPage]);
+  munmap(bytes, kPages * kPage);
+  close(file);
+}
+
 // In the server's log: when, and for how long.
 void tell(std::int64_t at_ns, std::int64_t for_ns) noexcept {
   char line[80];
@@ -110,12 +131,14 @@ void inject() noexcept {
   const std::int64_t at_ns = now(), ran_ns = cpuTime();
   if (cause == kWork) work();
   if (cause == kFault) touchFreshPages();
+  if (cause == kRead) readFromDisk();
   if (cause == kLeap) leapt_ns.fetch_add(kLong);
   if (cause == kWall) {
     wall_ns.store(2'000'000'000);
     work();
   }
-  tell(at_ns, cause == kLeap ? kLong : cpuTime() - ran_ns);
+  const bool waits = cause == kLeap || cause == kRead;
+  tell(at_ns, waits ? now() - at_ns : cpuTime() - ran_ns);
 }
 
 bool isTickThread() noexcept {

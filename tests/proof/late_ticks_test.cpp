@@ -18,6 +18,7 @@
 
 #include "late_injections.h"
 #include "late_log.h"
+#include "memory_group.h"
 #include "palpate/idl/reader.h"
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
@@ -197,6 +198,32 @@ TEST_F(LateTicks, OfOwnWorkAreNamed) {
 TEST_F(LateTicks, OfPageFaultsAreNamed) {
   ASSERT_NO_FATAL_FAILURE(start(kFault));
   expectNamed(&dds::LateTicks::page_fault, "page fault", [this] { return injectInside(); });
+}
+
+TEST_F(LateTicks, OfPagesThatHaveToBeReadAreNamed) {
+  const FileOnDisk file(PALPATE_PROOF_DIR "/late_pages", std::size_t{16} << 20);
+  setenv(kLateFileVariable, file.path().c_str(), 1);
+  ASSERT_NO_FATAL_FAILURE(start(kRead));
+  unsetenv(kLateFileVariable);
+  expectNamed(&dds::LateTicks::page_fault, "page fault", [this] { return injectInside(); });
+}
+
+// The ticks' fresh pages, in a group whose memory another process keeps full: who faults has to free pages first.
+TEST_F(LateTicks, OfPageFaultsWhereMemoryIsShortAreNamed) {
+  constexpr std::size_t kBytes = std::size_t{40} << 20;
+  const MemoryGroup group(kBytes);
+  if (!group.granted()) GTEST_SKIP() << "no control group that bounds memory may be made here";
+  ASSERT_NO_FATAL_FAILURE(start(kFault));
+  ASSERT_TRUE(group.take(server_->pid()));
+  const FileOnDisk file(PALPATE_PROOF_DIR "/late_hog", 4 * kBytes);
+  const MemoryHog hog(group, file.path());
+  for (int i = 0; i < 500 && group.timesFull() == 0; ++i) wait(milliseconds(20));
+  const long long before = group.timesFull();
+  ASSERT_GT(before, 0);
+  expectNamed(&dds::LateTicks::page_fault, "page fault", [this] { return injectInside(); });
+  RecordProperty("times_full", std::to_string(group.timesFull() - before));
+  EXPECT_GT(group.timesFull(), before) << "memory was short all the time";
+  server_.reset();  // the group is removed after its processes
 }
 
 TEST_F(LateTicks, OfAClockThatLeapsAreNamed) {

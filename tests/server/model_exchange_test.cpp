@@ -103,8 +103,23 @@ TEST_F(ModelExchangeTest, GoesThroughItsStepsAndFreesTheModelBeforeOnceNobodyLoo
   EXPECT_FALSE(exchange_->poll(now_ns_));
   EXPECT_TRUE(freed());
   EXPECT_EQ(exchange_->ask("same.h5", 44, now_ns_ + kSecond / 2),
-            "the model was changed less than a second ago");
+            "a model was looked at a moment ago, the next one may be asked for in 0.5 s");
   EXPECT_EQ(exchange_->ask("same.h5", 45, now_ns_ + 2 * kSecond), "");
+}
+
+TEST_F(ModelExchangeTest, RestsAsLongAsALookTookAlsoWhereItWasRefused) {
+  for (const char* name : {"broken.h5", "same.h5"}) {
+    ASSERT_EQ(exchange_->ask(name, 7, now_ns_), "");
+    now_ns_ += 3 * kSecond;  // by the clock that the exchange is told
+    ASSERT_TRUE(settle().has_value());
+    EXPECT_EQ(exchange_->ask("next.h5", 8, now_ns_ + 1),
+              "a model was looked at a moment ago, the next one may be asked for in 3.0 s");
+    now_ns_ += 3 * kSecond;
+  }
+  ASSERT_EQ(exchange_->ask("broken.h5", 9, now_ns_), "");
+  ASSERT_TRUE(settle().has_value()) << "at once, by that clock";
+  EXPECT_NE(exchange_->ask("next.h5", 10, now_ns_ + kSecond - 1), "");
+  EXPECT_EQ(exchange_->ask("next.h5", 11, now_ns_ + kSecond), "");
 }
 
 TEST_F(ModelExchangeTest, SaysWhetherTheModelInUseIsLockedWhateverTheOneBeforeWas) {
@@ -136,6 +151,7 @@ TEST_F(ModelExchangeTest, ARefusedModelChangesNothing) {
     ASSERT_TRUE(outcome.has_value());
     EXPECT_NE(outcome->refusal.find(name), std::string::npos) << outcome->refusal;
     EXPECT_FALSE(exchange_->pending(7));
+    now_ns_ += 10 * kSecond;
   }
   EXPECT_EQ(channels_->next_engine.load(), nullptr);
   EXPECT_EQ(facts_.model_id, before);

@@ -83,6 +83,15 @@ TEST_F(RecorderTest, AnotherModelGoesIntoAnotherFileAndOverwritesNone) {
   }
 }
 
+TEST_F(RecorderTest, ModelsBeyondAThousandAreRefused) {
+  const palpate::testing::TemporaryFolder folder;
+  Recorder recorder(*channels_, folder / "session.rec", facts());
+  for (int i = 2; i <= Recorder::kMostFiles; ++i)
+    EXPECT_EQ(recorder.expect(static_cast<std::uint64_t>(i), facts()),
+              folder / ("session-" + std::to_string(i) + ".rec"));
+  EXPECT_THROW(recorder.expect(1001, facts()), record::RecordError);
+}
+
 TEST_F(RecorderTest, TicksLostToAFullRingAreToldInTheFileOfTheirModel) {
   const palpate::testing::TemporaryFolder folder;
   Recorder recorder(*channels_, folder / "session.rec", facts());

@@ -33,15 +33,24 @@ class Swap : public ServerEndToEnd {
   }
 
   // What palpate-parameters --json prints.
-  json parameters(std::vector<std::string> arguments, int exit_code = 0) {
+  palpate::testing::ProgramResult ask(std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--json", "--domain", std::to_string(domain_), "--wait", "20"});
-    const auto result = runProgram("palpate-parameters", arguments);
-    EXPECT_EQ(result.exit_code, exit_code) << result.err << server_->log();
-    return json::parse(result.out, nullptr, false);
+    return runProgram("palpate-parameters", arguments);
+  }
+  json parameters(const std::vector<std::string>& arguments, int exit_code = 0) {
+    return checked(ask(arguments), exit_code);
   }
   json swapTo(const std::string& name, int exit_code = 0) {
-    pause(1100);  // the rest after the one before
-    return parameters({"--model", name}, exit_code);
+    auto result = ask({"--model", name});
+    for (int i = 0; i < 40 && result.out.find("looked at a moment ago") != std::string::npos; ++i) {
+      pause(500);  // the rest after the one before
+      result = ask({"--model", name});
+    }
+    return checked(result, exit_code);
+  }
+  json checked(const palpate::testing::ProgramResult& result, int exit_code) const {
+    EXPECT_EQ(result.exit_code, exit_code) << result.err << server_->log();
+    return json::parse(result.out, nullptr, false);
   }
   static std::string idOf(const std::filesystem::path& model) {
     return json::parse(runProgram("palpate-inspect", {model.string(), "--json"}).out)["model_id"];
@@ -179,7 +188,7 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
       {".", "is no regular file"},
       {"very_soft.h5", "limits: with this model youngs_modulus is 20000"}};
   for (const auto& [name, why] : refused) {
-    const json answer = parameters({"--model", name}, 1);
+    const json answer = swapTo(name, 1);
     EXPECT_FALSE(answer["accepted"]) << name;
     EXPECT_NE(answer["message"].get<std::string>().find(why), std::string::npos) << answer["message"];
     EXPECT_EQ(answer["revision"], 0) << name;

@@ -32,6 +32,20 @@ test('the panel prints pictures a second, bytes a frame and the way from DDS to 
   assert.match(last['Tick'], /^\d+(\.\d)? \/ \d+(\.\d)? µs$/);
 });
 
+test('times of the last minute and second stand below those of the run, and no value is cut', async () => {
+  const names = Object.keys(await seen.panel());
+  for (const name of ['Tick', 'Woke late'])
+    assert.deepEqual(names.slice(names.indexOf(name), names.indexOf(name) + 3), [name, `${name}, last minute`, `${name}, last second`]);
+  await seen.page.setViewportSize({ width: 320, height: 700 });
+  const cut = await seen.page.evaluate(() => {
+    const value = [...document.querySelectorAll('#health-list dd')];
+    value.at(-1).textContent = '1234: another thread 1000, page faults 234'; // the longest, until it is written again
+    return value.filter((dd) => dd.scrollWidth > dd.clientWidth).map((dd) => dd.textContent);
+  });
+  await seen.page.setViewportSize({ width: 1000, height: 700 });
+  assert.deepEqual(cut, []);
+});
+
 test('at rest it draws nothing', async () => {
   await seen.page.mouse.move(5, 5);
   await seen.page.waitForTimeout(3000);

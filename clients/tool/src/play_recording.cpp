@@ -114,15 +114,20 @@ ReplayedTool joined(const Sender& sender) {
 
 bool StallMemory::add(bool letting_go, std::uint64_t skipped, const RecordedPose& recorded,
                       const dds::ToolForce& now) noexcept {
-  constexpr int kForgets = 100;               // answers, 0.1 s
-  constexpr double kNoForce = 1e-3;           // N
+  constexpr int kForgets = 100;        // answers, 0.1 s
+  constexpr int kSettles = 10;         // answers with one anchor: the ramps' and the damper's rest is over
+  constexpr double kOneAnchor = 2e-6;  // m: by the stiffest device, 1000 N/m, 2 mN
+  constexpr double kNoForce = 1e-3;    // N
   constexpr std::int64_t kJolt = 10'000'000;  // ns, five times the damper's smoothing
   constexpr std::int64_t kLate = 500'000;     // ns
   const double size = std::max(length(recorded.force), std::hypot(now.force[0], now.force[1], now.force[2]));
   const bool one_ramps = ((recorded.flags ^ now.flags) & dds::flag::kRamping) != 0;
   const bool slides = recorded.state == dds::tool_state::kSlide && now.state == dds::tool_state::kSlide;
+  const bool quiet = !letting_go && ((recorded.flags | now.flags) & dds::flag::kRamping) == 0;
+  const Point apart = Point{now.anchor[0], now.anchor[1], now.anchor[2]} - recorded.anchor;
   slid_ = slides && !letting_go && !one_ramps ? slid_ + 1 : 0;
-  on_ = letting_go || one_ramps || (on_ && !(size < kNoForce) && slid_ < kForgets);
+  same_ = quiet && recorded.state == now.state && length(apart) < kOneAnchor ? same_ + 1 : 0;
+  on_ = letting_go || one_ramps || (on_ && !(size < kNoForce) && slid_ < kForgets && same_ < kSettles);
   if (skipped > 1 || recorded.late || now.wakeup_ns > kLate) jolt_until_ns_ = recorded.t_ns + kJolt;
   return on_ || recorded.t_ns < jolt_until_ns_;
 }

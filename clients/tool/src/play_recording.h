@@ -48,7 +48,8 @@ struct ReplayedTool {
 };
 
 /// Whether a stall decides about the force. A server fades it where poses stopped, and blends it after it stood still itself for
-/// long. Until nothing presses on the tool, or it slid for some time, the contact may be another one after that. A short stall is
+/// long. After that the contact may be another one, until nothing presses on the tool, or it slid for some time, or both contacts
+/// hold the same point of the organ again. A short stall is
 /// felt by the coupling's damper only.
 class StallMemory {
  public:
@@ -60,7 +61,7 @@ class StallMemory {
 
  private:
   bool on_{false};
-  int slid_{0};                    // answers in a row
+  int slid_{0}, same_{0};          // answers in a row
   std::int64_t jolt_until_ns_{0};  // of a short stall, on the session's clock
 };
 

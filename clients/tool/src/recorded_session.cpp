@@ -43,6 +43,7 @@ class ToolReader {
     timed.pose.orientation = tick.input.tools[tool].orientation;
     timed.pose.buttons = facts.buttons;
     std::copy_n(result.force.begin(), 3, timed.pose.force.begin());
+    std::copy_n(result.anchor.begin(), 3, timed.pose.anchor.begin());
     timed.pose.flags = result.flags;
     timed.pose.state = result.state;
     timed.pose.letting_go = letting_go;

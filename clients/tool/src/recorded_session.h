@@ -22,6 +22,7 @@ struct RecordedPose {
   std::array<double, 4> orientation{0, 0, 0, 1};  ///< q_WT, x y z w
   std::uint32_t buttons{0};
   device::Point force;     ///< on the tool, N
+  device::Point anchor;    ///< of the contact, m
   std::uint32_t flags{0};  ///< FLAG_*
   std::uint32_t state{0};  ///< STATE_*
   bool letting_go{false};  ///< the server faded the force, because poses had stopped

@@ -42,10 +42,12 @@ std::string summaryOf(const ReplayedTool& tool) {
   text += printed("largest difference %.5f N, at %.3f s", worst->difference(), secondsOf(*worst));
   if (tool.largestRecorded() > 0.0)
     text += printed(": %.2f %% of the largest force", 100.0 * worst->difference() / tool.largestRecorded());
-  const auto left = static_cast<unsigned long long>(tool.sent - tool.compared());
-  if (left > 0)
-    text += printed("; %llu poses (%.1f %%) not compared: without an answer, or after a stall", left,
-                    100.0 * static_cast<double>(left) / static_cast<double>(tool.sent));
+  const std::uint64_t unanswered = tool.sent - tool.poses.size(),
+                      stalled = tool.poses.size() - tool.compared();
+  if (unanswered + stalled > 0)
+    text += printed("; not compared: %llu poses without an answer of their own, %llu after a stall (%.1f %%)",
+                    static_cast<unsigned long long>(unanswered), static_cast<unsigned long long>(stalled),
+                    100.0 * static_cast<double>(unanswered + stalled) / static_cast<double>(tool.sent));
   return text + '\n';
 }
 

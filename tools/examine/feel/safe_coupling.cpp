@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "tools/program/printed.h"
 
@@ -12,8 +13,50 @@ namespace {
 
 constexpr std::size_t kPress = 4000;  // periods of a press
 constexpr double kStep = 1.25;
-constexpr double kLeast = 0.02;  // of the preset's; softer than that is no organ
+constexpr double kLeast = 8.0;  // N/m; softer than that is no organ
 constexpr double kTolerance = 1.03;
+
+// At one place; of K_r, N/m, and E, Pa.
+using StableThere = std::function<bool(double, double)>;
+
+struct Bracket {
+  double stable;         // the largest, N/m
+  double unstable{0.0};  // the least; 0: none up to the end of the search
+};
+
+bool holdsOnSofter(double stiffness, const StableThere& stable) {
+  return std::all_of(kModuli.begin(), kModuli.end() - 1, [&](double E) { return stable(stiffness, E); });
+}
+
+bool holdsAt(double stiffness, const StableThere& stable) {
+  return stable(stiffness, kModuli.back()) && holdsOnSofter(stiffness, stable);
+}
+
+Bracket searchBelow(double most, const StableThere& stable) {
+  const double stiffest = kModuli.back(), least = std::min(kLeast, most);
+  Bracket found{0.0};
+  // 1. Upward on the stiffest organ, where the coupling is all that gives way.
+  double high = least;
+  bool holds = stable(high, stiffest);
+  for (; holds && high < most; holds = stable(high, stiffest)) {
+    found.stable = high;
+    high = std::min(kStep * high, most);
+  }
+  if (holds) found.stable = most;
+  // 2. Between the last stable one and the first unstable one.
+  while (!holds && found.stable > 0.0 && high > kTolerance * found.stable) {
+    const double middle = std::sqrt(found.stable * high);
+    (stable(middle, stiffest) ? found.stable : high) = middle;
+  }
+  // 3. Softer organs.
+  while (found.stable > least && !holdsOnSofter(found.stable, stable)) {
+    high = found.stable;
+    found.stable /= kTolerance;
+    holds = false;
+  }
+  if (!holds) found.unstable = high;
+  return found;
+}
 
 }  // namespace
 
@@ -40,49 +83,46 @@ std::optional<StabilityCase> firstUnstable(const MetaModel& model, std::span<con
   return found == cases.end() ? std::nullopt : std::optional(*found);
 }
 
-SafeCoupling safeCoupling(const MetaModel& model, const device::Delays& delays, const DevicePreset& preset,
-                          const ContactPoint& s, double organ_stiffness) {
-  const double stiffest = kModuli.back(), most = preset.rendered_stiffness / kSafeShare;
+SafeCoupling stiffestStable(std::span<const PressPlace> places, double most, const Stable& stable) {
   SafeCoupling safe;
-  const auto stable = [&](double stiffness, double E) {
-    const auto rings =
-        firstUnstable(model, casesUnder(delays, withRendered(preset, stiffness), s, organ_stiffness, E));
-    if (rings) safe.rings = rings;
-    return !rings;
-  };
-  // 1. Upward on the stiffest organ, where the coupling is all that gives way.
-  double low = 0.0, high = kLeast * most;
-  bool holds = stable(high, stiffest);
-  for (; holds && high < most; holds = stable(high, stiffest)) {
-    low = high;
-    high = std::min(kStep * high, most);
+  safe.largest_stable = most;
+  for (const PressPlace& place : places) {
+    if (!(safe.largest_stable > 0.0)) break;
+    const auto there = [&](double stiffness, double E) { return stable(place, stiffness, E); };
+    if (&place != &places.front() && holdsAt(safe.largest_stable, there)) continue;
+    const Bracket found = searchBelow(safe.largest_stable, there);
+    safe.largest_stable = found.stable;
+    if (!(found.unstable > 0.0)) continue;
+    safe.unstable_at = found.unstable;
+    safe.place = place;
   }
-  // 2. Between the last stable one and the first unstable one.
-  if (holds) low = most;
-  while (!holds && low > 0.0 && high > kTolerance * low) {
-    const double middle = std::sqrt(low * high);
-    (stable(middle, stiffest) ? low : high) = middle;
-  }
-  // 3. Softer organs.
-  const auto on_softer = [&](double E) { return stable(low, E); };
-  while (low > kLeast * most && !std::all_of(kModuli.begin(), kModuli.end() - 1, on_softer)) {
-    high = low;
-    low /= kTolerance;
-    holds = false;
-  }
-  safe.by_device = holds;
-  safe.largest_stable = low;
-  safe.rendered_stiffness = std::min(kSafeShare * low, preset.rendered_stiffness);
-  safe.damping = withRendered(preset, safe.rendered_stiffness).coupling_damping;
-  safe.unstable_at = safe.by_device ? 0.0 : high;
+  safe.by_device = !safe.place;
   return safe;
 }
 
-std::string settingOf(const DevicePreset& preset, const SafeCoupling& coupling, const std::string& origin) {
+SafeCoupling safeCoupling(const MetaModel& model, const device::Delays& delays, const DevicePreset& preset,
+                          std::span<const PressPlace> places, double organ_stiffness) {
+  std::optional<StabilityCase> rings;
+  const auto stable = [&](const PressPlace& place, double stiffness, double E) {
+    const auto unstable = firstUnstable(
+        model, casesUnder(delays, withRendered(preset, stiffness), place.s, organ_stiffness, E));
+    if (unstable) rings = unstable;
+    return !unstable;
+  };
+  SafeCoupling safe = stiffestStable(places, preset.rendered_stiffness / kSafeShare, stable);
+  safe.rings = rings;
+  safe.rendered_stiffness = std::min(kSafeShare * safe.largest_stable, preset.rendered_stiffness);
+  safe.damping = withRendered(preset, safe.rendered_stiffness).coupling_damping;
+  return safe;
+}
+
+std::string settingOf(const DevicePreset& preset, const SafeCoupling& coupling,
+                      std::span<const std::string> origin) {
   const std::string name(preset.name);
-  return "# The stiffest that device " + name +
-         " may be given under measured delays: palpate-server --config FILE\n# " + origin + "\ndevice = \"" +
-         name + "\"\n\n[tool]\n" +
+  std::string text = "# The stiffest that device " + name +
+                     " may be given under measured delays: palpate-server --config FILE\n";
+  for (const std::string& line : origin) text += "# " + line + '\n';
+  return text + "device = \"" + name + "\"\n\n[tool]\n" +
          program::printed("rendered_stiffness = %.6g  # N/m, of organ and coupling in series\n",
                           coupling.rendered_stiffness) +
          program::printed("coupling_damping = %.6g  # N s/m\n", coupling.damping);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "core/devices/sim/delays.h"
 #include "core/devices/sim/mechanics.h"
 #include "core/model/meta_model.h"
+#include "tools/examine/feel/press_places.h"
 #include "tools/examine/feel/stability.h"
 
 namespace palpate::feel {
@@ -36,6 +38,7 @@ struct SafeCoupling {
   /// The least that was tried and is not stable, N/m; 0 where the device is the bound.
   double unstable_at{0.0};
   std::optional<StabilityCase> rings;  ///< a case that is not stable there
+  std::optional<PressPlace> place;     ///< where that is: no other place rings from less on
 };
 
 /// The preset with another rendered stiffness, its damping in proportion.
@@ -51,14 +54,24 @@ struct SafeCoupling {
 [[nodiscard]] std::optional<StabilityCase> firstUnstable(const MetaModel& model,
                                                          std::span<const StabilityCase> cases);
 
-/// From a fiftieth of the preset's stiffness upward in steps of 1.25 to the first that is unstable on the stiffest organ, then by
-/// bisection to 3 %; lowered further where a softer organ is unstable with it. It ends where the preset is the bound.
+/// Whether a device is stable at a place; of K_r, N/m, and E, Pa.
+using Stable = std::function<bool(const PressPlace&, double, double)>;
+
+/// At the first place upward from 8 N/m in steps of 1.25 to the first K_r that is unstable on the stiffest organ, then by bisection to
+/// 3 %; lowered further where a softer organ is unstable with it. It ends at `most`, N/m. At each other place what was found is tried;
+/// where it rings, the search is made there too, up to it.
+/// @param[in] places  at least one  @return largest_stable, unstable_at, place and by_device
+[[nodiscard]] SafeCoupling stiffestStable(std::span<const PressPlace> places, double most,
+                                          const Stable& stable);
+
+/// That of a device under delays, which is stable where all of casesUnder() are.
+/// @param[in] places  e.g. pressPlaces()
 [[nodiscard]] SafeCoupling safeCoupling(const MetaModel& model, const device::Delays& delays,
-                                        const DevicePreset& preset, const ContactPoint& s,
+                                        const DevicePreset& preset, std::span<const PressPlace> places,
                                         double organ_stiffness);
 
-/// The server's configuration with it, as TOML. @param[in] origin  what was computed from which file, one line
+/// The server's configuration with it, as TOML. @param[in] origin  lines: what was computed from which file
 [[nodiscard]] std::string settingOf(const DevicePreset& preset, const SafeCoupling& coupling,
-                                    const std::string& origin);
+                                    std::span<const std::string> origin);
 
 }  // namespace palpate::feel

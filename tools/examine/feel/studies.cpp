@@ -16,6 +16,7 @@
 #include "core/devices/sim/delays.h"
 #include "core/response/largest_stiffness.h"
 #include "tools/examine/feel/loops.h"
+#include "tools/examine/feel/press_places.h"
 #include "tools/examine/feel/safe_coupling.h"
 #include "tools/examine/feel/slides.h"
 #include "tools/examine/feel/stability.h"
@@ -108,42 +109,37 @@ ContactPoint ordinaryPlace(const MetaModel& model, unsigned seed) {
   return places[49].second;
 }
 
-// Where palpate-device presses by default: the highest accessible node whose neighbours are accessible too, or the highest one.
-ContactPoint highestPlace(const MetaModel& model) {
-  const SurfaceMesh& surface = model.surface();
-  const std::vector<std::uint8_t> accessible = model.accessibleNodes();
-  std::vector<std::uint8_t> inner = accessible;
-  const std::span<const std::int32_t> corners = model.view().surface_triangles;
-  for (std::size_t t = 0; t < corners.size(); t += 3) {
-    const auto triangle = corners.subspan(t, 3);
-    if (std::any_of(triangle.begin(), triangle.end(),
-                    [&](std::int32_t node) { return accessible[static_cast<std::size_t>(node)] == 0; }))
-      for (const std::int32_t node : triangle) inner[static_cast<std::size_t>(node)] = 0;
-  }
-  if (std::find(inner.begin(), inner.end(), 1) == inner.end()) inner = accessible;
-  ContactPoint highest;
-  double height = -std::numeric_limits<double>::infinity();
-  for (int node = 0; node < surface.nodes(); ++node) {
-    const ContactPoint s = surface.atNode(node);
-    const double z = surface.position(s).z();
-    if (inner[static_cast<std::size_t>(node)] == 0 || z <= height) continue;
-    highest = s;
-    height = z;
-  }
-  return highest;
-}
-
 // All of them, or the one that was asked for.
 std::vector<DevicePreset> presetsOf(const Study& study) {
   if (const auto preset = findDevicePreset(study.preset)) return {*preset};
   return {devicePresets().begin(), devicePresets().end()};
 }
 
+std::array<double, 3> pointOf(const MetaModel& model, const ContactPoint& s) {
+  const Vec3 X = model.surface().position(s);
+  return {X.x(), X.y(), X.z()};
+}
+
+// The command that found a coupling, and the one that tries it where it rings first.
+std::vector<std::string> originOf(const Study& study, const MetaModel& model, const DevicePreset& preset,
+                                  const SafeCoupling& safe) {
+  std::vector<std::string> lines{"palpate-feel coupling " + study.model + " --delay-from " +
+                                 study.delay_from};
+  if (!safe.place) return lines;
+  const std::array<double, 3> at = pointOf(model, safe.place->s);
+  lines.push_back(program::printed(
+      "rings from %.4g N/m, first at the %s place: palpate-device --preset %s --delay-from %s "
+      "--at %.6g,%.6g,%.6g",
+      safe.unstable_at, std::string(safe.place->name).c_str(), std::string(preset.name).c_str(),
+      study.delay_from.c_str(), at[0], at[1], at[2]));
+  return lines;
+}
+
 /// The largest coupling of each device under measured delays, as a table and as files.
 int runSafeCoupling(const Study& study) {
   const device::Delays delays = device::Delays::read(study.delay_from);
   const MetaModel model = MetaModel::load(study.model);
-  const ContactPoint s = highestPlace(model);
+  const std::vector<PressPlace> places = pressPlaces(model);
   const double organ_stiffness = largestStiffness(model);
   std::cerr << program::printed(
       "%s: %zu poses, %zu without an answer, %zu answers out of order; %zu periods of 1 ms, delay %.2f ms in "
@@ -155,7 +151,7 @@ int runSafeCoupling(const Study& study) {
   Json rows = Json::array();
   bool all = true;
   for (const DevicePreset& preset : presetsOf(study)) {
-    const SafeCoupling safe = safeCoupling(model, delays, preset, s, organ_stiffness);
+    const SafeCoupling safe = safeCoupling(model, delays, preset, places, organ_stiffness);
     const bool found = safe.rendered_stiffness > 0.0;
     all = all && found;
     rows.push_back(
@@ -166,6 +162,8 @@ int runSafeCoupling(const Study& study) {
          {"largest_stable_N_per_m", safe.largest_stable},
          {"bound", safe.by_device ? "device" : "delays"},
          {"unstable_at_N_per_m", safe.by_device ? Json(nullptr) : Json(safe.unstable_at)},
+         {"rings_at", safe.place ? Json(safe.place->name) : Json(nullptr)},
+         {"rings_at_m", safe.place ? Json(pointOf(model, safe.place->s)) : Json(nullptr)},
          {"rings_with_hand_N_per_m", safe.rings ? Json(safe.rings->hand.stiffness) : Json(nullptr)},
          {"rings_with_friction", safe.rings ? Json(safe.rings->friction) : Json(nullptr)},
          {"mean_delay_ms", delays.meanLag()},
@@ -173,10 +171,8 @@ int runSafeCoupling(const Study& study) {
     if (!study.json) std::cerr << rows.back() << '\n';
     if (study.settings.empty() || !found) continue;
     std::filesystem::create_directories(study.settings);
-    program::writeFile(
-        std::filesystem::path(study.settings) / (std::string(preset.name) + ".toml"),
-        settingOf(preset, safe,
-                  "palpate-feel coupling " + study.model + " --delay-from " + study.delay_from));
+    program::writeFile(std::filesystem::path(study.settings) / (std::string(preset.name) + ".toml"),
+                       settingOf(preset, safe, originOf(study, model, preset, safe)));
   }
   print(rows, study.json);
   return all ? program::kDone : program::kNotHeld;

@@ -12,12 +12,13 @@ type Level = '' | 'warn' | 'bad';
 const OF_A_VIEWER = new Set(['DDS to decoded', 'Round trip to viewer', 'Woke late', 'Late ticks', 'Real time', 'Pages at the viewer']);
 const asRecord = (value: unknown): Record<string, unknown> => (typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {});
 
-/** Rates, latencies and health, in numbers and words; times as p50 / p99, the server's of the last minute. */
+/** Rates, latencies and health, in numbers and words; times as p50 / p99, the server's of its run, its last minute and its last second. */
 export class Panel {
   private readonly list = element('health-list', HTMLDListElement);
   private readonly flags = element('flags', HTMLUListElement);
   private readonly event = element('event', HTMLParagraphElement);
   private readonly rows = new Map<string, HTMLElement>();
+  private written: HTMLElement | undefined; // the row before, behind which a new one goes
   private shownFlags = '';
   status: Said | undefined; // the newest
   kept: string | undefined; // empty when the page works without a network, or why not; undefined: not known yet
@@ -42,6 +43,7 @@ export class Panel {
 
   /** @param flags  of all tools in the last seconds, or-ed */
   write(nowMs: number, flags: number): void {
+    this.written = undefined;
     this.page(nowMs);
     this.server(this.status ?? { type: 'status' });
     this.words(flags);
@@ -95,9 +97,11 @@ export class Panel {
       const term = document.createElement('dt');
       term.textContent = name;
       cell = document.createElement('dd');
-      this.list.append(term, cell);
+      if (this.written) this.written.after(term, cell);
+      else this.list.prepend(term, cell);
       this.rows.set(name, cell);
     }
+    this.written = cell;
     setText(cell, value);
     if (cell.dataset['level'] !== level) cell.dataset['level'] = level;
   }

@@ -41,7 +41,8 @@ class ModelExchange {
   ModelExchange(Channels& channels, const Served& served, std::unique_ptr<Engine> first,
                 std::unique_ptr<ModelLoader> loader);
 
-  /// A shorter time than this between two models: refused. So nobody keeps the forces at zero.
+  /// After a look at a model, taken or refused, requests are refused for as long as it took, and at least for this: nobody keeps the forces
+  /// at zero by asking, or the loader's thread busy.
   static constexpr std::int64_t kRest = 1'000'000'000;  // ns
 
   /// The session is recorded: each model gets a file of its own. Before the first poll().
@@ -58,6 +59,7 @@ class ModelExchange {
 
  private:
   enum class State { kResting, kLoading, kLeaving, kClearing };
+  void restFrom(std::int64_t now_ns) noexcept;
   [[nodiscard]] ExchangeOutcome end(const std::string& refusal);
   [[nodiscard]] std::optional<ExchangeOutcome> offer(LoadedModel loaded);
   [[nodiscard]] ExchangeOutcome take(std::int64_t now_ns);
@@ -67,7 +69,8 @@ class ModelExchange {
   State state_{State::kResting};
   std::uint64_t asker_{0};  // request_id; 0: nobody waits
   std::string name_;        // of the model that was asked for
-  std::int64_t taken_ns_{0};
+  std::int64_t asked_ns_{0};
+  std::int64_t rests_until_ns_{0};
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<Engine> next_;    // while leaving
   LoadedModel loaded_;              // what goes with it

@@ -20,12 +20,15 @@ namespace palpate::server {
 /// another model goes on in another file, "session-2.rec" after "session.rec": a recording is of one model.
 class Recorder {
  public:
+  static constexpr int kMostFiles = 1000;  ///< of a session, session.rec to session-1000.rec
+
   /// Creates the file and the ring. Before the tick starts. @throw record::RecordError
   Recorder(Channels& channels, const std::filesystem::path& path, const record::SessionFacts& facts);
 
   /// Another engine may follow. Before the tick runs it. Threads: any but the tick; takes a lock. Real-time: no.
   /// @param[in] engine  its number
   /// @return the file that its ticks will go to; none that is there is overwritten, since it is a client that asked for the model
+  /// @throw record::RecordError  kMostFiles are there: clients that ask for models do not fill the folder
   std::filesystem::path expect(std::uint64_t engine, const record::SessionFacts& facts);
 
   /// Body of the recorder thread. Returns once the server stops, the ring is empty and the file has its end.

@@ -42,12 +42,11 @@ class Server {
   /// Sends zero force, then ends all threads. The second call does nothing.
   void stop();
 
-  [[nodiscard]] const Facts& facts() const noexcept { return facts_; }
-
  private:
   void watchEndpoints();
   void startSecurity();
   void settleRealtime(rt::RealtimePolicy policy);
+  void tellOfContact() const;
   void startThreads(const ServerConfig& config);
   void sendZeroForce();
 

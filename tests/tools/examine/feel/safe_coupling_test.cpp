@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/response/largest_stiffness.h"
+#include "tools/examine/feel/press_places.h"
+#include "tools/examine/feel/surface_path.h"
 #include "uneven_organ.h"
 
 namespace palpate::testing {
@@ -37,15 +41,14 @@ device::Delays quiet() {
   return device::Delays(samples);
 }
 
-struct Place {
-  ContactPoint s = unevenOrgan().surface().closestPoint(Vec3(0.0, 0.0, 0.05)).s;
+struct Organ {
+  std::vector<feel::PressPlace> places = feel::pressPlaces(unevenOrgan());
   double stiffness = largestStiffness(unevenOrgan());
 };
 
 std::vector<feel::StabilityCase> casesAt(const device::Delays& delays, const DevicePreset& preset,
-                                         double stiffness) {
-  const Place place;
-  return feel::casesUnder(delays, feel::withRendered(preset, stiffness), place.s, place.stiffness,
+                                         const ContactPoint& s, double stiffness) {
+  return feel::casesUnder(delays, feel::withRendered(preset, stiffness), s, Organ{}.stiffness,
                           feel::kModuli.back());
 }
 
@@ -57,9 +60,9 @@ TEST_P(SafeCoupling, IsStableAFifthBelowAndRingsTwoFifthsAbove) {
   const device::Delays delays = busy();
   EXPECT_GT(delays.reordered(), 100U);
   EXPECT_GT(delays.lost(), 100U);
-  const Place place;
+  const Organ organ;
   const feel::SafeCoupling safe =
-      feel::safeCoupling(unevenOrgan(), delays, GetParam(), place.s, place.stiffness);
+      feel::safeCoupling(unevenOrgan(), delays, GetParam(), organ.places, organ.stiffness);
   ASSERT_GT(safe.rendered_stiffness, 1.0);
   EXPECT_FALSE(safe.by_device) << "these delays are the bound";
   EXPECT_LE(safe.rendered_stiffness, GetParam().rendered_stiffness);
@@ -68,39 +71,96 @@ TEST_P(SafeCoupling, IsStableAFifthBelowAndRingsTwoFifthsAbove) {
   EXPECT_NEAR(safe.damping / safe.rendered_stiffness,
               GetParam().coupling_damping / GetParam().rendered_stiffness, 1e-12);
   RecordProperty("rendered_N_per_m", std::to_string(safe.rendered_stiffness));
-  EXPECT_FALSE(feel::firstUnstable(unevenOrgan(), casesAt(delays, GetParam(), safe.rendered_stiffness)));
-  for (const feel::StabilityCase& which : casesAt(delays, GetParam(), 0.8 * safe.rendered_stiffness)) {
-    const device::Verdict verdict = feel::press(unevenOrgan(), which, std::nullopt);
-    EXPECT_TRUE(verdict.stable) << which.hand.stiffness << " N/m, friction " << which.friction << ", "
-                                << verdict.oscillation_pp << " m";
-    EXPECT_GT(verdict.max_force, 0.005) << "N: the organ was reached";
+  for (const feel::PressPlace& place : organ.places) {
+    EXPECT_FALSE(
+        feel::firstUnstable(unevenOrgan(), casesAt(delays, GetParam(), place.s, safe.rendered_stiffness)))
+        << place.name;
+    for (const feel::StabilityCase& which :
+         casesAt(delays, GetParam(), place.s, 0.8 * safe.rendered_stiffness)) {
+      const device::Verdict verdict = feel::press(unevenOrgan(), which, std::nullopt);
+      EXPECT_TRUE(verdict.stable) << place.name << ", " << which.hand.stiffness << " N/m, friction "
+                                  << which.friction << ", " << verdict.oscillation_pp << " m";
+      EXPECT_GT(verdict.max_force, 0.005) << "N: the organ was reached";
+    }
   }
-  EXPECT_TRUE(feel::firstUnstable(unevenOrgan(), casesAt(delays, GetParam(), 1.4 * safe.rendered_stiffness)));
+  ASSERT_TRUE(safe.place);
+  RecordProperty("place", std::string(safe.place->name));
+  EXPECT_TRUE(feel::firstUnstable(unevenOrgan(),
+                                  casesAt(delays, GetParam(), safe.place->s, 1.4 * safe.rendered_stiffness)));
   ASSERT_TRUE(safe.rings);
   EXPECT_FALSE(feel::press(unevenOrgan(), *safe.rings, std::nullopt).stable);
 }
 
 TEST_P(SafeCoupling, OnAQuietMachineTheDeviceIsTheBound) {
-  const Place place;
+  const Organ organ;
   const feel::SafeCoupling safe =
-      feel::safeCoupling(unevenOrgan(), quiet(), GetParam(), place.s, place.stiffness);
+      feel::safeCoupling(unevenOrgan(), quiet(), GetParam(), organ.places, organ.stiffness);
   EXPECT_TRUE(safe.by_device);
+  EXPECT_FALSE(safe.place);
   EXPECT_EQ(safe.rendered_stiffness, GetParam().rendered_stiffness);
   EXPECT_EQ(safe.damping, GetParam().coupling_damping);
-  EXPECT_FALSE(
-      feel::firstUnstable(unevenOrgan(), casesAt(quiet(), GetParam(), 0.8 * safe.rendered_stiffness)));
+}
+
+// Places that ring from a stiffness that is known.
+TEST(StiffestStable, IsWhatHoldsAtEachPlace) {
+  const std::vector<feel::PressPlace> places{
+      {"highest", {}}, {"median", {}}, {"softest", {}}, {"stiffest", {}}};
+  const auto search = [&](const std::map<std::string_view, double>& rings_from, double softer = 1e9) {
+    return feel::stiffestStable(
+        places, 300.0, [&](const feel::PressPlace& place, double stiffness, double E) {
+          return stiffness <
+                 (E < 1e4 ? std::min(softer, rings_from.at(place.name)) : rings_from.at(place.name));
+        });
+  };
+  const feel::SafeCoupling second =
+      search({{"highest", 100.0}, {"median", 60.0}, {"softest", 80.0}, {"stiffest", 90.0}});
+  EXPECT_NEAR(second.largest_stable, 60.0, 0.03 * 60.0);
+  EXPECT_LT(second.largest_stable, 60.0);
+  EXPECT_GE(second.unstable_at, 60.0);
+  EXPECT_EQ(second.place.value().name, "median");
+  const feel::SafeCoupling last =
+      search({{"highest", 900.0}, {"median", 900.0}, {"softest", 900.0}, {"stiffest", 200.0}});
+  EXPECT_NEAR(last.largest_stable, 200.0, 0.03 * 200.0);
+  EXPECT_EQ(last.place.value().name, "stiffest");
+  EXPECT_FALSE(last.by_device);
+  const feel::SafeCoupling soft =
+      search({{"highest", 900.0}, {"median", 60.0}, {"softest", 900.0}, {"stiffest", 900.0}}, 40.0);
+  EXPECT_NEAR(soft.largest_stable, 40.0, 0.05 * 40.0) << "a softer organ rings from less";
+  const feel::SafeCoupling none =
+      search({{"highest", 900.0}, {"median", 900.0}, {"softest", 900.0}, {"stiffest", 900.0}});
+  EXPECT_EQ(none.largest_stable, 300.0);
+  EXPECT_FALSE(none.place);
+  EXPECT_TRUE(none.by_device);
+  EXPECT_EQ(
+      search({{"highest", 1.0}, {"median", 60.0}, {"softest", 80.0}, {"stiffest", 90.0}}).largest_stable,
+      0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, SafeCoupling,
                          ::testing::ValuesIn(devicePresets().begin(), devicePresets().end()),
                          [](const auto& row) { return std::string(row.param.name); });
 
+TEST(PressPlaces, AreTheHighestNodeAndThoseOfTheLeastMedianAndLargestStiffness) {
+  const std::vector<feel::PressPlace> places = feel::pressPlaces(unevenOrgan());
+  const SurfaceMesh& surface = unevenOrgan().surface();
+  ASSERT_EQ(places.size(), 4U);
+  std::map<std::string_view, double> stiffness;
+  for (const feel::PressPlace& place : places)
+    stiffness[place.name] = feel::normalStiffness(unevenOrgan(), place.s);
+  EXPECT_LT(1.2 * stiffness.at("softest"), stiffness.at("median"));
+  EXPECT_LT(1.2 * stiffness.at("median"), stiffness.at("stiffest"));
+  EXPECT_EQ(places.front().name, "highest");
+  for (const feel::PressPlace& place : places)
+    EXPECT_LE(surface.position(place.s).z(), surface.position(places.front().s).z());
+}
+
 TEST(SafeCouplingSetting, IsAConfigurationOfTheServer) {
+  const std::vector<std::string> origin{"made of delays.csv", "rings at the top"};
   EXPECT_EQ(
-      feel::settingOf(*findDevicePreset("omni"), {123.456789, 0.25, false, 150.0, 155.0, {}},
-                      "made of delays.csv"),
+      feel::settingOf(*findDevicePreset("omni"), {123.456789, 0.25, false, 150.0, 155.0, {}, {}}, origin),
       "# The stiffest that device omni may be given under measured delays: palpate-server --config FILE\n"
       "# made of delays.csv\n"
+      "# rings at the top\n"
       "device = \"omni\"\n\n[tool]\n"
       "rendered_stiffness = 123.457  # N/m, of organ and coupling in series\n"
       "coupling_damping = 0.25  # N s/m\n");
