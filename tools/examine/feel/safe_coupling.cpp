@@ -28,8 +28,15 @@ bool holdsOnSofter(double stiffness, const StableThere& stable) {
   return std::all_of(kModuli.begin(), kModuli.end() - 1, [&](double E) { return stable(stiffness, E); });
 }
 
+// What is safe of it, and a fifth less: a loop may ring there and be stable above.
+bool holdsBelow(double stiffness, const StableThere& stable) {
+  return stable(kSafeShare * stiffness, kModuli.back()) &&
+         stable(kSafeShare * kSafeShare * stiffness, kModuli.back());
+}
+
 bool holdsAt(double stiffness, const StableThere& stable) {
-  return stable(stiffness, kModuli.back()) && holdsOnSofter(stiffness, stable);
+  return stable(stiffness, kModuli.back()) && holdsBelow(stiffness, stable) &&
+         holdsOnSofter(stiffness, stable);
 }
 
 Bracket searchBelow(double most, const StableThere& stable) {
@@ -55,6 +62,12 @@ Bracket searchBelow(double most, const StableThere& stable) {
     holds = false;
   }
   if (!holds) found.unstable = high;
+  // 4. Where it rings below that, below that.
+  if (found.stable > least && !holdsBelow(found.stable, stable)) {
+    Bracket below = searchBelow(kSafeShare * found.stable, stable);
+    if (!(below.unstable > 0.0)) below.unstable = found.stable;
+    return below;
+  }
   return found;
 }
 
