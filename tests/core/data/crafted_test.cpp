@@ -90,6 +90,11 @@ TEST_P(CraftedBytes, AreRefusedInOneLine) {
   const std::string text = complaintOfBytes(bytes);
   EXPECT_NE(text, "");
   expectParsed(text);
+  // HDF5 1.10.8 writes over its heap, and reads where nothing is.
+  static const std::set<std::string> kEndTheProcess{"HeapOfAllBytes", "TextLongerThanItsCollection"};
+  EXPECT_EQ(text.find("the process that parses it ended ") != std::string::npos,
+            kEndTheProcess.count(GetParam().name) > 0)
+      << text;
   RecordProperty("refusal", text);
 }
 
