@@ -12,6 +12,8 @@
 #include <fstream>
 #include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "../load_case.h"
 #include "core/data/ask_reader.h"
@@ -42,6 +44,15 @@ std::vector<std::string> wordsBehind(const std::string& content, const std::stri
   return found;
 }
 
+/// Its two ends; a program waits that writes into it.
+std::pair<Descriptor, Descriptor> fullPipe() {
+  std::array<int, 2> ends{};
+  EXPECT_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
+  while (::write(ends[1], "x", 1) == 1) continue;
+  ::fcntl(ends[1], F_SETFL, 0);
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
 /// A program that parses a good model, and cannot say what it found, since its output is full.
 class HeldReader {
  public:
@@ -50,27 +61,21 @@ class HeldReader {
     modelfile::writeModel(file.path(), goodData());
     const SealedImage image(file.path());
     const std::string program = readerOf(std::filesystem::read_symlink("/proc/self/exe")).value().string();
-    std::array<int, 2> ends{};
-    EXPECT_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
-    const Descriptor from(ends[0]), to(ends[1]);
-    while (::write(to.get(), "x", 1) == 1) continue;
-    ::fcntl(to.get(), F_SETFL, 0);
-    from_ = ::fcntl(from.get(), F_DUPFD_CLOEXEC, 0);
     id_ = ::fork();
     if (id_ != 0) return;
-    const rlimit seconds{kSoftSeconds, RLIM_INFINITY};
+    const rlimit seconds{7, RLIM_INFINITY};
     ::setrlimit(RLIMIT_CPU, &seconds);
     ::dup2(image.descriptor(), STDIN_FILENO);
-    ::dup2(to.get(), STDOUT_FILENO);
+    ::dup2(output_.second.get(), STDOUT_FILENO);
     ::execl(program.c_str(), program.c_str(), nullptr);
     ::_exit(1);
   }
   HeldReader(const HeldReader&) = delete;
   HeldReader& operator=(const HeldReader&) = delete;
   ~HeldReader() {
+    if (id_ < 0) return;
     ::kill(id_, SIGKILL);
     ::waitpid(id_, nullptr, 0);
-    ::close(from_);
   }
 
   /// Waits until it is locked down, or holds without that.
@@ -85,10 +90,8 @@ class HeldReader {
   }
   [[nodiscard]] std::string limits() const { return contentOfProcess(id_, "limits"); }
 
-  static constexpr rlim_t kSoftSeconds = 7;
-
  private:
-  int from_{-1};
+  std::pair<Descriptor, Descriptor> output_{fullPipe()};
   pid_t id_{-1};
 };
 
