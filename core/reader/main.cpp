@@ -68,7 +68,7 @@ int run() {
     return say(answerTo(file)) ? 0 : 1;
   } catch (const std::bad_alloc&) {
     return say(ModelAnswer::refusal("takes more to parse than " + std::to_string(kRoom >> 20U) +
-                                    " MiB of memory, the file is damaged or made to harm"))
+                                    " MiB of memory, or than ulimit -v leaves"))
                ? 0
                : 1;
   } catch (const std::exception& error) {

@@ -140,7 +140,7 @@ TEST(ReaderProgram, ATextOfMoreThan7MiBIsRefusedForWhatItTakes) {
   EXPECT_EQ(complaintOfText(8 * kMiB),
             "long.h5: the process that parses it says more than 8 MiB, the file is made to harm");
   EXPECT_EQ(complaintOfText(10 * kMiB),
-            "long.h5: takes more to parse than 64 MiB of memory, the file is damaged or made to harm");
+            "long.h5: takes more to parse than 64 MiB of memory, or than ulimit -v leaves");
 }
 #endif
 
