@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace palpate {
@@ -16,6 +17,10 @@ struct ReaderProcess {
   std::chrono::milliseconds most{30'000};  ///< it is waited for, three times its processor time, then killed
   const std::atomic<bool>* given_up{nullptr};  ///< set: nobody wants to know it; looked at ten times a second
 };
+
+/// The process's program as a program finds it: by its place in the installation, or in the folder of a build.
+/// @param[in] self  where the program is  @return none: self is not absolute
+[[nodiscard]] std::optional<std::filesystem::path> readerOf(const std::filesystem::path& self);
 
 /// Starts the process on a copy and hears what it says, without a fork(): nothing of this process is copied, and no thread of
 /// it waits but the one that asks. It inherits no descriptor, variable or blocked signal.

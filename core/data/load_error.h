@@ -8,6 +8,13 @@
 
 namespace palpate {
 
+/// What a file or its parser says, for a terminal: each byte but printable ASCII becomes a question mark.
+[[nodiscard]] inline std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  return text;
+}
+
 /// A model file that cannot be used. what() is one sentence: file, dataset, what was found, what was
 /// expected. It is one line whatever the file holds: control characters in it become question marks.
 class LoadError : public std::runtime_error {

@@ -17,6 +17,7 @@ constexpr std::string_view kBegin = "palpate-read-model 1\n";
 constexpr char kNumbers = 'N', kText = 'T', kArray = 'A', kRefusal = 'R', kEnd = 'E';
 constexpr std::size_t kMostRank = std::tuple_size_v<decltype(Dataset<double>::shape)>;
 constexpr std::size_t kMostOfARefusal = 1000;  // bytes
+constexpr int kMostParts = 256;                // a model has fewer names
 
 template <class T>
 void put(std::string& to, T value) {
@@ -111,7 +112,9 @@ AnsweredModel::AnsweredModel(const SealedImage& image, const std::string& name, 
     : ArrayReader(name), image_(image) {
   if (!answer.starts_with(kBegin)) disbelieve("it is not that of this version of palpate-read-model");
   Records records(answer.substr(kBegin.size()), *this);
+  int parts = 0;
   for (char kind = records.number<char>(); kind != kEnd; kind = records.number<char>()) {
+    if (++parts > kMostParts) disbelieve("it has more than " + std::to_string(kMostParts) + " parts");
     const std::string what = records.text();
     if (kind == kRefusal) fail(what.substr(0, kMostOfARefusal));
     if (hasAttribute(what.c_str()) || hasDataset(what)) disbelieve(what + " is there twice");

@@ -50,7 +50,7 @@ bool isNarrower(NumberType stored, NumberType wanted) noexcept {
 }
 
 void ModelSource::fail(const std::string& what) const {
-  throw LoadError(name_ + ": " + what);
+  throw LoadError(name_ + ": " + printable(what));
 }
 
 double ModelSource::number(const char* attribute) const {

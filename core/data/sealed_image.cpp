@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/data/available_memory.h"
+#include "core/data/descriptor.h"
 #include "core/data/load_error.h"
 
 namespace palpate {
@@ -21,21 +22,6 @@ namespace palpate {
 namespace {
 
 constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL;
-
-/// Closes a file descriptor at the end of a scope.
-class Descriptor {
- public:
-  explicit Descriptor(int value) noexcept : value_(value) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  [[nodiscard]] int get() const noexcept { return value_; }
-
- private:
-  int value_;
-};
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw LoadError(path.string() + ": " + what);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one file of core that knows HDF5, but for palpate-read-model's own.
+// In core, this file and main.cpp beside it alone include HDF5.
 #include "core/reader/hdf5_reader.h"
 
 #include <hdf5.h>

@@ -4,10 +4,12 @@
 #include <hdf5.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sysexits.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <span>
 #include <string>
 
@@ -59,11 +61,16 @@ bool say(const std::string& answer) {
 
 int run() {
   const std::span<const std::byte> file = mapped(STDIN_FILENO);
-  if (file.empty()) return 1;
+  if (file.empty()) return EX_OSERR;  // not the file's doing: ask_reader.cpp
   prepareHdf5();
   try {
     lockDown(STDOUT_FILENO, kRoom);
     return say(answerTo(file)) ? 0 : 1;
+  } catch (const std::bad_alloc&) {
+    return say(ModelAnswer::refusal("takes more to parse than " + std::to_string(kRoom >> 20U) +
+                                    " MiB of memory, or than ulimit -v leaves"))
+               ? 0
+               : 1;
   } catch (const std::exception& error) {
     return say(ModelAnswer::refusal(error.what())) ? 0 : 1;
   }

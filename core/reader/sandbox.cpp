@@ -8,6 +8,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -28,12 +29,17 @@ void require(int failed, const char* what) {
                            std::strerror(-failed));
 }
 
-void limit(__rlimit_resource resource, rlim_t most) {
+/// Lowers a limit; what is lower stays as it is. @param soft  where it is told  @param hard  where it ends
+void limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   rlimit now{};
   require(::getrlimit(resource, &now) == 0 ? 0 : -errno, "getrlimit");
-  if (now.rlim_max < most) most = now.rlim_max;
-  const rlimit lower{most, most};
+  const rlim_t most = std::min(hard, now.rlim_max);
+  const rlimit lower{std::min({soft, now.rlim_cur, most}), most};
   require(::setrlimit(resource, &lower) == 0 ? 0 : -errno, "setrlimit");
+}
+
+void limit(__rlimit_resource resource, rlim_t most) {
+  limit(resource, most, most);
 }
 
 void setLimits([[maybe_unused]] std::size_t room) {
@@ -43,7 +49,7 @@ void setLimits([[maybe_unused]] std::size_t room) {
   limit(RLIMIT_AS, addressSpace() + room);  // first: a file says how many there are
   limit(RLIMIT_NOFILE, 0);
 #endif
-  limit(RLIMIT_CPU, kSeconds);
+  limit(RLIMIT_CPU, kSeconds, kSeconds + 1);  // Linux says SIGXCPU at the first only, at the second SIGKILL
   for (const __rlimit_resource none : {RLIMIT_CORE, RLIMIT_FSIZE}) limit(none, 0);
 }
 

@@ -167,6 +167,10 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
   bytes[tree + 5] = 1;
   std::memcpy(bytes.data() + tree + 32, &tree, sizeof tree);
   (void)folder_.write("endless.h5", bytes);
+  bytes = palpate::testing::contentOf(folder_ / "stiff.h5");
+  const std::uint64_t all = ~std::uint64_t{1};  // bytes of the heap of names: HDF5 1.10.8 writes over its own memory
+  std::memcpy(bytes.data() + bytes.find("HEAP") + 8, &all, sizeof all);
+  (void)folder_.write("heap.h5", bytes);
   std::filesystem::create_symlink(model_, folder_ / "out.h5");
   modelfile::ModelData soft = palpate::testing::syntheticModel();
   soft.attributes.E = 2e4;
@@ -181,6 +185,7 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
       {"flipped.h5", "flipped.h5: "},
       {"sparse.h5", "sparse.h5: its copy needs 1048576 MiB of memory, "},
       {"endless.h5", "endless.h5: the process that parses it ended by Segmentation fault"},
+      {"heap.h5", "heap.h5: the process that parses it ended by "},
       {"out.h5", "model \"out.h5\" leads out of the server's folder of models"},
       {"../x.h5", "holds \"..\""},
       {"/etc/passwd", "is no path relative to the server's folder of models"},

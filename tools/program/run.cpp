@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/program/run.h"
 
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -9,6 +10,8 @@
 namespace palpate::program {
 
 int runProgram(const char* name, int (*body)(int argc, char** argv), int argc, char** argv) {
+  // Inherited as ignored it would hide how the process ends that parses a model (core/data/ask_reader.h).
+  std::signal(SIGCHLD, SIG_DFL);
   try {
     const int code = body(argc, argv);
     if (code != kDone || std::cout.flush()) return code;

@@ -43,6 +43,13 @@ std::string complaintOfBytes(const std::string& bytes) {
   return complaint(file.path());
 }
 
+/// What is said of a file is not that no process could be started to parse it.
+void expectParsed(const std::string& text) {
+  for (const char* other :
+       {"no process can be started", "cannot lock", "cannot run here", "not to be believed"})
+    EXPECT_EQ(text.find(other), std::string::npos) << text;
+}
+
 /// The root group's object header, by the superblock (version 0): its version, messages, references, size, then messages.
 std::size_t rootHeader() {
   return numberAt<std::uint64_t>(goodBytes(), 64);
@@ -82,7 +89,12 @@ TEST_P(CraftedBytes, AreRefusedInOneLine) {
   ASSERT_NE(bytes, goodBytes());
   const std::string text = complaintOfBytes(bytes);
   EXPECT_NE(text, "");
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 0) << text;
+  expectParsed(text);
+  // HDF5 1.10.8 writes over its heap, and reads where nothing is.
+  static const std::set<std::string> kEndTheProcess{"HeapOfAllBytes", "TextLongerThanItsCollection"};
+  EXPECT_EQ(text.find("the process that parses it ended ") != std::string::npos,
+            kEndTheProcess.count(GetParam().name) > 0)
+      << text;
   RecordProperty("refusal", text);
 }
 
@@ -181,7 +193,7 @@ TEST(CraftedFields, NoneOfAllHarms) {
       put(bytes, at, value);
       const std::string text = complaintOfBytes(bytes);
       ++(text.empty() ? read : refused);
-      ASSERT_EQ(std::count(text.begin(), text.end(), '\n'), 0) << text;
+      expectParsed(text);
     }
   const std::chrono::duration<double> each = std::chrono::steady_clock::now() - before;
   EXPECT_GT(refused, 100) << "of " << refused + read;

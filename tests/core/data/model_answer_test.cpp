@@ -114,6 +114,12 @@ std::vector<Lie> lies() {
             answer.addNumbers("E", {&value, 1});
             return ending(answer.whole(), number(1ULL << 61U) + number(0) + "E");
           }()),
+      lie("MorePartsThanAModelHas", "it has more than 256 parts",
+          [] {
+            ModelAnswer answer;
+            for (int i = 0; i < 257; ++i) answer.addArray(std::to_string(i), {NumberType::kI8, {0}}, 0);
+            return answer.whole();
+          }()),
       {{"NothingInIt", "attribute format is missing"}, ModelAnswer().whole()},
       {{"FormatOfLines", "attribute format is \"a?b\", expected \"palpate-model\""}, text("a\nb")},
   };

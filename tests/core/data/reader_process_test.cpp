@@ -48,6 +48,10 @@ class ReaderProcessTest : public ::testing::Test {
   const TemporaryFolder folder_;
 };
 
+std::string theReader() {
+  return readerOf(std::filesystem::read_symlink("/proc/self/exe")).value_or("").string();
+}
+
 std::string ended(const std::string& how) {
   return "model.h5: the process that parses it ended " + how + ", the file is damaged or made to harm";
 }
@@ -74,6 +78,35 @@ TEST_F(ReaderProcessTest, HowItEndedIsSaid) {
             "model.h5: no process can be started to parse it, /nowhere/reader: No such file or directory");
 }
 
+/// cat closes its output some time before its end.
+TEST_F(ReaderProcessTest, HasTimeToEndBehindItsAnswer) {
+  const std::string answer = written(askReader(*image(), "model.h5"));
+  for (int time = 0; time < 20; ++time) ASSERT_EQ(complaintOf("exec /bin/cat " + answer), "") << time;
+  EXPECT_EQ(complaintOf("/bin/cat " + answer + "; exec >&-; /bin/sleep 0.2"), "");
+  EXPECT_LT(::waitpid(-1, nullptr, WNOHANG), 0) << "none is left";
+}
+
+TEST_F(ReaderProcessTest, WhereItCannotRunTheFileIsNotBlamed) {
+  const std::string cannot = "model.h5: palpate-read-model cannot run here, ";
+  EXPECT_EQ(complaintOf("exit 127"), cannot + "one of its libraries is missing or has no room (ulimit -v)");
+  EXPECT_EQ(complaintOf("exec " + theReader() + " <&-"),
+            cannot + "the file's copy cannot be mapped (ulimit -v)");
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(complaintTo({}), cannot + "this program does not hear how it ends: SIGCHLD is ignored");
+  std::signal(SIGCHLD, before);
+}
+
+/// Never relative: that would be a program in whatever folder a program was started in.
+TEST_F(ReaderProcessTest, IsLookedForWhereTheProgramIs) {
+  const auto in = [&](const char* folder) { return readerOf(folder_ / folder / "program"); };
+  EXPECT_EQ(in("bin"), (folder_ / "bin" / PALPATE_READER_FROM_BIN / "palpate-read-model").lexically_normal());
+  (void)folder_.write("CMakeCache.txt", "");
+  EXPECT_EQ(in("bin"), folder_ / "bin/palpate-read-model");
+  EXPECT_EQ(in("tests"), folder_ / "bin/palpate-read-model");
+  EXPECT_EQ(readerOf(""), std::nullopt);
+  EXPECT_EQ(readerOf("bin/program"), std::nullopt);
+}
+
 TEST_F(ReaderProcessTest, IsNotWaitedForWithoutEnd) {
   const auto before = std::chrono::steady_clock::now();
   const std::string late =
@@ -85,14 +118,14 @@ TEST_F(ReaderProcessTest, IsNotWaitedForWithoutEnd) {
   const std::atomic<bool> given_up{true};
   EXPECT_EQ(complaintOf("exec /bin/sleep 600", {.given_up = &given_up}),
             "model.h5: nobody wants it any more");
-  EXPECT_EQ(complaintOf("exec /bin/sleep 600 >&-"), ended("by Killed"));
+  EXPECT_EQ(complaintOf("exec /bin/sleep 600 >&-", {.most = milliseconds(200)}), late);
   EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(20));
   EXPECT_LT(::waitpid(-1, nullptr, WNOHANG), 0) << "none is left";
 }
 
 TEST_F(ReaderProcessTest, AnEndlessAnswerIsNotHeardToItsEnd) {
   EXPECT_EQ(complaintOf("exec /bin/cat /dev/zero"),
-            "model.h5: the process that parses it says more than 16 MiB, the file is made to harm");
+            "model.h5: the process that parses it says more than 8 MiB, the file is made to harm");
   EXPECT_LT(::waitpid(-1, nullptr, WNOHANG), 0) << "none is left";
 }
 
@@ -101,9 +134,12 @@ TEST_F(ReaderProcessTest, ARefusalIsOneShortLine) {
   const std::string said = complaintOf("/bin/cat " + written(ModelAnswer::refusal(refusal)));
   EXPECT_EQ(said, "model.h5: is " + std::string(997, 'x'));
   EXPECT_EQ(complaintOf("/bin/cat " + written(ModelAnswer::refusal("two\nlines"))), "model.h5: two?lines");
+  const std::string turned = "\u202egnp\u009b2J\xff";
+  EXPECT_EQ(complaintOf("/bin/cat " + written(ModelAnswer::refusal(turned))), "model.h5: ???gnp??2J?")
+      << "letters that a terminal obeys, or cannot show";
 }
 
-TEST_F(ReaderProcessTest, AnAnswerThatIsNoneIsNotBelieved) {
+TEST_F(ReaderProcessTest, ADamagedAnswerIsNotBelieved) {
   const std::string answer = askReader(*image(), "model.h5");
   const std::string other = disbelieved("it is not that of this version of palpate-read-model");
   EXPECT_EQ(complaintOf("/bin/cat " + written(answer)), "");

@@ -36,7 +36,7 @@ struct Forbidden {
 
 class LockedDownDeathTest : public ::testing::TestWithParam<Forbidden> {};
 
-TEST_P(LockedDownDeathTest, KillsWhoeverDoesIt) {
+TEST_P(LockedDownDeathTest, EndsTheProcess) {
   EXPECT_EXIT(workLockedDown([&] { return GetParam().work(), 0; }), ::testing::KilledBySignal(SIGSYS), "");
 }
 
