@@ -11,6 +11,9 @@ namespace palpate::fuzz {
 /// gives an array another type, shape and size, says something else in an attribute, or takes an array or an attribute away.
 [[nodiscard]] GoodModel changedModel(Bytes input);
 
+/// Reads and checks a model as programs do. @throw LoadError  it is refused
+void readAll(const ModelSource& source);
+
 /// Lets a reader have it.
 void fill(ArrayReader& reader, const GoodModel& model);
 

@@ -6,21 +6,29 @@
 #include "core/data/model_reader.h"
 #include "targets.h"
 
-bool palpate::fuzz::model(Bytes input) {
+namespace palpate::fuzz {
+
+void readAll(const ModelSource& source) {
+  const ModelContents contents = readModel(source, "model");
+  checkContents(contents.attributes, contents.view, "model");
+  (void)contentDigest(contents.attributes, contents.view);  // looks at every byte
+  const ModelView& v = contents.view;
+  require(v.positions() > 0 && v.places() * kStiffnessNumbers == v.contact_stiffness.size(),
+          "places are whole");
+  require(v.surface_positions.size() == 3 * v.surfaceNodes(), "each node has a place");
+  for (const std::int32_t node : v.surface_triangles)
+    require(node >= 0 && static_cast<std::size_t>(node) < v.surfaceNodes(), "corners are nodes");
+}
+
+bool model(Bytes input) {
   ArrayReader reader("model");
   fill(reader, changedModel(input));
   try {
-    const ModelContents contents = readModel(reader, "model");
-    checkContents(contents.attributes, contents.view, "model");
-    (void)contentDigest(contents.attributes, contents.view);  // looks at every byte
-    const ModelView& v = contents.view;
-    require(v.positions() > 0 && v.places() * kStiffnessNumbers == v.contact_stiffness.size(),
-            "places are whole");
-    require(v.surface_positions.size() == 3 * v.surfaceNodes(), "each node has a place");
-    for (const std::int32_t node : v.surface_triangles)
-      require(node >= 0 && static_cast<std::size_t>(node) < v.surfaceNodes(), "corners are nodes");
+    readAll(reader);
   } catch (const LoadError&) {
     return false;
   }
   return true;
 }
+
+}  // namespace palpate::fuzz
