@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/data/array_reader.h"
+#include "core/data/model_reader.h"
 #include "good_model.h"
 #include "targets.h"
 
@@ -11,8 +12,8 @@ namespace palpate::fuzz {
 /// gives an array another type, shape and size, says something else in an attribute, or takes an array or an attribute away.
 [[nodiscard]] GoodModel changedModel(Bytes input);
 
-/// Reads and checks a model as programs do. @throw LoadError  it is refused
-void readAll(const ModelSource& source);
+/// Reads and checks a model as programs do. The source outlives its arrays. @throw LoadError  it is refused
+ModelContents readAll(const ModelSource& source);
 
 /// Lets a reader have it.
 void fill(ArrayReader& reader, const GoodModel& model);
