@@ -2,10 +2,15 @@
 // Files that a fuzzer found, read once more: what crashed a program once is among them.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <ostream>
+#include <stdexcept>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "targets.h"
@@ -50,6 +55,22 @@ TEST_P(Corpus, IsReadOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Corpus, ::testing::ValuesIn(kTargets),
                          [](const auto& tested) { return std::string(tested.param.name); });
+
+// Wrong twins.
+bool busy(Bytes) {
+  const std::clock_t began = std::clock();
+  while (std::clock() - began < CLOCKS_PER_SEC / 20) continue;
+  return true;
+}
+bool waits(Bytes) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  return true;
+}
+
+TEST(FuzzedInput, IsJudgedByProcessorTime) {
+  EXPECT_THROW((void)soonEnough(busy, {}, 0.01), std::logic_error);
+  EXPECT_TRUE(soonEnough(waits, {}, 0.04));
+}
 
 }  // namespace
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <string>
+#include <string_view>
 
 #include "access.h"
 #include "header_text.h"

@@ -44,6 +44,7 @@ void look(const mesh::TriangleSurface& surface) {
 
 }  // namespace
 
+// Importers go on to checkMesh() and to surfaces: these are not fuzzed, only that a mesh comes to them with indices in range.
 bool taken(Bytes input, mesh::RawMesh (*read)(mesh::ByteReader)) {
   try {
     look(mesh::assemble("mesh", read(readerOf(input))));

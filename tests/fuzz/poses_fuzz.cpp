@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -29,18 +30,19 @@ dds::ToolPose poseAfter(dds::ToolPose pose, Source& source) {
   return pose;
 }
 
+using Accepted = std::array<std::uint64_t, kMaxTools>;  // poses of each tool that is served
+
 // What the tick would see.
-void look(server::Channels& channels, std::uint64_t accepted) {
-  std::uint64_t received = 0;
+void look(server::Channels& channels, const Accepted& accepted) {
   for (std::size_t tool = 0; tool < channels.poses.size(); ++tool) {
     server::PoseSample newest;
     channels.poses[tool].read(newest);
-    received += newest.received + newest.foreign;
+    require(newest.received + newest.foreign <= accepted[tool], "no pose is counted twice");
+    require((newest.received > 0) == (accepted[tool] > 0), "the first pose of a tool is used");
     require(newest.unordered <= newest.received && newest.handed_over <= newest.received,
             "what is counted of poses has come");
     require((newest.received > 0) == (channels.owners[tool].load() != 0), "a tool that sends has an owner");
   }
-  require(received <= accepted, "no pose is counted twice");
   server::Strangers strangers;
   channels.strangers.read(strangers);
   for (std::size_t i = 0; i < strangers.size(); ++i)
@@ -66,7 +68,8 @@ bool poses(Bytes input) {
   pose.server_id = 7;
   dds::WriterId writer = 1;
   std::int64_t now_ns = 1;
-  std::uint64_t accepted = 0;
+  Accepted accepted{};
+  bool any_accepted = false;
   while (!source.empty()) {
     const auto what = source.get<std::uint8_t>();
     if ((what & 1) != 0) writer = source.get<std::uint8_t>() % 4 + 1U;
@@ -79,13 +82,15 @@ bool poses(Bytes input) {
     const bool ours = pose.server_id == 7 || (any && pose.server_id == dds::kServerAny);
     const bool admitted = intake.admits(pose);
     require(!admitted || ours, "poses for others are left to them");
+    require(admitted || !ours || pose.tool_id >= kMaxTools, "poses of known tools come in");
     if (!admitted) continue;
     intake.accept(pose, writer, now_ns);
-    ++accepted;
+    any_accepted = true;
+    if (pose.tool_id < static_cast<std::uint32_t>(config.tools)) ++accepted[pose.tool_id];
     if (const auto delay = server::delayOf(pose.stamp_ns, now_ns)) require(*delay >= 0, "a delay is one");
   }
   look(*channels, accepted);
-  return accepted > 0;
+  return any_accepted;
 }
 
 }  // namespace palpate::fuzz

@@ -43,10 +43,12 @@ bool surface(Bytes input) {
   const std::size_t nodes = source.get<std::uint8_t>() % 16, triangles = source.get<std::uint8_t>() % 16;
   const auto more = [&](int bit) { return static_cast<std::size_t>((form >> bit) & 1); };  // than fit
   const auto positions = numbers<double>(3 * nodes + more(1), [&] { return coordinate(source, any); });
-  const auto corners =
-      numbers<std::uint32_t>(3 * triangles + more(2), [&] { return source.get<std::uint8_t>(); });
+  const auto corners = numbers<std::uint32_t>(3 * triangles + more(2), [&] {
+    return any ? source.get<std::uint32_t>() : source.get<std::uint8_t>();
+  });
   const auto accessible = numbers<std::uint8_t>(nodes + more(3), [&] { return source.get<std::uint8_t>(); });
-  const std::vector<std::int64_t> tags(nodes + more(4));
+  const auto tags =
+      numbers<std::int64_t>(nodes + more(4), [&] { return any ? source.get<std::int64_t>() : 0; });
   const std::vector<std::uint8_t> clamped(more(5) * (nodes + more(6)));
   dds::Region region{};
   dds::assignText(region.name, source.text(4));

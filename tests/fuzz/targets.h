@@ -17,29 +17,31 @@ using Bytes = std::span<const std::uint8_t>;
 
 /// @return whether the input was taken: what refuses inputs has said no by an exception of its own
 /// @throw std::logic_error  what was taken is not what its reader promises. Any other exception is a fault too
-bool cases(Bytes input);       ///< case file of palpate-solve
-bool config(Bytes input);      ///< configuration file of palpate-server
-bool http(Bytes input);        ///< headers that palpate-viewer judges: a line each
+bool answer(Bytes input);  ///< what the process that parses a model file says of it: changes of a good answer
+bool cases(Bytes input);   ///< case file of palpate-solve
+bool config(Bytes input);  ///< configuration file of palpate-server
+bool http(Bytes input);    ///< headers that palpate-viewer judges: a line each
 bool journal(Bytes input);     ///< parts of a solve that was interrupted
-bool medit(Bytes input);       ///< mesh file, as the next ones
+bool medit(Bytes input);       ///< mesh file of Medit
 bool model(Bytes input);       ///< model file, once HDF5 has read it: changes of a good one
-bool msh(Bytes input);         ///< Gmsh
-bool obj(Bytes input);         ///< Wavefront
-bool organ(Bytes input);       ///< the same, all digests right, made into an organ and pressed
+bool msh(Bytes input);         ///< mesh file of Gmsh
+bool obj(Bytes input);         ///< surface file of Wavefront
+bool organ(Bytes input);       ///< a model as model() has, all digests right, made into an organ and pressed
 bool page(Bytes input);        ///< message of palpate-viewer's page
 bool parameters(Bytes input);  ///< parameter requests and announcements of tools
 bool poses(Bytes input);       ///< poses as DDS hands them over
 bool recording(Bytes input);   ///< file of palpate-server --record
-bool stl(Bytes input);         ///< surface file
+bool stl(Bytes input);         ///< surface file, STL
 bool surface(Bytes input);     ///< organ's surface as a server sends it to clients
 bool uri(Bytes input);         ///< path that a browser asks palpate-viewer for
-bool vtk(Bytes input);         ///< legacy VTK
+bool vtk(Bytes input);         ///< mesh file, legacy VTK
 
 struct Target {
   const char* name;
   bool (*read)(Bytes);
 };
-inline constexpr std::array<Target, 17> kTargets{{{"cases", cases},
+inline constexpr std::array<Target, 18> kTargets{{{"answer", answer},
+                                                  {"cases", cases},
                                                   {"config", config},
                                                   {"http", http},
                                                   {"journal", journal},
@@ -60,6 +62,10 @@ inline constexpr std::array<Target, 17> kTargets{{{"cases", cases},
 /// Corrects the checksums in an input of recording() and journal(): no fuzzer finds these by chance.
 void mendRecording(std::span<std::uint8_t> input);
 void mendJournal(std::span<std::uint8_t> input);
+
+/// Calls it, and looks how much of the processor it took. @param most  s
+/// @throw std::logic_error  it took more, so that small inputs could keep a program busy
+bool soonEnough(bool (*read)(Bytes), Bytes input, double most);
 
 /// @throw std::logic_error
 void require(bool good, const char* what);

@@ -40,7 +40,7 @@ void readPoint(ByteReader& in, RawMesh& mesh, int parameters) {
 
 // Each element of an entity is listed in all groups of it: many of both would fill the memory.
 void readGroups(ByteReader& in, std::vector<std::int64_t>& groups) {
-  constexpr std::size_t kMost = 16;  // as many groups as no file gives one entity
+  constexpr std::size_t kMost = 16;  // ours: Gmsh states none
   const std::size_t more = count(in, 2, "an entity's number of physical groups");
   if (more + groups.size() > kMost)
     in.fail("an entity is in " + std::to_string(more + groups.size()) +
