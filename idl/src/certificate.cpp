@@ -5,7 +5,6 @@
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/pkcs7.h>
-#include <openssl/x509_vfy.h>
 
 #include <array>
 #include <cerrno>
@@ -18,7 +17,10 @@ namespace {
 
 using BioPtr = std::unique_ptr<BIO, Freed<BIO_free_all>>;
 using Pkcs7Ptr = std::unique_ptr<PKCS7, Freed<PKCS7_free>>;
-using StorePtr = std::unique_ptr<X509_STORE, Freed<X509_STORE_free>>;
+struct StackFreed {
+  void operator()(STACK_OF(X509) * stack) const noexcept { sk_X509_pop_free(stack, X509_free); }
+};
+using StackPtr = std::unique_ptr<STACK_OF(X509), StackFreed>;
 
 BioPtr opened(const std::filesystem::path& file) {
   ERR_clear_error();
@@ -69,19 +71,19 @@ KeyPtr readKey(const std::filesystem::path& file) {
   return key;
 }
 
-std::string readSigned(const std::filesystem::path& file, X509* authority) {
+std::string readSigned(const std::filesystem::path& file, const X509& signer) {
   const BioPtr bio = opened(file);
   BIO* detached = nullptr;
   const Pkcs7Ptr message(SMIME_read_PKCS7(bio.get(), &detached));
   const BioPtr content(detached);
   if (!message) throw DdsError(file.string() + ": not a signed document (S/MIME)" + opensslReason());
-  const StorePtr store(X509_STORE_new());
-  X509_STORE_add_cert(store.get(), authority);
-  X509_STORE_set_flags(store.get(), X509_V_FLAG_PARTIAL_CHAIN | X509_V_FLAG_NO_CHECK_TIME);
+  const StackPtr signers(sk_X509_new_null());
+  sk_X509_push(signers.get(), X509_dup(&signer));
   const BioPtr out(BIO_new(BIO_s_mem()));
-  if (PKCS7_verify(message.get(), nullptr, store.get(), content.get(), out.get(), PKCS7_TEXT) != 1)
+  constexpr int kFlags = PKCS7_TEXT | PKCS7_NOINTERN | PKCS7_NOVERIFY;
+  if (PKCS7_verify(message.get(), signers.get(), nullptr, content.get(), out.get(), kFlags) != 1)
     throw DdsError(file.string() +
-                   ": not signed by the authority of authority.pem beside it, or changed since" +
+                   ": not signed by the authority of permissions_authority.pem beside it, or changed since" +
                    opensslReason());
   return contentOf(out.get());
 }

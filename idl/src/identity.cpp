@@ -49,7 +49,8 @@ void checkFiles(const fs::path& folder) {
   if (!fs::exists(folder / file::kCertificate) && fs::exists(folder / "issued"))
     throw DdsError(folder.string() + ": the folder of an authority, expected one that it issued, e.g. " +
                    (folder / "issued" / "NAME").string());
-  for (const char* name : {file::kAuthority, file::kGovernance, file::kCertificate, file::kPermissions})
+  for (const char* name : {file::kAuthority, file::kPermissionsAuthority, file::kGovernance,
+                           file::kCertificate, file::kPermissions})
     checkMode(folder / name, S_IWGRP | S_IWOTH, "go-w");
   checkMode(folder / file::kKey, S_IRWXG | S_IRWXO, "600");
 }
@@ -73,8 +74,8 @@ std::string between(const fs::path& path, const std::string& text, const std::st
 }
 
 // @return when they end
-std::time_t checkPermissions(const fs::path& path, X509* authority, const std::string& subject) {
-  const std::string text = readSigned(path, authority);
+std::time_t checkPermissions(const fs::path& path, const X509& signer, const std::string& subject) {
+  const std::string text = readSigned(path, signer);
   const std::string named = between(path, text, "subject_name");
   if (named != subject)
     throw DdsError(path.string() + ": subject_name is " + named + ", the certificate beside it is of " +
@@ -103,16 +104,20 @@ fs::path plugin(const std::string& name) {
 
 Identity Identity::load(const fs::path& folder) {
   checkFiles(folder);
-  const fs::path authority_file = folder / file::kAuthority, certificate_file = folder / file::kCertificate;
-  const X509Ptr authority = readCertificate(authority_file), certificate = readCertificate(certificate_file);
+  const fs::path authority_file = folder / file::kAuthority,
+                 signer_file = folder / file::kPermissionsAuthority,
+                 certificate_file = folder / file::kCertificate;
+  const X509Ptr authority = readCertificate(authority_file), signer = readCertificate(signer_file),
+                certificate = readCertificate(certificate_file);
   checkTimes(authority_file, startOf(*authority), endOf(*authority));
+  checkTimes(signer_file, startOf(*signer), endOf(*signer));
   if (X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) != 1)
     throw DdsError(certificate_file.string() + ": not signed by the authority of authority.pem beside it");
   checkTimes(certificate_file, startOf(*certificate), endOf(*certificate));
   const KeyPtr key = readKey(folder / file::kKey);
   if (X509_check_private_key(certificate.get(), key.get()) != 1)
     throw DdsError((folder / file::kKey).string() + ": not the key of identity.pem beside it");
-  (void)readSigned(folder / file::kGovernance, authority.get());
+  (void)readSigned(folder / file::kGovernance, *signer);
 
   Identity identity;
   identity.folder_ = fs::absolute(folder);
@@ -124,8 +129,8 @@ Identity Identity::load(const fs::path& folder) {
   identity.role_ = *role;
   identity.name_ = fieldOf(*certificate, NID_commonName);
   const std::time_t permitted =
-      checkPermissions(folder / file::kPermissions, authority.get(), subjectOf(*certificate));
-  identity.expires_ = std::min({endOf(*authority), endOf(*certificate), permitted});
+      checkPermissions(folder / file::kPermissions, *signer, subjectOf(*certificate));
+  identity.expires_ = std::min({endOf(*authority), endOf(*signer), endOf(*certificate), permitted});
   return identity;
 }
 
@@ -153,7 +158,9 @@ void Identity::applyTo(dds_qos_t& qos) const {
   set("dds.sec.auth.identity_ca", file::kAuthority);
   set("dds.sec.auth.identity_certificate", file::kCertificate);
   set("dds.sec.auth.private_key", file::kKey);
-  set("dds.sec.access.permissions_ca", file::kAuthority);
+  // Another one than identity_ca: Cyclone DDS 0.10.2 takes what anybody has signed whose certificate permissions_ca signed
+  // (CVE-2023-24011), so identity_ca would let each identity write its own permissions.
+  set("dds.sec.access.permissions_ca", file::kPermissionsAuthority);
   set("dds.sec.access.governance", file::kGovernance);
   set("dds.sec.access.permissions", file::kPermissions);
 }

@@ -41,8 +41,8 @@ def make(folder, kinds):
             document = re.sub(f"<{name}_protection_kind>[A-Z]*", f"<{name}_protection_kind>{value}", document)
         plain, out = folder / "governance.xml", folder / "governance.p7s"
         plain.write_text(document)
-        run("openssl", "smime", "-sign", "-text", "-in", plain, "-out", out, "-signer", authority / "authority.pem",
-            "-inkey", authority / "private/authority.key")
+        run("openssl", "smime", "-sign", "-text", "-in", plain, "-out", out, "-signer", authority / "permissions_authority.pem",
+            "-inkey", authority / "private/permissions_authority.key")
         for role in ("server", "driver"):
             shutil.copytree(authority / "issued" / role, folder / kind / role)
             shutil.copy(out, folder / kind / role / "governance.p7s")

@@ -3,6 +3,7 @@
 #include "palpate/idl/identity.h"
 
 #include <gtest/gtest.h>
+#include <openssl/x509v3.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -80,8 +81,8 @@ TEST_F(IdentityTest, AKeyOfAnotherUserIsRefused) {
 }
 
 TEST_F(IdentityTest, EachMissingFileIsNamed) {
-  for (const char* name :
-       {"authority.pem", "governance.p7s", "identity.pem", "identity.key", "permissions.p7s"}) {
+  for (const char* name : {"authority.pem", "permissions_authority.pem", "governance.p7s", "identity.pem",
+                           "identity.key", "permissions.p7s"}) {
     const fs::path away = folder_ / "away";
     fs::rename(folder_ / name, away);
     expectContains(refusal(), std::string(name) + ": No such file");
@@ -93,6 +94,34 @@ TEST_F(IdentityTest, EachMissingFileIsNamed) {
 TEST_F(IdentityTest, PermissionsThatWereChangedAreRefused) {
   replace("permissions.p7s", "palpate/tool/announcement", "palpate/server/parameter_request");
   expectContains(refusal(), "permissions.p7s: not signed by the authority");
+}
+
+// The authority signed its certificate, and that may sign nothing.
+TEST_F(IdentityTest, PermissionsAndGovernanceThatAnIdentitySignedAreRefused) {
+  const fs::path viewer = authority_.of("viewer");
+  const security::Signer itself{viewer / "identity.pem", viewer / "identity.key"};
+  const std::string subject = subjectOf(*readCertificate(folder_ / "identity.pem"));
+  const std::time_t now = std::time(nullptr);
+  const std::string kept = contentOf(folder_ / "permissions.p7s");
+  security::writeSigned(itself,
+                        security::permissions(Role::kServer, subject, utcOf(now - 60), utcOf(now + 3600)),
+                        folder_ / "permissions.p7s");
+  expectContains(refusal(), "permissions.p7s: not signed by the authority");
+  std::ofstream(folder_ / "permissions.p7s") << kept;
+  EXPECT_EQ(refusal(), "not refused");
+  security::writeSigned(itself, security::governance(), folder_ / "governance.p7s");
+  expectContains(refusal(), "governance.p7s: not signed by the authority");
+}
+
+// Where somebody takes authority.pem for permissions_ca all the same.
+TEST_F(IdentityTest, ItsCertificateAndTheAuthoritysSignNoDocuments) {
+  const auto signs = [&](const std::string& file) {
+    return X509_check_purpose(readCertificate(folder_ / file).get(), X509_PURPOSE_SMIME_SIGN, 0);
+  };
+  EXPECT_EQ(signs("identity.pem"), 0);
+  EXPECT_EQ(signs("authority.pem"), 0);
+  EXPECT_EQ(signs("permissions_authority.pem"), 1);
+  EXPECT_EQ(X509_check_ca(readCertificate(folder_ / "permissions_authority.pem").get()), 0);
 }
 
 TEST_F(IdentityTest, GovernanceThatWasChangedIsRefused) {

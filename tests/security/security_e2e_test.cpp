@@ -52,11 +52,16 @@ class SecurityEndToEnd : public ServerEndToEnd {
     EXPECT_EQ(server_->log().find("tool 1: first pose"), std::string::npos) << server_->log();
   }
 
-  // Permissions of the authority's, for the certificate in a folder, until a time.
-  void writeEnding(const fs::path& folder, dds::Role role, std::time_t end, const fs::path& to) const {
+  // What a role may, for the certificate in a folder, until a time.
+  [[nodiscard]] static std::string permissionsOf(const fs::path& folder, dds::Role role, std::time_t end) {
     const std::string subject = dds::subjectOf(*dds::readCertificate(folder / "identity.pem"));
-    security::writeSigned(authority_.folder(),
-                          security::permissions(role, subject, dds::utcOf(end - 3600), dds::utcOf(end)), to);
+    return security::permissions(role, subject, dds::utcOf(end - 3600), dds::utcOf(end));
+  }
+
+  // The same, signed as the authority does.
+  void writeEnding(const fs::path& folder, dds::Role role, std::time_t end, const fs::path& to) const {
+    security::writeSigned(security::permissionsSigner(authority_.folder()), permissionsOf(folder, role, end),
+                          to);
   }
 
   [[nodiscard]] static std::string property(const std::string& key, const fs::path& file) {
@@ -121,10 +126,28 @@ TEST_F(SecurityEndToEnd, ForgedPermissionsAreRefusedAndSaidSo) {
   ASSERT_NO_FATAL_FAILURE(startSecured());
   const fs::path forged = rogue.of("driver");
   const std::string said =
-      intrude({authority_.of("driver"), property("dds.sec.access.permissions_ca", forged / "authority.pem"),
+      intrude({authority_.of("driver"),
+               property("dds.sec.access.permissions_ca", forged / "permissions_authority.pem"),
                property("dds.sec.access.governance", forged / "governance.p7s"),
                property("dds.sec.access.permissions", forged / "permissions.p7s")});
   EXPECT_NE(said.find("measured_cp: 0 readers"), std::string::npos) << said;
+  EXPECT_TRUE(logs(kNotLetIn)) << server_->log();
+  expectUndisturbed();
+}
+
+// Its identity is signed by the authority, and it signs with that: a chain that Cyclone DDS 0.10.2 follows (CVE-2023-24011).
+TEST_F(SecurityEndToEnd, AViewerThatSignsItsOwnPermissionsIsRefusedAndSaidSo) {
+  const fs::path viewer = authority_.of("viewer"), forged = viewer / "forged.p7s",
+                 governance = viewer / "governance_forged.p7s";
+  const security::Signer itself{viewer / "identity.pem", viewer / "identity.key"};
+  security::writeSigned(itself, permissionsOf(viewer, dds::Role::kOperator, std::time(nullptr) + 3600),
+                        forged);
+  security::writeSigned(itself, security::governance(), governance);
+  ASSERT_NO_FATAL_FAILURE(startSecured());
+  const std::string said = intrude({viewer, property("dds.sec.access.governance", governance),
+                                    property("dds.sec.access.permissions", forged)});
+  EXPECT_NE(said.find("measured_cp: 0 readers"), std::string::npos) << said;
+  EXPECT_NE(said.find("parameter_request: 0 readers"), std::string::npos) << said;
   EXPECT_TRUE(logs(kNotLetIn)) << server_->log();
   expectUndisturbed();
 }

@@ -73,17 +73,6 @@ void writeCertificate(const fs::path& path, X509* certificate) {
   program::writeFile(path, contentOf(bio.get()));
 }
 
-void writeSigned(const fs::path& path, const std::string& content, X509* authority, EVP_PKEY* key) {
-  const BioPtr in(made(BIO_new_mem_buf(content.data(), static_cast<int>(content.size()))));
-  const BioPtr out(made(BIO_new(BIO_s_mem())));
-  constexpr int kFlags = PKCS7_TEXT | PKCS7_DETACHED;
-  const std::unique_ptr<PKCS7, dds::Freed<PKCS7_free>> message(
-      made(PKCS7_sign(authority, key, nullptr, in.get(), kFlags)));
-  BIO_reset(in.get());
-  made(SMIME_write_PKCS7(out.get(), message.get(), in.get(), kFlags));
-  program::writeFile(path, contentOf(out.get()));
-}
-
 dds::KeyPtr newKey() {
   return dds::KeyPtr(made(EVP_EC_gen("P-256")));
 }
@@ -101,8 +90,18 @@ void addExtension(X509* certificate, X509* issuer, int nid, const char* value) {
   made(X509_add_ext(certificate, extension.get(), -1));
 }
 
+// What a certificate is good for, as its extensions say. An identity's signs no documents: a second bar, behind
+// permissions_authority.pem, to one that would write its own permissions.
+struct Use {
+  const char *constraints, *key, *extended;  // the last nullptr: whatever `key` allows
+};
+constexpr Use kSignsIdentities{"critical,CA:TRUE,pathlen:0", "critical,keyCertSign,cRLSign", nullptr};
+constexpr Use kSignsDocuments{"critical,CA:FALSE", "critical,digitalSignature", "critical,emailProtection"};
+constexpr Use kIsIdentity{"critical,CA:FALSE", "critical,digitalSignature,keyAgreement",
+                          "critical,clientAuth"};
+
 // Signed by whom it is issued by; without an issuer by itself.
-dds::X509Ptr newCertificate(EVP_PKEY* key, Days days, X509* issuer, EVP_PKEY* issuer_key,
+dds::X509Ptr newCertificate(const Use& use, EVP_PKEY* key, Days days, X509* issuer, EVP_PKEY* issuer_key,
                             const std::string& unit, const std::string& name) {
   dds::X509Ptr certificate(made(X509_new()));
   X509_set_version(certificate.get(), X509_VERSION_3);
@@ -119,12 +118,9 @@ dds::X509Ptr newCertificate(EVP_PKEY* key, Days days, X509* issuer, EVP_PKEY* is
   addField(subject, "CN", name);
   X509* const signer = issuer == nullptr ? certificate.get() : issuer;
   X509_set_issuer_name(certificate.get(), X509_get_subject_name(signer));
-  const bool authority = issuer == nullptr;
-  addExtension(certificate.get(), signer, NID_basic_constraints,
-               authority ? "critical,CA:TRUE" : "critical,CA:FALSE");
-  addExtension(
-      certificate.get(), signer, NID_key_usage,
-      authority ? "critical,keyCertSign,cRLSign,digitalSignature" : "critical,digitalSignature,keyAgreement");
+  addExtension(certificate.get(), signer, NID_basic_constraints, use.constraints);
+  addExtension(certificate.get(), signer, NID_key_usage, use.key);
+  if (use.extended != nullptr) addExtension(certificate.get(), signer, NID_ext_key_usage, use.extended);
   addExtension(certificate.get(), signer, NID_subject_key_identifier, "hash");
   made(X509_sign(certificate.get(), issuer_key == nullptr ? key : issuer_key, EVP_sha256()));
   return certificate;
@@ -162,18 +158,34 @@ void makeAuthority(const fs::path& folder, Days days) {
   makeFolder(folder, kReadable);
   makeFolder(folder / kIssued, kReadable);
   makeFolder(folder / kPrivate, kOwnersOnly);
-  const dds::KeyPtr key = newKey();
-  const dds::X509Ptr certificate = newCertificate(key.get(), days, nullptr, nullptr, "authority", newName());
-  writeKey(folder / kPrivate / kAuthorityKey, key.get());
-  writeSigned(folder / file::kGovernance, governance(), certificate.get(), key.get());
-  writeCertificate(folder / file::kAuthority,
-                   certificate.get());  // last: it says that the authority is there
+  const std::string name = newName();
+  const auto make = [&](const Use& use, const char* unit, const fs::path& key_file, const char* file) {
+    const dds::KeyPtr key = newKey();
+    const dds::X509Ptr certificate = newCertificate(use, key.get(), days, nullptr, nullptr, unit, name);
+    writeKey(folder / kPrivate / key_file, key.get());
+    writeCertificate(folder / file, certificate.get());
+  };
+  make(kSignsDocuments, "permissions", kPermissionsKey, file::kPermissionsAuthority);
+  writeSigned(permissionsSigner(folder), governance(), folder / file::kGovernance);
+  // Last: it says that the authority is there.
+  make(kSignsIdentities, "authority", kAuthorityKey, file::kAuthority);
 }
 
-void writeSigned(const fs::path& authority, const std::string& document, const fs::path& to) {
-  const dds::X509Ptr certificate = dds::readCertificate(authority / file::kAuthority);
-  const dds::KeyPtr key = dds::readKey(authority / kPrivate / kAuthorityKey);
-  writeSigned(to, document, certificate.get(), key.get());
+Signer permissionsSigner(const fs::path& authority) {
+  return {authority / file::kPermissionsAuthority, authority / kPrivate / kPermissionsKey};
+}
+
+void writeSigned(const Signer& signer, const std::string& document, const fs::path& to) {
+  const dds::X509Ptr certificate = dds::readCertificate(signer.certificate);
+  const dds::KeyPtr key = dds::readKey(signer.key);
+  const BioPtr in(made(BIO_new_mem_buf(document.data(), static_cast<int>(document.size()))));
+  const BioPtr out(made(BIO_new(BIO_s_mem())));
+  constexpr int kFlags = PKCS7_TEXT | PKCS7_DETACHED;
+  const std::unique_ptr<PKCS7, dds::Freed<PKCS7_free>> message(
+      made(PKCS7_sign(certificate.get(), key.get(), nullptr, in.get(), kFlags)));
+  BIO_reset(in.get());
+  made(SMIME_write_PKCS7(out.get(), message.get(), in.get(), kFlags));
+  program::writeFile(to, contentOf(out.get()));
 }
 
 fs::path issue(const fs::path& folder, dds::Role role, const std::string& name, Days days, bool renew) {
@@ -185,19 +197,20 @@ fs::path issue(const fs::path& folder, dds::Role role, const std::string& name, 
   const dds::KeyPtr authority_key = dds::readKey(folder / kPrivate / kAuthorityKey);
   fs::path made_in = folder / kIssued / name;
   if (fs::exists(made_in) && !renew)
-    throw SecurityError(made_in.string() +
-                        " is there already: --renew replaces it, its present key is then void");
+    throw SecurityError(
+        made_in.string() +
+        " is there already: --renew replaces it; a copy of the present one holds until its own end");
   makeFolder(made_in, kOwnersOnly);
   const dds::KeyPtr key = newKey();
-  const dds::X509Ptr certificate = newCertificate(key.get(), days, authority.get(), authority_key.get(),
-                                                  std::string(dds::wordOf(role)), name);
+  const dds::X509Ptr certificate = newCertificate(kIsIdentity, key.get(), days, authority.get(),
+                                                  authority_key.get(), std::string(dds::wordOf(role)), name);
   writeKey(made_in / file::kKey, key.get());
   writeCertificate(made_in / file::kCertificate, certificate.get());
-  writeSigned(folder,
+  writeSigned(permissionsSigner(folder),
               permissions(role, dds::subjectOf(*certificate), dds::utcOf(dds::startOf(*certificate)),
                           dds::utcOf(dds::endOf(*certificate))),
               made_in / file::kPermissions);
-  for (const char* shared : {file::kAuthority, file::kGovernance}) {
+  for (const char* shared : {file::kAuthority, file::kPermissionsAuthority, file::kGovernance}) {
     std::error_code error;
     fs::copy_file(folder / shared, made_in / shared, fs::copy_options::overwrite_existing, error);
     if (error) throw SecurityError("cannot write " + (made_in / shared).string() + ": " + error.message());

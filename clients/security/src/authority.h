@@ -15,8 +15,9 @@ class SecurityError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-inline constexpr const char* kPrivate = "private";  ///< folder of the authority's key, mode 0700
+inline constexpr const char* kPrivate = "private";  ///< folder of the authority's keys, mode 0700
 inline constexpr const char* kAuthorityKey = "authority.key";
+inline constexpr const char* kPermissionsKey = "permissions_authority.key";
 inline constexpr const char* kIssued = "issued";  ///< folder of the identities, by name
 
 /// A span of validity. It begins an hour ago: clocks of machines differ.
@@ -24,7 +25,8 @@ struct Days {
   int count;
 };
 
-/// Makes an authority: authority.pem, governance.p7s, private/authority.key, and the empty folder `issued`.
+/// Makes an authority, two keys with their certificates: authority.pem signs identities, permissions_authority.pem governance and
+/// permissions. Beside them governance.p7s, `private` with the keys, and the empty folder `issued`.
 /// Keys are elliptic, P-256; signatures SHA-256.
 /// @throw SecurityError  one is there already, or the folder cannot be written
 void makeAuthority(const std::filesystem::path& folder, Days days);
@@ -36,10 +38,17 @@ void makeAuthority(const std::filesystem::path& folder, Days days);
 std::filesystem::path issue(const std::filesystem::path& folder, dds::Role role, const std::string& name,
                             Days days, bool renew);
 
-/// Signs a document by the authority in a folder (S/MIME) and writes it.
-/// @throw SecurityError, dds::DdsError, program::WriteError  no authority there, or the file cannot be written
-void writeSigned(const std::filesystem::path& authority, const std::string& document,
-                 const std::filesystem::path& to);
+/// Who signs a document: PEM files.
+struct Signer {
+  std::filesystem::path certificate, key;
+};
+
+/// Who signs governance and permissions of the authority in a folder.
+[[nodiscard]] Signer permissionsSigner(const std::filesystem::path& authority);
+
+/// Signs a document (S/MIME, the signer's certificate in it) and writes it.
+/// @throw SecurityError, dds::DdsError, program::WriteError  a PEM file cannot be read, or the file cannot be written
+void writeSigned(const Signer& signer, const std::string& document, const std::filesystem::path& to);
 
 /// XML, as DDS Security 1.1 has it: how topics are protected on all domains.
 [[nodiscard]] std::string governance();

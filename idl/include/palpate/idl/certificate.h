@@ -27,8 +27,9 @@ using KeyPtr = std::unique_ptr<EVP_PKEY, Freed<EVP_PKEY_free>>;
 /// A key without a password.
 [[nodiscard]] KeyPtr readKey(const std::filesystem::path& file);
 
-/// The content of a file that the authority signed (S/MIME). @throw DdsError  it did not, or not this content
-[[nodiscard]] std::string readSigned(const std::filesystem::path& file, X509* authority);
+/// The content of a file that `signer` itself signed (S/MIME), and nobody whom it certified: certificates in the file count
+/// for nothing, nor do validity and use of the signer's. @throw DdsError  it did not, or not this content
+[[nodiscard]] std::string readSigned(const std::filesystem::path& file, const X509& signer);
 
 /// "CN=desk,OU=server,O=palpate", as permissions name it (RFC 2253).
 [[nodiscard]] std::string subjectOf(const X509& certificate);

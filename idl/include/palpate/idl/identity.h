@@ -14,7 +14,9 @@ namespace palpate::dds {
 
 /// What lies in an identity's folder, which palpate-security issue makes and --security names.
 namespace identity_file {
-inline constexpr const char* kAuthority = "authority.pem";      ///< certificate of who signed the others
+inline constexpr const char* kAuthority = "authority.pem";  ///< certificate of who signs identities
+inline constexpr const char* kPermissionsAuthority =
+    "permissions_authority.pem";  ///< certificate of who signs governance and permissions, and nothing else
 inline constexpr const char* kGovernance = "governance.p7s";    ///< how topics are protected, signed
 inline constexpr const char* kCertificate = "identity.pem";     ///< OU is the role, CN the name
 inline constexpr const char* kKey = "identity.key";             ///< private: mode 0600
@@ -32,7 +34,7 @@ class Identity {
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
   [[nodiscard]] Role role() const noexcept { return role_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// When the first of authority, certificate and permissions ends.
+  /// When the first of both authorities, certificate and permissions ends.
   [[nodiscard]] std::time_t expires() const noexcept { return expires_; }
 
   /// One line from 30 days before expires() on, else empty.
