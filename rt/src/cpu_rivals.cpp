@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -17,9 +16,12 @@ namespace fs = std::filesystem;
 
 constexpr int kDeadlinePolicy = 6;  // SCHED_DEADLINE, which only the kernel's headers name
 
+// Empty, or its beginning, where the process ends meanwhile: getline() catches what a stream's iterators throw then.
 std::string contentOf(const fs::path& path) {
   std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::getline(file, text, '\0');
+  return text;
 }
 
 // Folders of /proc whose names are numbers.

@@ -17,4 +17,4 @@ _palpate() {
   fi
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
 }
-complete -o default -F _palpate palpate-{certify,device,feel,fit,inspect,latency,list,organ,parameters,query,replay,reproduce,server,solve,tool,viewer,watch}
+complete -o default -F _palpate palpate-{certify,device,feel,fit,inspect,latency,list,organ,parameters,query,replay,reproduce,security,server,solve,tool,viewer,watch}

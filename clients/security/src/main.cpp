@@ -128,6 +128,7 @@ int body(int argc, char** argv) {
       "Makes authority, identities and permissions for DDS topics that are signed and encrypted.");
   Arguments arguments;
   const Commands commands = addCommands(line.options(), arguments);
+  line.options().example("palpate-security init --folder security");
   if (!line.read(argc, argv)) return program::kDone;
   if (commands.init.chosen()) {
     makeAuthority(arguments.folder, {arguments.authority_days});
