@@ -3,17 +3,12 @@
 
 #include <dlfcn.h>
 #include <openssl/objects.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 
 #include "palpate/idl/certificate.h"
 #include "palpate/idl/error.h"
+#include "palpate/idl/identity_check.h"
 
 namespace palpate::dds {
 namespace {
@@ -24,46 +19,19 @@ namespace file = identity_file;
 constexpr std::time_t kDay = 86400;
 constexpr std::time_t kWarnBefore = 30 * kDay;
 
-std::string octal(mode_t mode) {
-  std::array<char, 8> text{};
-  std::snprintf(text.data(), text.size(), "%04o", mode & 07777U);
-  return text.data();
-}
-
-// Others who can write a file here could take the authority's place.
-void checkMode(const fs::path& path, mode_t forbidden, const char* expected) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0) throw DdsError(path.string() + ": " + std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) throw DdsError(path.string() + ": not a file");
-  if (status.st_uid != geteuid() && status.st_uid != 0)
-    throw DdsError(path.string() + ": belongs to user " + std::to_string(status.st_uid) +
-                   ", expected the user who runs this program, or root; chown it");
-  if ((status.st_mode & forbidden) != 0)
-    throw DdsError(path.string() + ": mode is " + octal(status.st_mode) + ", others may " +
-                   ((forbidden & S_IRGRP) != 0 ? "read" : "write") + " it; chmod " + expected + " " +
-                   path.string());
-}
-
 void checkFiles(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw DdsError(folder.string() + ": no such folder");
-  if (!fs::exists(folder / file::kCertificate) && fs::exists(folder / "issued"))
+  checkFolder(folder, Others::kRead);
+  std::error_code none;
+  if (!fs::exists(folder / file::kCertificate, none) && fs::exists(folder / "issued", none))
     throw DdsError(folder.string() + ": the folder of an authority, expected one that it issued, e.g. " +
                    (folder / "issued" / "NAME").string());
   for (const char* name : {file::kAuthority, file::kPermissionsAuthority, file::kGovernance,
                            file::kCertificate, file::kPermissions})
-    checkMode(folder / name, S_IWGRP | S_IWOTH, "go-w");
-  checkMode(folder / file::kKey, S_IRWXG | S_IRWXO, "600");
+    checkFile(folder / name, Others::kRead);
+  checkFile(folder / file::kKey, Others::kNothing);
 }
 
-// A file, and the days in which it is valid.
-void checkTimes(const fs::path& path, std::time_t start, std::time_t end) {
-  const std::time_t now = std::time(nullptr);
-  if (now < start)
-    throw DdsError(path.string() + ": valid from " + utcOf(start) + " on; is the clock right?");
-  if (now >= end)
-    throw DdsError(path.string() + ": expired on " + utcOf(end) +
-                   "; palpate-security issue --renew makes a new one");
-}
+constexpr const char* kRenew = "palpate-security issue --renew makes a new one";
 
 std::string between(const fs::path& path, const std::string& text, const std::string& tag) {
   const std::string open = "<" + tag + ">", close = "</" + tag + ">";
@@ -81,7 +49,7 @@ std::time_t checkPermissions(const fs::path& path, const X509& signer, const std
     throw DdsError(path.string() + ": subject_name is " + named + ", the certificate beside it is of " +
                    subject);
   const std::time_t end = timeOf(between(path, text, "not_after"));
-  checkTimes(path, timeOf(between(path, text, "not_before")), end);
+  checkTimes(path, timeOf(between(path, text, "not_before")), end, kRenew);
   return end;
 }
 
@@ -109,11 +77,11 @@ Identity Identity::load(const fs::path& folder) {
                  certificate_file = folder / file::kCertificate;
   const X509Ptr authority = readCertificate(authority_file), signer = readCertificate(signer_file),
                 certificate = readCertificate(certificate_file);
-  checkTimes(authority_file, startOf(*authority), endOf(*authority));
-  checkTimes(signer_file, startOf(*signer), endOf(*signer));
+  checkTimes(authority_file, startOf(*authority), endOf(*authority), kAnotherAuthority);
+  checkTimes(signer_file, startOf(*signer), endOf(*signer), kAnotherAuthority);
   if (X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) != 1)
     throw DdsError(certificate_file.string() + ": not signed by the authority of authority.pem beside it");
-  checkTimes(certificate_file, startOf(*certificate), endOf(*certificate));
+  checkTimes(certificate_file, startOf(*certificate), endOf(*certificate), kRenew);
   const KeyPtr key = readKey(folder / file::kKey);
   if (X509_check_private_key(certificate.get(), key.get()) != 1)
     throw DdsError((folder / file::kKey).string() + ": not the key of identity.pem beside it");
@@ -130,15 +98,19 @@ Identity Identity::load(const fs::path& folder) {
   identity.name_ = fieldOf(*certificate, NID_commonName);
   const std::time_t permitted =
       checkPermissions(folder / file::kPermissions, *signer, subjectOf(*certificate));
-  identity.expires_ = std::min({endOf(*authority), endOf(*signer), endOf(*certificate), permitted});
+  const std::time_t authorities_end = std::min(endOf(*authority), endOf(*signer));
+  identity.expires_ = std::min({authorities_end, endOf(*certificate), permitted});
+  identity.remedy_ =
+      identity.expires_ == authorities_end
+          ? std::string("its authority ends then: ") + kAnotherAuthority
+          : "palpate-security issue --renew " + word + " " + identity.name_ + " makes a new one";
   return identity;
 }
 
 std::string Identity::warning(std::time_t now) const {
   if (expires_ - now >= kWarnBefore) return {};
   return folder_.string() + ": expires on " + utcOf(expires_) + ", in " +
-         std::to_string((expires_ - now) / kDay) + " days; palpate-security issue --renew " +
-         std::string(wordOf(role_)) + " " + name_ + " makes a new one";
+         std::to_string((expires_ - now) / kDay) + " days; " + remedy_;
 }
 
 void Identity::applyTo(dds_qos_t& qos) const {

@@ -34,9 +34,8 @@ std::vector<std::string> SecurityWatch::poll(std::int64_t now_ns) {
   if (!expired_ && std::time(nullptr) >= participant_.identity()->expires()) {
     expired_ = true;
     lines.push_back(participant_.identity()->folder().string() +
-                    ": has expired, DDS has left the domain and no pose is answered; palpate-security issue "
-                    "--renew makes "
-                    "a new one, with which the server is to be started again");
+                    ": has expired, DDS has left the domain and no pose is answered; " +
+                    participant_.identity()->remedy() + ", and the server is to be started again with it");
   }
   const std::lock_guard lock(mutex_);
   if (line_.empty()) return lines;

@@ -17,7 +17,7 @@ class AuthorityFolder {
   }
   /// @return the identity's folder. @param[in] days  0: expired as soon as it is made
   std::filesystem::path issue(dds::Role role, const std::string& name, int days) const {
-    return security::issue(folder(), role, name, {days}, true);
+    return security::issue(folder(), role, name, {days}, true).folder;
   }
   [[nodiscard]] std::filesystem::path folder() const { return folder_ / "authority"; }
   /// "server", "driver", "viewer" or "operator"

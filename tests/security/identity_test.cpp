@@ -13,7 +13,6 @@
 #include "palpate/idl/certificate.h"
 #include "palpate/idl/error.h"
 #include "palpate/idl/topics.h"
-#include "palpate/testing/run_program.h"
 
 namespace palpate::dds {
 namespace {
@@ -57,10 +56,17 @@ TEST_F(IdentityTest, SaysItsRoleItsNameAndItsEnd) {
 }
 
 TEST_F(IdentityTest, WarnsFromThirtyDaysBeforeItsEnd) {
+  (void)authority_.issue(Role::kDriver, "driver", 20);
   const Identity identity = Identity::load(folder_);
   EXPECT_EQ(identity.warning(identity.expires() - 30 * 86400), "");
   expectContains(identity.warning(identity.expires() - 30 * 86400 + 1),
                  "in 29 days; palpate-security issue --renew driver driver");
+}
+
+TEST_F(IdentityTest, SaysThatARenewalDoesNotHelpWhereItsAuthorityEnds) {
+  const Identity identity = Identity::load(folder_);
+  expectContains(identity.warning(identity.expires() - 86400),
+                 "in 1 days; its authority ends then: palpate-security init --folder ANOTHER");
 }
 
 TEST_F(IdentityTest, AKeyThatOthersMayReadIsRefused) {
@@ -71,6 +77,18 @@ TEST_F(IdentityTest, AKeyThatOthersMayReadIsRefused) {
 TEST_F(IdentityTest, AnAuthorityThatOthersMayReplaceIsRefused) {
   fs::permissions(folder_ / "authority.pem", fs::perms::others_write, fs::perm_options::add);
   expectContains(refusal(), "authority.pem: mode is 0646, others may write it");
+}
+
+TEST_F(IdentityTest, AFolderThatOthersMayWriteIsRefused) {
+  fs::permissions(folder_, fs::perms::group_write, fs::perm_options::add);
+  expectContains(refusal(), "/driver: mode is 0720, others may write it; chmod go-w ");
+}
+
+TEST_F(IdentityTest, AFolderThatCannotBeReachedIsOneLine) {
+  fs::remove_all(folder_);
+  expectContains(refusal(), "/driver: No such file or directory");
+  fs::create_directory_symlink(folder_, folder_);
+  expectContains(refusal(), "/driver: Too many levels of symbolic links");
 }
 
 TEST_F(IdentityTest, AKeyOfAnotherUserIsRefused) {
@@ -186,31 +204,6 @@ TEST(Role, OnlyAServerForcesAndAViewerWritesNothing) {
   }
   EXPECT_TRUE(topicsWrittenBy(Role::kViewer).empty());
   EXPECT_EQ(roleOf("root"), std::nullopt);
-}
-
-TEST(SecurityProgram, MakesChecksAndRefuses) {
-  const palpate::testing::TemporaryFolder folder;
-  const std::string at = (folder / "a").string();
-  const auto run = [](std::vector<std::string> words) {
-    return palpate::testing::runProgram("palpate-security", words);
-  };
-  palpate::testing::expectOneLineError(run({"issue", "driver", "d", "--folder", at}), "holds no authority");
-  EXPECT_EQ(run({"init", "--folder", at}).exit_code, 0);
-  palpate::testing::expectOneLineError(run({"init", "--folder", at}), "holds an authority already");
-  EXPECT_EQ(run({"issue", "driver", "d", "--folder", at}).exit_code, 0);
-  palpate::testing::expectOneLineError(run({"issue", "driver", "d", "--folder", at}), "is there already");
-  palpate::testing::expectOneLineError(run({"issue", "driver", "../d", "--folder", at}), "name is '../d'");
-  EXPECT_EQ(run({"issue", "king", "d", "--folder", at}).exit_code, 2);
-  EXPECT_EQ(run({"issue", "viewer", "d", "--renew", "--days", "20", "--folder", at}).exit_code, 0);
-  EXPECT_EQ(fs::status(folder / "a/private").permissions(), fs::perms::owner_all);
-  const auto valid = run({"check", "--folder", at});
-  EXPECT_EQ(valid.exit_code, 0) << valid.out;
-  expectContains(valid.out, "viewer d\n  warning: ");
-  fs::permissions(folder / "a/issued/d/identity.key", fs::perms::group_read, fs::perm_options::add);
-  const auto broken = run({"check", "--folder", at, "--json"});
-  EXPECT_EQ(broken.exit_code, 3);
-  expectContains(broken.out, "others may read it");
-  expectContains(broken.out, "\"valid\":false");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ctime>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -28,15 +29,29 @@ struct Days {
 /// Makes an authority, two keys with their certificates: authority.pem signs identities, permissions_authority.pem governance and
 /// permissions. Beside them governance.p7s, `private` with the keys, and the empty folder `issued`.
 /// Keys are elliptic, P-256; signatures SHA-256.
-/// @throw SecurityError  one is there already, or the folder cannot be written
+/// Modes are set of what is made only. @throw SecurityError, dds::DdsError, program::WriteError  one is there already, others may
+/// write the folder or read `private`, or it cannot be written
 void makeAuthority(const std::filesystem::path& folder, Days days);
 
+/// Checks what lies in an authority's folder, its keys only where `private` is: that may be kept elsewhere.
+/// @return when it ends
+/// @throw dds::DdsError naming the file: missing, others may write it or read a key, expired, or not of the others there
+std::time_t checkAuthority(const std::filesystem::path& folder);
+
+/// An identity that was made.
+struct Issued {
+  std::filesystem::path folder;
+  std::time_t end;
+  bool cut;  ///< earlier than was asked for: its authority ends then
+};
+
 /// Makes FOLDER/issued/NAME: what Identity::load() reads.
-/// @param[in] renew  replace what is there; otherwise it is refused
-/// @return the identity's folder
-/// @throw SecurityError, dds::DdsError  no authority there, a name that no file can have, an identity that is there already
-std::filesystem::path issue(const std::filesystem::path& folder, dds::Role role, const std::string& name,
-                            Days days, bool renew);
+/// @param[in] days  at most as long as its authority
+/// @param[in] renew  replace what is there, all at once; otherwise it is refused
+/// @throw SecurityError, dds::DdsError, program::WriteError  no authority there or as checkAuthority(), a name that no file can have,
+///        an identity that is there already
+Issued issue(const std::filesystem::path& folder, dds::Role role, const std::string& name, Days days,
+             bool renew);
 
 /// Who signs a document: PEM files.
 struct Signer {

@@ -78,13 +78,28 @@ Verdict judge(const fs::path& folder) {
   return verdict;
 }
 
+Verdict judgeAuthority(const fs::path& folder) {
+  Verdict verdict{folder, {}, {}, 0, {}, {}};
+  try {
+    verdict.expires = checkAuthority(folder);
+    verdict.role = "authority";
+    verdict.name = folder.string();
+  } catch (const dds::DdsError& error) {
+    verdict.problem = error.what();
+  }
+  return verdict;
+}
+
+// An authority first, then what it issued, by name. What begins with a dot is about to become one.
 std::vector<Verdict> judgeAll(const fs::path& folder) {
   if (!fs::exists(folder / kIssued)) return {judge(folder)};
   std::vector<Verdict> verdicts;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / kIssued))
-    if (entry.is_directory()) verdicts.push_back(judge(entry.path()));
+    if (entry.is_directory() && entry.path().filename().string().front() != '.')
+      verdicts.push_back(judge(entry.path()));
   std::sort(verdicts.begin(), verdicts.end(),
             [](const Verdict& a, const Verdict& b) { return a.folder < b.folder; });
+  verdicts.insert(verdicts.begin(), judgeAuthority(folder));
   return verdicts;
 }
 
@@ -111,7 +126,6 @@ int check(const Arguments& arguments) {
     program::printJson(jsonOf(verdicts, valid));
     return valid ? program::kDone : program::kNotHeld;
   }
-  if (verdicts.empty()) std::cout << arguments.folder.string() << ": nothing was issued yet\n";
   for (const Verdict& v : verdicts) {
     if (v.problem.empty())
       std::cout << "valid until " << dds::utcOf(v.expires) << "  " << v.role << " " << v.name << "\n";
@@ -137,10 +151,11 @@ int body(int argc, char** argv) {
     return program::kDone;
   }
   if (commands.check.chosen()) return check(arguments);
-  const fs::path made = issue(arguments.folder, *dds::roleOf(arguments.role), arguments.name,
-                              {arguments.days}, arguments.renew);
-  std::cout << made.string()
-            << ": copy it to its machine, as that program's user, and start the program with --security "
+  const Issued made = issue(arguments.folder, *dds::roleOf(arguments.role), arguments.name, {arguments.days},
+                            arguments.renew);
+  std::cout << made.folder.string() << ": valid until " << dds::utcOf(made.end)
+            << (made.cut ? ", when its authority ends" : "")
+            << "; copy it to its machine, as that program's user, and start the program with --security "
             << "FOLDER\n";
   return program::kDone;
 }

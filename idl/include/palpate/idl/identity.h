@@ -27,7 +27,7 @@ inline constexpr const char* kPermissions = "permissions.p7s";  ///< what the ro
 /// folder. Checked before DDS sees them, since DDS says little of what is wrong.
 class Identity {
  public:
-  /// @throw DdsError naming the file, what is wrong and what to do: a file is missing, a key may be read or a file written by
+  /// @throw DdsError naming the file, what is wrong and what to do: a file is missing, a key may be read, a file or the folder written by
   ///        others, a certificate or permissions are not the authority's, not of each other, not valid yet or expired
   [[nodiscard]] static Identity load(const std::filesystem::path& folder);
 
@@ -36,6 +36,9 @@ class Identity {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   /// When the first of both authorities, certificate and permissions ends.
   [[nodiscard]] std::time_t expires() const noexcept { return expires_; }
+
+  /// What to do about its end, "palpate-security ... makes a new one".
+  [[nodiscard]] const std::string& remedy() const noexcept { return remedy_; }
 
   /// One line from 30 days before expires() on, else empty.
   [[nodiscard]] std::string warning(std::time_t now = std::time(nullptr)) const;
@@ -46,7 +49,7 @@ class Identity {
  private:
   std::filesystem::path folder_;
   Role role_{Role::kViewer};
-  std::string name_;
+  std::string name_, remedy_;
   std::time_t expires_{0};
 };
 
