@@ -26,7 +26,7 @@ Case handheld(std::optional<double> limit) {
 
 class HandheldBlock : public ::testing::Test {
  protected:
-  static constexpr double kLimit = 1.2e6;
+  static constexpr double kLimit = 1e6;  // leaves room for fewer modes than the block's fields have in float32
   static void SetUpTestSuite() {
     small_ = std::make_unique<BlockModel>(block(), handheld(kLimit), "small.h5");
     full_ = std::make_unique<BlockModel>(block(), Case{});
@@ -68,7 +68,7 @@ TEST_F(HandheldBlock, AnswersLikeNewton) {
   }
   std::sort(field.begin(), field.end());
   EXPECT_LT(field[field.size() / 2], 0.03);
-  EXPECT_LT(field.back(), 0.06);
+  EXPECT_LT(field.back(), 0.04);
 }
 
 TEST_F(HandheldBlock, IsSolvedFromCornersAlone) {
