@@ -73,7 +73,7 @@ TEST(HapticC, AnswersBadArgumentsWithACode) {
   options.force_limit = 50.0;
   options.security = "/none";
   EXPECT_EQ(palpate_haptic_open(&options, error, sizeof error), nullptr);
-  EXPECT_STREQ(error, "/none: no such fold");
+  EXPECT_STREQ(error, "/none: No such file");
   options.security = nullptr;
   palpate_haptic* tool = palpate_haptic_open(&options, nullptr, 0);
   ASSERT_NE(tool, nullptr);
