@@ -7,8 +7,8 @@ namespace palpate::rt {
 namespace {
 
 LateCause causeOfRunning(const LateFacts& facts) noexcept PALPATE_NONBLOCKING {
-  const std::int64_t faults = facts.minor_faults + facts.major_faults;
-  return 2 * faults * kFaultCost >= facts.cpu_ns && faults > 0 ? LateCause::kPageFault : LateCause::kOwnWork;
+  const std::int64_t cost = facts.minor_faults * kFaultCost + facts.major_faults * kReadCost;
+  return 2 * cost >= facts.cpu_ns && cost > 0 ? LateCause::kPageFault : LateCause::kOwnWork;
 }
 
 LateCause causeOfStanding(const LateFacts& facts) noexcept PALPATE_NONBLOCKING {

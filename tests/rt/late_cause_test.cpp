@@ -32,6 +32,16 @@ TEST(CauseOf, PageFaultWhereFaultsCanMakeHalfOfWhatItRan) {
   EXPECT_EQ(causeOf(facts), LateCause::kPageFault);
 }
 
+TEST(CauseOf, PageFaultWhereReadsCanMakeHalfOfWhatItRan) {
+  LateFacts facts;
+  facts.span_ns = 5'400'000;
+  facts.cpu_ns = 5'200'000;
+  facts.major_faults = 25;
+  EXPECT_EQ(causeOf(facts), LateCause::kOwnWork);
+  facts.major_faults = 56;  // as measured: docs/decisions/late_ticks.md
+  EXPECT_EQ(causeOf(facts), LateCause::kPageFault);
+}
+
 TEST(CauseOf, PageFaultWhereItWaitedForAPage) {
   LateFacts facts = lateBy(5 * kMs);
   facts.major_faults = 1;

@@ -35,11 +35,13 @@ struct LateFacts {
 };
 
 /// The cause of the largest part of the span. What neither ran, nor queued, nor leapt was spent waiting for pages, stopped, or
-/// without the virtual processor. CPU time counts as page faults where these, at kFaultCost each, make half of it.
+/// without the virtual processor. CPU time counts as page faults where these, at what they cost at most, make half of it.
 /// Cost: a few comparisons. Real-time: yes.
 [[nodiscard]] LateCause causeOf(const LateFacts& facts) noexcept PALPATE_NONBLOCKING;
 
 /// Most CPU time that a page fault takes while memory is short, ns: 1.4 us with memory to spare (docs/decisions/late_ticks.md).
 inline constexpr std::int64_t kFaultCost = 10'000;
+/// The same of a page that is read from a disk, a major fault: here 5 ms for about 56 of them, mostly CPU time of the kernel.
+inline constexpr std::int64_t kReadCost = 100'000;
 
 }  // namespace palpate::rt
