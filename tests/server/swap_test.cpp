@@ -168,7 +168,8 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
   std::memcpy(bytes.data() + tree + 32, &tree, sizeof tree);
   (void)folder_.write("endless.h5", bytes);
   bytes = palpate::testing::contentOf(folder_ / "stiff.h5");
-  const std::uint64_t all = ~std::uint64_t{1};  // bytes of the heap of names: HDF5 1.10.8 writes over its own memory
+  const std::uint64_t all =
+      ~std::uint64_t{1};  // bytes of the heap of names: HDF5 1.10.8 writes over its own memory
   std::memcpy(bytes.data() + bytes.find("HEAP") + 8, &all, sizeof all);
   (void)folder_.write("heap.h5", bytes);
   std::filesystem::create_symlink(model_, folder_ / "out.h5");

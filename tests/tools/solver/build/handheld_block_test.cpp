@@ -26,7 +26,8 @@ Case handheld(std::optional<double> limit) {
 
 class HandheldBlock : public ::testing::Test {
  protected:
-  static constexpr double kLimit = 1e6;  // leaves room for fewer modes than the block's fields have in float32
+  static constexpr double kLimit =
+      1e6;  // leaves room for fewer modes than the block's fields have in float32
   static void SetUpTestSuite() {
     small_ = std::make_unique<BlockModel>(block(), handheld(kLimit), "small.h5");
     full_ = std::make_unique<BlockModel>(block(), Case{});
