@@ -88,7 +88,9 @@ void Events::noteMisfits(std::int64_t now_ns) {
 }
 
 void Events::noteSecurity(std::int64_t now_ns) {
-  if (security_ != nullptr) warnOfSome(kOutsiderKind, security_->poll(now_ns), untold_outsiders_, now_ns);
+  if (security_ == nullptr) return;
+  if (const std::string end = security_->pollOwn(now_ns); !end.empty()) warn(kIdentityKind, end, now_ns);
+  warnOfSome(kOutsiderKind, security_->pollOthers(), untold_outsiders_, now_ns);
 }
 
 void Events::noteUnknownTools(std::int64_t now_ns) {

@@ -24,19 +24,20 @@ SecurityWatch::~SecurityWatch() {
   dds_set_log_sink(nullptr, nullptr);  // returns when no thread is inside
 }
 
-std::vector<std::string> SecurityWatch::poll(std::int64_t now_ns) {
+std::string SecurityWatch::pollOwn(std::int64_t now_ns) {
+  const dds::Identity& identity = *participant_.identity();
+  if (std::time(nullptr) >= identity.expires()) {
+    if (std::exchange(expired_, true)) return {};
+    return identity.folder().string() + ": has expired, DDS has left the domain and no pose is answered; " +
+           identity.remedy() + ", and the server is to be started again with it";
+  }
+  if (warned_ns_ != 0 && now_ns - warned_ns_ < kDay) return {};
+  warned_ns_ = now_ns;
+  return identity.warning();
+}
+
+std::vector<std::string> SecurityWatch::pollOthers() {
   std::vector<std::string> lines = outsiders_.poll();
-  if (warned_ns_ == 0 || now_ns - warned_ns_ >= kDay) {
-    warned_ns_ = now_ns;
-    if (std::string warning = participant_.identity()->warning(); !warning.empty())
-      lines.push_back(std::move(warning));
-  }
-  if (!expired_ && std::time(nullptr) >= participant_.identity()->expires()) {
-    expired_ = true;
-    lines.push_back(participant_.identity()->folder().string() +
-                    ": has expired, DDS has left the domain and no pose is answered; " +
-                    participant_.identity()->remedy() + ", and the server is to be started again with it");
-  }
   const std::lock_guard lock(mutex_);
   if (line_.empty()) return lines;
   lines.push_back("DDS: " + std::exchange(line_, {}));

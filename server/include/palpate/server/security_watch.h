@@ -21,9 +21,12 @@ class SecurityWatch {
   SecurityWatch(const SecurityWatch&) = delete;
   SecurityWatch& operator=(const SecurityWatch&) = delete;
 
-  /// Lines since the last call. Of DDS's own the first, with the number of those that came behind it: others decide how many
-  /// there are. That the identity ends: 30 days before, at the first call and each day.
-  [[nodiscard]] std::vector<std::string> poll(std::int64_t now_ns);
+  /// Of others, since the last call. Of DDS's own lines the first, with the number of those that came behind it: others decide
+  /// how many there are.
+  [[nodiscard]] std::vector<std::string> pollOthers();
+  /// That the own identity ends: 30 days before, at the first call and each day; and once, that it has. Empty: nothing to tell.
+  /// Apart from others' lines, which may be left out.
+  [[nodiscard]] std::string pollOwn(std::int64_t now_ns);
 
  private:
   static void onLine(void* self, const dds_log_data_t* line);
