@@ -11,6 +11,7 @@
 #include <set>
 
 #include "../load_case.h"
+#include "palpate/testing/sanitizers.h"
 
 namespace palpate::testing {
 
@@ -90,11 +91,11 @@ TEST_P(CraftedBytes, AreRefusedInOneLine) {
   const std::string text = complaintOfBytes(bytes);
   EXPECT_NE(text, "");
   expectParsed(text);
-  // HDF5 1.10.8 writes over its heap, and reads where nothing is.
+  // HDF5 1.10.8 writes over its heap, and reads where nothing is. AddressSanitizer sees more of that, and ends the process itself.
   static const std::set<std::string> kEndTheProcess{"HeapOfAllBytes", "TextLongerThanItsCollection"};
-  EXPECT_EQ(text.find("the process that parses it ended ") != std::string::npos,
-            kEndTheProcess.count(GetParam().name) > 0)
-      << text;
+  const bool ended = text.find("the process that parses it ended ") != std::string::npos;
+  const bool expected = kEndTheProcess.count(GetParam().name) > 0;
+  EXPECT_TRUE(ended == expected || (ended && testing::kSanitized)) << text;
   RecordProperty("refusal", text);
 }
 
