@@ -34,16 +34,16 @@ class ModelExchangeTest : public ::testing::Test {
                       std::make_unique<ModelLoader>(folder_.path()));
   }
 
-  // Polls until the request has ended, or the tick is to go over.
+  // Polls until the request has ended, or the tick is to go over; for a minute: a process is started under sanitizers, too.
   std::optional<ExchangeOutcome> settle() {
-    for (int i = 0; i < 2000 && !exchange_->leaving(); ++i) {
+    for (int i = 0; i < 12'000 && !exchange_->leaving(); ++i) {
       if (auto outcome = exchange_->poll(now_ns_)) return outcome;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return std::nullopt;
   }
   [[nodiscard]] bool freed() const {
-    for (int i = 0; i < 400 && !first_.expired(); ++i)
+    for (int i = 0; i < 4000 && !first_.expired(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return first_.expired();
   }
