@@ -34,8 +34,8 @@ constexpr std::size_t kMostSaid = 8U << 20U;
   throw LoadError(name + ": no process can be started to parse it, " + program + ": " + std::strerror(error));
 }
 
-/// That of this installation or build. @throw LoadError  nothing says where this program is, and a relative path would be looked for in the
-/// working directory
+/// That of this installation or build. @throw LoadError  nothing says where this program is, and a relative path would be looked
+/// for in the working directory
 std::string readerProgram(const std::string& name) {
   std::error_code failure;
   const fs::path self = fs::read_symlink("/proc/self/exe", failure);

@@ -66,11 +66,12 @@ dds::ServerParameters newestAnswer(const dds::Participant& participant, const dd
   std::array<dds::ServerParameters, dds::kMaxTake> samples;
   while (Clock::now() <= end && !stopRequested()) {
     for (std::size_t i = answers.view().take(samples); i-- > 0;)
-      if (samples[i].server_id == question.server_id &&
+      if (!samples[i].pending && samples[i].server_id == question.server_id &&
           (question.session == 0 || samples[i].session == question.session))
         return samples[i];
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  if (stopRequested()) throw ClientError("interrupted while waiting for a server");
   throw ClientError(missing(question.server_id, participant, answers, patience));
 }
 

@@ -12,8 +12,7 @@ namespace palpate::client {
 /// What a program's --security says of itself.
 inline constexpr const char* kSecurityHelp =
     "folder with this program's identity (palpate-security issue), where topics are signed and encrypted; "
-    "default: they "
-    "are not";
+    "default: they are not";
 
 /// Programs that only read.
 inline constexpr std::initializer_list<dds::Role> kReaders{dds::Role::kViewer, dds::Role::kDriver,

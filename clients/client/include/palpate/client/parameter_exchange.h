@@ -13,7 +13,8 @@ namespace palpate::client {
 /// answer is kept for late readers.
 /// @param[in] request  server_id, fields and values, or model
 /// @return the server's answer, accepted or not, never one that says that another follows
-/// @throw ClientError  for `patience` no answer, nor a word that it follows; the user interrupted; its role may not ask for a change; dds::DdsError
+/// @throw ClientError  for `patience` no answer, nor a word that it follows; the user interrupted; its role may not ask for a
+/// change; dds::DdsError
 /// Real-time: no.
 [[nodiscard]] dds::ServerParameters exchangeParameters(const dds::Participant& participant,
                                                        dds::ParameterRequest request,
