@@ -31,13 +31,26 @@ Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns, std::int64_t
   return {std::max(next_ns, now_ns + 1), static_cast<std::uint64_t>(missed)};
 }
 
+std::int64_t awaitDeadline(std::int64_t deadline_ns, const Rehearsal& rehearsal) noexcept {
+  sleepUntil(deadline_ns - rehearsal.lead_ns);
+  std::int64_t now_ns = monotonicNow();
+  if (rehearsal.function != nullptr && now_ns < deadline_ns) rehearsal.function(rehearsal.context);
+  do now_ns = monotonicNow();
+  while (now_ns < deadline_ns);
+  return now_ns;
+}
+
 // Finds late cycles, on the periodic thread, between two cycles. One that was on time costs one reading; one that was late also a
 // file of /proc and the listener.
 class PeriodicThread::LateWatch {
  public:
-  LateWatch(const LateListener& listener, std::int64_t period_ns,
+  LateWatch(const LateListener& listener, std::int64_t period_ns, std::int64_t lead_ns,
             std::atomic<std::int64_t>& slack_ns) noexcept
-      : listener_(listener), late_ns_(period_ns / 2), slack_ns_(slack_ns), before_(readThisThread()) {}
+      : listener_(listener),
+        late_ns_(period_ns / 2),
+        lead_ns_(lead_ns),
+        slack_ns_(slack_ns),
+        before_(readThisThread()) {}
 
   void ended(const Cycle& cycle, std::uint64_t missed) noexcept {
     const ThreadReading ended = readThisThread();
@@ -47,7 +60,8 @@ class PeriodicThread::LateWatch {
                                              queue_.queued_ns(), slack_ns_.load(std::memory_order_relaxed)});
       before_ = readThisThread();  // the listener's time is nobody's
     } else {
-      const std::int64_t idle_ns = ended.at_ns - cycle.deadline_ns - (ended.cpu_ns - before_.cpu_ns);
+      const std::int64_t idle_ns =
+          ended.at_ns - (cycle.deadline_ns - lead_ns_) - (ended.cpu_ns - before_.cpu_ns);
       if (idle_ns > 0)
         slack_ns_.store(slack_ns_.load(std::memory_order_relaxed) + idle_ns, std::memory_order_relaxed);
       before_ = ended;
@@ -56,19 +70,20 @@ class PeriodicThread::LateWatch {
 
  private:
   LateListener listener_;
-  std::int64_t late_ns_;
+  std::int64_t late_ns_, lead_ns_;
   std::atomic<std::int64_t>& slack_ns_;
   RunQueueFile queue_;
   ThreadReading before_;
 };
 
 PeriodicThread::PeriodicThread(const ThreadOptions& options, std::int64_t period_ns, Function function,
-                               void* context, const LateListener& late) {
+                               void* context, const LateListener& late, const Rehearsal& rehearsal) {
   if (period_ns <= 0) {
     throw std::invalid_argument("thread " + options.name + ": period is " + std::to_string(period_ns) +
                                 " ns, expected more than 0");
   }
-  thread_ = std::make_unique<Thread>(options, [=, this] { run(period_ns, function, context, late); });
+  thread_ =
+      std::make_unique<Thread>(options, [=, this] { run(period_ns, function, context, late, rehearsal); });
 }
 
 void PeriodicThread::stop() {
@@ -76,17 +91,16 @@ void PeriodicThread::stop() {
   thread_->join();
 }
 
-void PeriodicThread::run(std::int64_t period_ns, Function function, void* context,
-                         const LateListener& late) noexcept {
+void PeriodicThread::run(std::int64_t period_ns, Function function, void* context, const LateListener& late,
+                         const Rehearsal& rehearsal) noexcept {
   id_.store(gettid(), std::memory_order_relaxed);
   std::optional<LateWatch> watch;
-  if (late.function != nullptr) watch.emplace(late, period_ns, slack_ns_);
+  if (late.function != nullptr) watch.emplace(late, period_ns, rehearsal.lead_ns, slack_ns_);
   std::int64_t faults_before = pageFaultsOfThisThread();
   Cycle cycle;
   cycle.deadline_ns = monotonicNow() + period_ns;
   while (!stopping_.load(std::memory_order_relaxed)) {
-    sleepUntil(cycle.deadline_ns);
-    cycle.woke_ns = monotonicNow();
+    cycle.woke_ns = awaitDeadline(cycle.deadline_ns, rehearsal);
     const std::int64_t shift_ns = function(context, cycle);
     const std::int64_t now_ns = monotonicNow();
     const Deadline next = nextDeadline(cycle.deadline_ns, period_ns, now_ns, shift_ns);

@@ -171,8 +171,9 @@ void Server::startThreads(const ServerConfig& config) {
   if (recorder_) recorder_thread_ = start("recorder", 0, [this] { recorder_->run(); });
   rt::ThreadOptions tick{"tick", kTickPriority, policy, {}};
   if (config.tick_cpu != kAnyCpu) tick.cpus = {static_cast<int>(config.tick_cpu)};
-  tick_thread_ = std::make_unique<rt::PeriodicThread>(tick, periodOf(config), &Tick::onCycle, &tick_,
-                                                      rt::LateListener{&Tick::onLate, &channels_});
+  tick_thread_ = std::make_unique<rt::PeriodicThread>(
+      tick, periodOf(config), &Tick::onCycle, &tick_, rt::LateListener{&Tick::onLate, &channels_},
+      rt::Rehearsal{&Tick::onRehearsal, &tick_, rt::rehearsalLead(periodOf(config))});
   late_watch_.emplace(channels_, *tick_thread_, tick_thread_->realtime() ? kTickPriority : 0);
   late_thread_ = start("late-watch", 0, [this] { late_watch_->run(); });
 }

@@ -225,6 +225,11 @@ void Tick::followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   shift_ns_ = shifts[followed_];
 }
 
+void Tick::onRehearsal(void* context) noexcept PALPATE_NONBLOCKING {
+  auto& tick = *static_cast<Tick*>(context);
+  (void)step(tick.engine_->organ, tick.engine_->rehearsal, tick.input_, tick.rehearsed_);
+}
+
 void Tick::onLate(void* channels, const rt::LateCycle& cycle) noexcept PALPATE_NONBLOCKING {
   auto& into = *static_cast<Channels*>(channels);
   if (!into.late_cycles.push(cycle)) into.unjudged.fetch_add(1, std::memory_order_relaxed);

@@ -122,6 +122,67 @@ TEST(PeriodicThread, MovesItsGridByWhatTheCycleAsksFor) {
   }
 }
 
+struct Rehearsed {
+  Log log;
+  std::array<int, Log::kCycles> rehearsals{};  // before each cycle
+  std::int64_t newest_ns{0};
+  std::array<std::int64_t, Log::kCycles> rehearsed_ns{};
+};
+
+std::int64_t cycleOfRehearsed(void* context, const Cycle& cycle) noexcept {
+  auto& rehearsed = *static_cast<Rehearsed*>(context);
+  if (rehearsed.log.count < Log::kCycles) rehearsed.rehearsed_ns[rehearsed.log.count] = rehearsed.newest_ns;
+  return logCycle(&rehearsed.log, cycle);
+}
+
+PALPATE_TRUSTED_BEGIN
+constexpr PeriodicThread::Function kCycleOfRehearsed = cycleOfRehearsed;
+PALPATE_TRUSTED_END
+
+void rehearse(void* context) noexcept PALPATE_NONBLOCKING {
+  auto& rehearsed = *static_cast<Rehearsed*>(context);
+  if (rehearsed.log.count < Log::kCycles) ++rehearsed.rehearsals[rehearsed.log.count];
+  rehearsed.newest_ns = monotonicNow();
+}
+
+TEST(PeriodicThread, RehearsesOnceBeforeEachDeadlineThatItWakesBefore) {
+  constexpr std::int64_t kLead = kPeriod / 4;
+  Rehearsed rehearsed;
+  PeriodicThread thread({"test-rehearsal", 0, RealtimePolicy::kOff}, kPeriod, kCycleOfRehearsed, &rehearsed,
+                        {}, {rehearse, &rehearsed, kLead});
+  rehearsed.log.done.wait();
+  thread.stop();
+  int times = 0;
+  for (std::size_t i = 0; i < Log::kCycles; ++i) {
+    const Cycle& cycle = rehearsed.log.cycles[i];
+    EXPECT_GE(cycle.woke_ns, cycle.deadline_ns) << "the cycle before it was due: " << i;
+    ASSERT_LE(rehearsed.rehearsals[i], 1);
+    if (rehearsed.rehearsals[i] == 0) {
+      EXPECT_GT(cycle.woke_ns, cycle.deadline_ns);  // it woke too late
+      continue;
+    }
+    ++times;
+    EXPECT_GE(rehearsed.rehearsed_ns[i], cycle.deadline_ns - kLead) << i;
+    EXPECT_LE(rehearsed.rehearsed_ns[i], cycle.woke_ns) << i;
+  }
+  EXPECT_GT(times, 0);
+}
+
+TEST(AwaitDeadline, ThatIsPastDoesNotRehearse) {
+  Rehearsed rehearsed;
+  const std::int64_t now_ns = monotonicNow();
+  EXPECT_GE(awaitDeadline(now_ns, {rehearse, &rehearsed, kPeriod}), now_ns);
+  EXPECT_EQ(rehearsed.rehearsals[0], 0);
+  const std::int64_t due_ns = monotonicNow() + 5 * kPeriod;
+  EXPECT_GE(awaitDeadline(due_ns, {}), due_ns);
+}
+
+TEST(RehearsalLead, IsASmallPartOfThePeriod) {
+  EXPECT_EQ(rehearsalLead(1'000'000), 50'000);
+  EXPECT_EQ(rehearsalLead(250'000), 31'250);
+  EXPECT_EQ(rehearsalLead(100'000), 12'500);
+}
+
 struct LateLog {
   std::array<LateCycle, 4 * Log::kCycles> cycles;
   std::size_t count{0};

@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/tick/step.h"
+#include "palpate/rt/clock.h"
+#include "palpate/rt/periodic_thread.h"
 #include "tools/examine/bench/scratch_model.h"
 #include "tools/examine/bench/synthetic_model.h"
 #include "tools/examine/bench/ways.h"
@@ -21,7 +22,6 @@ namespace palpate::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Way = std::vector<Vec3>;
 
 constexpr double kDepth = 0.002, kPress = 0.001;  // m
@@ -52,23 +52,39 @@ Vec3 pointAt(const Way& way, double place) {
   return (1.0 - share) * way[i] + share * way[i + 1];
 }
 
-void play(const MetaModel& model, const StepConfig& config, const Way& way, double rate_hz, OtherWork& other,
-          StepTimes& out, std::size_t& ticks) {
+/// The step of a tick ago, as the server's loop rehearses it.
+struct LastStep {
+  const MetaModel& model;
+  Workspace work;
+  StepInput input;
+  StepResult result;
+
+  static void rehearse(void* context) noexcept {
+    auto& last = *static_cast<LastStep*>(context);
+    benchmark::DoNotOptimize(step(last.model, last.work, last.input, last.result));
+  }
+};
+
+void play(const MetaModel& model, const StepConfig& config, const Way& way, const Cadence& cadence,
+          OtherWork& other, StepTimes& out, std::size_t& ticks) {
   Workspace work(model, config);
   StepInput input;
   StepResult result;
   input.tools[0].present = 1;
-  input.dt_ns = input.period_ns = std::llround(1e9 / rate_hz);
-  const std::chrono::nanoseconds period(input.period_ns);
-  Clock::time_point next = Clock::now();
-  for (double place = 0.0; place < static_cast<double>(way.size() - 1); place += kWayRate / rate_hz) {
+  input.dt_ns = input.period_ns = std::llround(1e9 / cadence.rate_hz);
+  LastStep last{model, Workspace(model, config), input, {}};
+  rt::Rehearsal rehearsal;
+  if (cadence.rehearsed) rehearsal = {&LastStep::rehearse, &last, rt::rehearsalLead(input.period_ns)};
+  std::int64_t next_ns = rt::monotonicNow();
+  for (double place = 0.0; place < static_cast<double>(way.size() - 1); place += kWayRate / cadence.rate_hz) {
     const Vec3 c = pointAt(way, place);
     input.tools[0].position = {c.x(), c.y(), c.z()};
     other.run();
-    next = std::max(next + period, Clock::now());
-    std::this_thread::sleep_until(next);
+    next_ns = std::max(next_ns + input.period_ns, rt::monotonicNow());
+    (void)rt::awaitDeadline(next_ns, rehearsal);
     Samples one;
     one.time([&] { benchmark::DoNotOptimize(step(model, work, input, result)); });
+    last.input = input;
     ++ticks;
     if ((result.tools[0].flags & kInContact) != 0) out.samples.add(one);
   }
@@ -119,7 +135,7 @@ StepTimes timeAtCadence(const MetaModel& model, const Cadence& cadence) {
   StepTimes out;
   std::size_t ticks = 0;
   for (const Way& way : waysOver(model, {kDepth, kPress, config.tip_radius, cadence.ways, cadence.length}))
-    play(model, config, way, cadence.rate_hz, other, out, ticks);
+    play(model, config, way, cadence, other, out, ticks);
   out.in_contact = static_cast<double>(out.samples.count()) / static_cast<double>(ticks);
   return out;
 }
@@ -127,16 +143,20 @@ StepTimes timeAtCadence(const MetaModel& model, const Cadence& cadence) {
 void registerCadence(const MetaModel& model, double rate_hz) {
   constexpr double kCoupling = 300.0;                                                 // N/m, a Touch
   const int ways = std::max(2, static_cast<int>(Cadence{}.ways * 1000.0 / rate_hz));  // 8 s of ticks
-  const auto add = [&](const char* name, double coupling) {
-    benchmark::RegisterBenchmark(name,
-                                 [&model, rate_hz, coupling, ways](benchmark::State& state) {
-                                   atCadence(state, model, {rate_hz, coupling, ways});
-                                 })
+  const auto add = [&](const char* name, Cadence cadence) {
+    cadence.rate_hz = rate_hz;
+    cadence.ways = ways;
+    benchmark::RegisterBenchmark(
+        name, [&model, cadence](benchmark::State& state) { atCadence(state, model, cadence); })
         ->Unit(benchmark::kMillisecond)
         ->Iterations(1);
   };
-  add("cadence/default/friction", Cadence{}.coupling);
-  add("cadence/default/friction_coupled", kCoupling);
+  Cadence coupled, unrehearsed;
+  coupled.coupling = kCoupling;
+  unrehearsed.rehearsed = false;
+  add("cadence/default/friction", {});
+  add("cadence/default/friction_coupled", coupled);
+  add("cadence/default/friction_unrehearsed", unrehearsed);
 }
 
 void registerGrowth(double rate_hz) {

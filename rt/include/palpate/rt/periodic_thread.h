@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -14,7 +15,7 @@ namespace palpate::rt {
 struct Cycle {
   std::uint64_t index{0};       ///< cycles run before this one
   std::int64_t deadline_ns{0};  ///< when it was due, CLOCK_MONOTONIC
-  std::int64_t woke_ns{0};      ///< when it began
+  std::int64_t woke_ns{0};      ///< when it began, not before that
   std::int64_t previous_ns{0};  ///< how long the cycle before computed; 0 in the first
   std::uint64_t overruns{0};    ///< periods missed since the start
 };
@@ -36,6 +37,24 @@ struct LateListener {
   void (*function)(void* context, const LateCycle& cycle) noexcept PALPATE_NONBLOCKING{nullptr};
   void* context{nullptr};
 };
+
+/// Is called shortly before each cycle, so that the processor's caches have what the cycle reads and runs. The thread wakes
+/// lead_ns before the deadline, calls it and spins for the rest; where it wakes after the deadline, the cycle begins at once.
+struct Rehearsal {
+  void (*function)(void* context) noexcept PALPATE_NONBLOCKING{nullptr};
+  void* context{nullptr};
+  std::int64_t lead_ns{0};
+};
+
+/// How long before a deadline a rehearsal begins, ns: time for a late wake-up and for a step with cold caches, and at most an
+/// eighth of the period.
+[[nodiscard]] constexpr std::int64_t rehearsalLead(std::int64_t period_ns) noexcept {
+  return std::min<std::int64_t>(50'000, period_ns / 8);
+}
+
+/// Sleeps until the rehearsal, or without one until the deadline, and returns at the deadline.
+/// @return the time then, ns, on CLOCK_MONOTONIC
+std::int64_t awaitDeadline(std::int64_t deadline_ns, const Rehearsal& rehearsal) noexcept;
 
 /// The next wake-up on the grid of periods, and how many were missed.
 struct Deadline {
@@ -66,9 +85,10 @@ class PeriodicThread {
   /// Starts at once.
   /// @param[in] period_ns  > 0
   /// @param[in] late       with a function, each cycle ends with a ThreadReading
+  /// @param[in] rehearsal  without a function, the thread sleeps until each deadline
   /// @throw RealtimeError  as Thread; @throw std::invalid_argument  period_ns <= 0
   PeriodicThread(const ThreadOptions& options, std::int64_t period_ns, Function function, void* context,
-                 const LateListener& late = {});
+                 const LateListener& late = {}, const Rehearsal& rehearsal = {});
   ~PeriodicThread() { stop(); }
   PeriodicThread(const PeriodicThread&) = delete;
   PeriodicThread& operator=(const PeriodicThread&) = delete;
@@ -81,8 +101,8 @@ class PeriodicThread {
   /// The kernel's number of the thread; 0 until its first cycle. Threads: any.
   [[nodiscard]] int id() const noexcept { return id_.load(std::memory_order_relaxed); }
 
-  /// Time that cycles which were not late did not run, from when they were due until they ended, ns, so far; 0 without a
-  /// LateListener. No more of what the thread has queued belongs to them. Threads: any.
+  /// Time that cycles which were not late did not run, from when the thread had to wake until they ended, ns, so far; 0 without
+  /// a LateListener. No more of what the thread has queued belongs to them. Threads: any.
   [[nodiscard]] std::int64_t slack() const noexcept { return slack_ns_.load(std::memory_order_relaxed); }
 
   /// Page faults of the thread from the end of its tenth cycle to the end of its last one. Valid after stop().
@@ -90,7 +110,8 @@ class PeriodicThread {
 
  private:
   class LateWatch;
-  void run(std::int64_t period_ns, Function function, void* context, const LateListener& late) noexcept;
+  void run(std::int64_t period_ns, Function function, void* context, const LateListener& late,
+           const Rehearsal& rehearsal) noexcept;
 
   std::atomic<bool> stopping_{false};  // a flag only, orders nothing: join() in stop() does
   std::atomic<int> id_{0};             // relaxed, as slack_ns_: they order nothing

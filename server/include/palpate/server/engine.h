@@ -12,7 +12,7 @@
 namespace palpate::server {
 
 /// What answers poses: a model, and all that lives from tick to tick on it. Another model has another engine, which is made
-/// beside this one. The tick writes `work`, surface-out writes `shown`; the rest is immutable.
+/// beside this one. The tick writes `work` and `rehearsal`, surface-out writes `shown`; the rest is immutable.
 struct Engine {
   /// Allocates all memory. @param number  0 at the start, rises by one with each model that is taken
   /// @throw std::invalid_argument naming the first bad field of config. Real-time: no.
@@ -23,6 +23,7 @@ struct Engine {
         hash(model->contentHash()),
         number(nth),
         work(organ, config),
+        rehearsal(organ, config),
         shown(organ) {}
 
   const std::shared_ptr<const MetaModel> model;
@@ -31,6 +32,7 @@ struct Engine {
   const std::uint64_t hash;
   const std::uint64_t number;
   Workspace work;
+  Workspace rehearsal;  // `work` of a tick ago (docs/decisions/rehearsal.md)
   ShownSurface shown;
 };
 

@@ -44,6 +44,10 @@ class Tick {
     return static_cast<Tick*>(context)->run(cycle);
   }
 
+  /// For a PeriodicThread's Rehearsal; context is the Tick. Takes the last tick's step once more, on a workspace of its own: code and
+  /// model are in the caches when the poses are read (docs/decisions/rehearsal.md).
+  static void onRehearsal(void* context) noexcept PALPATE_NONBLOCKING;
+
   /// For a PeriodicThread's LateListener; context is the Channels.
   static void onLate(void* channels, const rt::LateCycle& cycle) noexcept PALPATE_NONBLOCKING;
 
@@ -87,7 +91,7 @@ class Tick {
   TickPlan plan_;
 
   StepInput input_;
-  StepResult result_;
+  StepResult result_, rehearsed_;
   std::array<Ledger, kMaxTools> ledgers_{};
   Strangers strangers_{};
   std::array<std::uint64_t, std::tuple_size_v<Strangers>> stranger_seq_{};  // forces sent to each
