@@ -31,10 +31,12 @@ Deadline nextDeadline(std::int64_t last_ns, std::int64_t period_ns, std::int64_t
   return {std::max(next_ns, now_ns + 1), static_cast<std::uint64_t>(missed)};
 }
 
-std::int64_t awaitDeadline(std::int64_t deadline_ns, const Rehearsal& rehearsal) noexcept {
+std::int64_t awaitDeadline(std::int64_t deadline_ns, const Rehearsal& rehearsal,
+                           std::int64_t previous_ns) noexcept {
   sleepUntil(deadline_ns - rehearsal.lead_ns);
   std::int64_t now_ns = monotonicNow();
-  if (rehearsal.function != nullptr && now_ns < deadline_ns) rehearsal.function(rehearsal.context);
+  if (rehearsal.function != nullptr && now_ns < deadline_ns && previous_ns <= rehearsal.lead_ns)
+    rehearsal.function(rehearsal.context);
   do now_ns = monotonicNow();
   while (now_ns < deadline_ns);
   return now_ns;
@@ -100,7 +102,7 @@ void PeriodicThread::run(std::int64_t period_ns, Function function, void* contex
   Cycle cycle;
   cycle.deadline_ns = monotonicNow() + period_ns;
   while (!stopping_.load(std::memory_order_relaxed)) {
-    cycle.woke_ns = awaitDeadline(cycle.deadline_ns, rehearsal);
+    cycle.woke_ns = awaitDeadline(cycle.deadline_ns, rehearsal, cycle.previous_ns);
     const std::int64_t shift_ns = function(context, cycle);
     const std::int64_t now_ns = monotonicNow();
     const Deadline next = nextDeadline(cycle.deadline_ns, period_ns, now_ns, shift_ns);

@@ -75,16 +75,17 @@ void play(const MetaModel& model, const StepConfig& config, const Way& way, cons
   LastStep last{model, Workspace(model, config), input, {}};
   rt::Rehearsal rehearsal;
   if (cadence.rehearsed) rehearsal = {&LastStep::rehearse, &last, rt::rehearsalLead(input.period_ns)};
-  std::int64_t next_ns = rt::monotonicNow();
+  std::int64_t next_ns = rt::monotonicNow(), previous_ns = 0;
   for (double place = 0.0; place < static_cast<double>(way.size() - 1); place += kWayRate / cadence.rate_hz) {
     const Vec3 c = pointAt(way, place);
     input.tools[0].position = {c.x(), c.y(), c.z()};
     other.run();
     next_ns = std::max(next_ns + input.period_ns, rt::monotonicNow());
-    (void)rt::awaitDeadline(next_ns, rehearsal);
+    (void)rt::awaitDeadline(next_ns, rehearsal, previous_ns);
     Samples one;
     one.time([&] { benchmark::DoNotOptimize(step(model, work, input, result)); });
     last.input = input;
+    previous_ns = std::llround(1e3 * one.sum());
     ++ticks;
     if ((result.tools[0].flags & kInContact) != 0) out.samples.add(one);
   }

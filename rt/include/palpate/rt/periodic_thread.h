@@ -39,7 +39,8 @@ struct LateListener {
 };
 
 /// Is called shortly before each cycle, so that the processor's caches have what the cycle reads and runs. The thread wakes
-/// lead_ns before the deadline, calls it and spins for the rest; where it wakes after the deadline, the cycle begins at once.
+/// lead_ns before the deadline, calls it and spins for the rest. Where it wakes after the deadline the cycle begins at once, and a
+/// cycle after one that took longer than lead_ns is not rehearsed: it would begin late.
 struct Rehearsal {
   void (*function)(void* context) noexcept PALPATE_NONBLOCKING{nullptr};
   void* context{nullptr};
@@ -53,8 +54,10 @@ struct Rehearsal {
 }
 
 /// Sleeps until the rehearsal, or without one until the deadline, and returns at the deadline.
+/// @param[in] previous_ns  how long the cycle before took
 /// @return the time then, ns, on CLOCK_MONOTONIC
-std::int64_t awaitDeadline(std::int64_t deadline_ns, const Rehearsal& rehearsal) noexcept;
+std::int64_t awaitDeadline(std::int64_t deadline_ns, const Rehearsal& rehearsal,
+                           std::int64_t previous_ns) noexcept;
 
 /// The next wake-up on the grid of periods, and how many were missed.
 struct Deadline {
