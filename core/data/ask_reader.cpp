@@ -192,10 +192,13 @@ std::string complaintOf(std::optional<int> end) {
 
 std::optional<fs::path> readerOf(const fs::path& self) {
   if (!self.is_absolute()) return std::nullopt;
-  const fs::path folder = self.parent_path();
+  const auto in = [&](const char* folder) {
+    return (self.parent_path() / folder / "palpate-read-model").lexically_normal();
+  };
   std::error_code failure;
-  const bool build = fs::exists(folder.parent_path() / "CMakeCache.txt", failure);
-  return (folder / (build ? "../bin" : PALPATE_READER_FROM_BIN) / "palpate-read-model").lexically_normal();
+  for (const char* folder : {".", "../bin"})  // of a build or a copy of it, and of its tests
+    if (fs::exists(in(folder), failure)) return in(folder);
+  return in(PALPATE_READER_FROM_BIN);
 }
 
 std::string askReader(const SealedImage& image, const std::string& name, const ReaderProcess& process) {

@@ -100,7 +100,8 @@ TEST_F(ReaderProcessTest, WhereItCannotRunTheFileIsNotBlamed) {
 TEST_F(ReaderProcessTest, IsLookedForWhereTheProgramIs) {
   const auto in = [&](const char* folder) { return readerOf(folder_ / folder / "program"); };
   EXPECT_EQ(in("bin"), (folder_ / "bin" / PALPATE_READER_FROM_BIN / "palpate-read-model").lexically_normal());
-  (void)folder_.write("CMakeCache.txt", "");
+  std::filesystem::create_directories(folder_ / "bin");
+  (void)folder_.write("bin/palpate-read-model", "");
   EXPECT_EQ(in("bin"), folder_ / "bin/palpate-read-model");
   EXPECT_EQ(in("tests"), folder_ / "bin/palpate-read-model");
   EXPECT_EQ(readerOf(""), std::nullopt);
