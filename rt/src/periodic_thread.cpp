@@ -110,7 +110,8 @@ void PeriodicThread::run(std::int64_t period_ns, Function function, void* contex
     cycle.previous_ns = now_ns - cycle.woke_ns;
     cycle.deadline_ns = next.ns;
     cycle.overruns += next.missed;
-    if (++cycle.index == kWarmUpCycles) faults_before = pageFaultsOfThisThread();
+    cycles_.store(++cycle.index, std::memory_order_relaxed);
+    if (cycle.index == kWarmUpCycles) faults_before = pageFaultsOfThisThread();
   }
   page_faults_ = pageFaultsOfThisThread() - faults_before;
 }

@@ -4,8 +4,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -113,6 +115,7 @@ Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig
   startup.threads = rt::threadsOfThisProcess();
   for (const std::string& line : startupTable(startup)) spdlog::info(line);
   for (const std::string& line : remedies(startup)) spdlog::warn(line);
+  tellServiceManager(config);
 }
 
 void Server::watchEndpoints() {
@@ -178,9 +181,22 @@ void Server::startThreads(const ServerConfig& config) {
   late_thread_ = start("late-watch", 0, [this] { late_watch_->run(); });
 }
 
+void Server::tellServiceManager(const ServerConfig& config) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), "READY=1\nSTATUS=%.120s on DDS domain %d at %g Hz",
+                config.model.filename().c_str(), static_cast<int>(config.domain), config.rate);
+  service_.tell(text.data());
+  if (service_.patience().count() == 0) return;
+  watchdog_.emplace(service_, *tick_thread_, static_cast<std::uint32_t>(config.domain));
+  watchdog_thread_ = std::make_unique<rt::Thread>(rt::ThreadOptions{"watchdog", 0, config.realtime, {}},
+                                                  [this] { watchdog_->run(); });
+}
+
 void Server::stop() {
   if (tick_thread_) {
     sendZeroForce();
+    service_.tell("STOPPING=1\nSTATUS=no forces any more");
+    if (watchdog_) watchdog_->stopping();
     tick_thread_->stop();
     spdlog::info("page faults in ticks: {}", tick_thread_->pageFaults());
   }
@@ -197,6 +213,9 @@ void Server::stop() {
     recorder_thread_.reset();
     spdlog::info(recorder_->summary());
   }
+  if (watchdog_) watchdog_->end();
+  watchdog_thread_.reset();
+  watchdog_.reset();
   tick_thread_.reset();
 }
 

@@ -115,6 +115,10 @@ TEST(ServiceFiles, TheUnitGrantsWhatTheThreadsWant) {
   EXPECT_EQ(values["[Service]ProtectProc"], "default");
   EXPECT_EQ(values.count("[Service]ProcSubset"), 0U);
   EXPECT_THAT(values["[Service]ExecStart"], HasSubstr("/palpate-server --config "));
+  // docs/decisions/service_watchdog.md
+  EXPECT_EQ(values["[Service]Type"], "notify");
+  EXPECT_GE(std::stoi(values["[Service]WatchdogSec"]), 1);
+  EXPECT_EQ(values["[Service]Restart"], "on-failure");
   EXPECT_EQ(values["[Service]ExecStart"].find('@'), std::string::npos) << "a place that was not filled in";
 }
 

@@ -104,6 +104,9 @@ class PeriodicThread {
   /// The kernel's number of the thread; 0 until its first cycle. Threads: any.
   [[nodiscard]] int id() const noexcept { return id_.load(std::memory_order_relaxed); }
 
+  /// Cycles that ended so far. Threads: any.
+  [[nodiscard]] std::uint64_t cycles() const noexcept { return cycles_.load(std::memory_order_relaxed); }
+
   /// Time that cycles which were not late did not run, from when the thread had to wake until they ended, ns, so far; 0 without
   /// a LateListener. No more of what the thread has queued belongs to them. Threads: any.
   [[nodiscard]] std::int64_t slack() const noexcept { return slack_ns_.load(std::memory_order_relaxed); }
@@ -117,8 +120,9 @@ class PeriodicThread {
            const Rehearsal& rehearsal) noexcept;
 
   std::atomic<bool> stopping_{false};  // a flag only, orders nothing: join() in stop() does
-  std::atomic<int> id_{0};             // relaxed, as slack_ns_: they order nothing
+  std::atomic<int> id_{0};             // relaxed, as the next two: they order nothing
   std::atomic<std::int64_t> slack_ns_{0};
+  std::atomic<std::uint64_t> cycles_{0};
   std::int64_t page_faults_{0};  // written by the thread, read after join()
   std::unique_ptr<Thread> thread_;
 };

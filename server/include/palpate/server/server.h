@@ -23,6 +23,8 @@
 #include "palpate/server/rest_surface.h"
 #include "palpate/server/rival_watch.h"
 #include "palpate/server/security_watch.h"
+#include "palpate/server/service_manager.h"
+#include "palpate/server/service_watchdog.h"
 #include "palpate/server/surface_publisher.h"
 #include "palpate/server/tick.h"
 
@@ -48,6 +50,7 @@ class Server {
   void settleRealtime(rt::RealtimePolicy policy);
   void tellOfContact() const;
   void startThreads(const ServerConfig& config);
+  void tellServiceManager(const ServerConfig& config);
   void sendZeroForce();
 
   Facts facts_;
@@ -82,6 +85,9 @@ class Server {
   std::unique_ptr<rt::PeriodicThread> tick_thread_;
   std::optional<LateWatch> late_watch_;
   std::unique_ptr<rt::Thread> late_thread_;
+  ServiceManager service_;
+  std::optional<ServiceWatchdog> watchdog_;  // where the manager watches
+  std::unique_ptr<rt::Thread> watchdog_thread_;
 };
 
 }  // namespace palpate::server
