@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A scene: four tools play from its beginning to its end; beside them others come, go, ask and do wrong; at its end it is quiet.
+A tool belongs to who moves it, so who does wrong comes after the tools and goes before them."""
+import json
+import signal
+import subprocess
+import time
+
+from latency_report import processes
+from latency_report.processes import Failure
+
+from . import samples
+from .page import Page
+
+KINDS_OF_WRONG = 34  # of tests/hostile/hostile_peer.c
+SETTLED = 1.0        # s until the tools are known as theirs
+MOTIONS = ("press", "drag", "tap")
+SCRIPTS = ("slide", "press", "poke")
+FEWEST_SECONDS = 5.0
+
+
+def quiet_part(seconds):
+    """s at the end of a scene in which only the tools and the viewer are there: what is judged is taken then."""
+    return min(10.0, 0.3 * seconds)
+
+
+class Scene:
+    def __init__(self, stage, number, seconds, chance, clock):
+        """@param[in] chance  random.Random; @param[in] clock  gives s since the soak's beginning"""
+        self._stage, self._number, self._seconds, self._chance, self._clock = stage, number, seconds, chance, clock
+        self._files, self._visitors, self._pages, self._questions = [], [], [], []
+        self.samples, self.plays = [], []
+        self.counts = {"visitors": 0, "pages": 0, "frames": 0, "asked": 0, "accepted": 0, "swaps": 0, "wrong": 0}
+        self._sampled = -1.0
+
+    def run(self):
+        """@return whether the server lived"""
+        began = self._clock()
+        tools = self._start_tools()
+        self._pass(SETTLED)
+        busy_until = began + self._seconds - quiet_part(self._seconds)
+        hostile = self._start_hostile(busy_until - self._clock())
+        for at, act in self._plan(self._clock(), busy_until):
+            self._pass(at - self._clock())
+            if not self._server_lives():
+                break
+            act()
+        self._pass(busy_until - self._clock())
+        self._end_others(hostile)
+        quiet = self._back_to_the_first_model()
+        self._pass(max(1.0, began + self._seconds - self._clock()), quiet)
+        self._end_tools(tools)
+        return self._server_lives()
+
+    def _server_lives(self):
+        return self._stage.server.poll() is None
+
+    # -- tools that behave
+
+    def _start_tools(self):
+        stage, n = self._stage, self._number
+        places = [",".join(f"{x:.6f}" for x in place) for place in stage.places]
+        seconds = f"{self._seconds + SETTLED:.2f}"
+        lines = {"tools 0 and 1": ["palpate-latency", "--tool", 0, "--tools", 2, "--wait", 30],
+                 "tool 2": ["palpate-tool", "--tool", 2, "--script", SCRIPTS[n % 3], f"--at={places[0]}", "--wait", 30],
+                 "tool 3": ["palpate-device", "--tool", 3, "--motion", MOTIONS[n % 3], f"--at={places[1]}", "--wait", 30]}
+        started = {}
+        for who, words in lines.items():
+            file = stage.out / f"{who.replace(' ', '_')}.json"
+            with open(file, "wb") as out:
+                started[who] = (processes.start(stage.command([*words, "--seconds", seconds]), stage.log("tools"),
+                                                stage.env, stdout=out), file)
+        return started
+
+    def _end_tools(self, tools):
+        for who, (process, file) in tools.items():
+            try:
+                process.wait(15.0 + self._seconds)
+            except subprocess.TimeoutExpired:
+                pass
+            code = processes.end(process)
+            self.plays.append(played(who, code, file.read_text(encoding="utf-8"), processes.last_line(self._stage.log("tools"))))
+
+    # -- those beside them
+
+    def _start_hostile(self, seconds):
+        if self._stage.hostile is None or seconds <= 1.0:
+            return None
+        each = (seconds - 1.0) / KINDS_OF_WRONG
+        with open(self._stage.out / "hostile.txt", "wb") as out:
+            return processes.start([self._stage.hostile, self._stage.domain, "all", f"{each:.4f}", *self._stage.touch()],
+                                   self._stage.log("hostile"), self._stage.env, stdout=out)
+
+    def _plan(self, begin, end):
+        """What happens when: [(s, function)] in order. Nothing in the last fifth: questions get their answers."""
+        length = 0.8 * (end - begin)
+
+        def often(every, act):
+            return [(begin + length * self._chance.random(), act) for _ in range(max(1, round(length / every)))]
+
+        plan = often(4.0, self._visit) + often(4.0, self._look) + often(5.0, self._change) + often(20.0, self._second_viewer)
+        if len(self._stage.models) > 1:
+            plan += [(begin + 0.25 * length, self._swap)] + (often(20.0, self._swap) if length > 20.0 else [])
+        return sorted(plan, key=lambda one: one[0])
+
+    def _visit(self):
+        """Somebody follows the field, or lists; some are killed before they are done."""
+        seconds = self._chance.uniform(1.0, 0.3 * self._seconds)
+        words = self._chance.choice((["palpate-watch", "--seconds", f"{seconds:.2f}", "--wait", 30], ["palpate-list", "--timeout", 1]))
+        self._add_visitor(self._stage.command(words), killed=self._chance.random() < 0.3)
+
+    def _add_visitor(self, command, killed):
+        process = processes.start(command, self._stage.log("visitors"), self._stage.env, stdout=subprocess.DEVNULL)
+        self._visitors.append((process, killed))
+        self.counts["visitors"] += 1
+
+    def _second_viewer(self):
+        process = self._stage.a_viewer(self._stage.out / "page", self._stage.out / "viewer2.json")
+        self._visitors.append((process, self._chance.random() < 0.5))
+        self.counts["visitors"] += 1
+
+    def _look(self):
+        self._pages.append(Page(self._stage.port, self._chance.uniform(0.5, 0.3 * self._seconds), self._chance.random() < 0.5))
+        self.counts["pages"] += 1
+
+    def _change(self):
+        words = ["--friction", f"{self._chance.uniform(0.05, 0.3):.3f}",
+                 "--youngs-modulus", f"{self._chance.uniform(0.6, 1.0) * self._stage.modulus:.1f}"]
+        self._question(words)
+
+    def _swap(self):
+        self.counts["swaps"] += 1
+        self._question(["--model", self._chance.choice(self._stage.models)])
+
+    def _question(self, words):
+        self.counts["asked"] += 1
+        self._questions.append(processes.start(self._stage.command(["palpate-parameters", *words, "--wait", 10]),
+                                               self._stage.log("questions"), self._stage.env, stdout=subprocess.DEVNULL))
+
+    def _end_others(self, hostile):
+        for process, killed in self._visitors:
+            if killed:
+                process.send_signal(signal.SIGKILL)
+            processes.end(process)
+        for page in self._pages:
+            page.join(15.0)
+            self.counts["frames"] += page.frames
+            if page.failed or page.alive():
+                self.plays.append({"who": "page", "lost": 0, "failed": page.failed or "it does not end"})
+        for question in self._questions:
+            try:
+                question.wait(12.0)
+            except subprocess.TimeoutExpired:
+                pass
+            self.counts["accepted"] += processes.end(question) == 0
+        if hostile is not None:
+            try:
+                hostile.wait(10.0)
+            except subprocess.TimeoutExpired:
+                pass
+            processes.end(hostile)
+            text = (self._stage.out / "hostile.txt").read_text(encoding="utf-8")
+            self.counts["wrong"] += sum(int(line.rpartition(":")[2]) for line in text.splitlines())
+
+    def _back_to_the_first_model(self):
+        """Memory is judged on one organ. @return whether it is back; the server rests between two models"""
+        for _ in range(8 if len(self._stage.models) > 1 and self._server_lives() else 0):
+            try:
+                self._stage.asked(["palpate-parameters", "--model", self._stage.models[0], "--wait", 10], 20.0)
+                self._pass(0.5)
+                return True
+            except Failure:
+                self._pass(0.5)
+        return len(self._stage.models) == 1
+
+    # -- samples
+
+    def _pass(self, seconds, quiet=False):
+        """Time goes by; samples are taken once a second, in the quiet a dozen."""
+        end = self._clock() + seconds
+        every = seconds / 12.0 if quiet else 1.0
+        while self._clock() < end and self._server_lives():
+            if self._clock() - self._sampled >= every:
+                self._sample(quiet)
+            time.sleep(max(0.0, min(0.05, end - self._clock())))
+
+    def _sample(self, quiet):
+        stage = self._stage
+        self._sampled = self._clock()
+        server, viewer = samples.of_process(stage.server.pid), samples.of_process(stage.viewer.pid)
+        wakes = samples.wakes(stage.server.pid, stage.tick)
+        if server is None or viewer is None or wakes is None:
+            return
+        minor, major = samples.faults(stage.server.pid, stage.tick)
+        self.samples.append({"t": self._sampled, "quiet": quiet, "server": server, "viewer": viewer, "ticks": wakes,
+                             "tick_faults": minor + major})
+
+
+def played(who, code, text, last_line):
+    """One play of a tool, from what it said: {"who", "lost", "failed", ..}. A device that another organ made unstable (3) has
+    played all the same."""
+    play = {"who": who, "lost": 0, "failed": ""}
+    try:
+        said = json.loads(text)
+    except json.JSONDecodeError:
+        return dict(play, failed=f"code {code}, {last_line}")
+    if "summary" in said:
+        play["lost"] = said["summary"]["lost"]
+    if "tools" in said:
+        play["lost"] = sum(tool["lost"] for tool in said["tools"])
+        for key in ("pose_to_force_us", "answered_pose_to_force_us", "tick_us", "wakeup_us"):
+            play[key] = {q: said[key][q] for q in ("p50", "p99", "max")}
+        play["overruns"], play["late_ticks"] = said["overruns"], said["late_ticks"]
+    if "stable" in said:
+        play["stable"], play["waited_periods"] = said["stable"], said["waited_periods"]
+    if code not in (0, 3):
+        play["failed"] = f"code {code}, {last_line}"
+    return play
