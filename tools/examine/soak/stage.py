@@ -32,7 +32,7 @@ class Stage:
         self.domain = _shell(tools, "free_domain").strip()
         self.models = self._folder_of_models([options.model, *options.swap])
         self.server = processes.start([self.bin / "palpate-server", "--model", options.model, "--models", self.out / "models",
-                                       "--domain", self.domain], self.out / "server.log", self.env)
+                                       "--domain", self.domain, "--rate", options.rate], self.out / "server.log", self.env)
         try:
             self.top, self.places, self.tip_radius = self._look_at_the_organ()
         except Failure as error:
@@ -70,7 +70,7 @@ class Stage:
         return json.loads(processes.output_of(self.command(words), self.log("asked"), seconds, self.env))
 
     def _look_at_the_organ(self):
-        """Presses once, while the surface is written. @return the highest place with its normal, two more for other tools, the
+        """Presses once, while the surface is written. @return the highest place with its normal, three more for other tools, the
         tip's radius"""
         surface = self.out / "surface.vtk"
         watch = processes.start(self.command(["palpate-watch", "--seconds", 2, "--wait", 60, "--vtk", surface]), self.log("asked"),
@@ -80,7 +80,7 @@ class Stage:
         processes.end(watch)
         top = pressed["position"]
         points = [p for p in points_of(surface) if p[2] > 0.5 * top[2]]
-        places = apart(points, top, 2)
+        places = apart(points, top, 3)
         return (top, pressed["normal"]), places, pressed["tip_radius"]
 
     def touch(self):
