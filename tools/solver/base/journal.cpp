@@ -117,25 +117,27 @@ double Journal::found() const {
   return found_;
 }
 
-void parallelParts(int workers, std::size_t parts, Journal* journal,
+void parallelParts(int workers, PartRange parts, Journal* journal,
                    const std::function<void(std::size_t, record::ByteSource&)>& restore,
                    const std::function<record::Bytes(int, std::size_t)>& work) {
-  std::vector<std::uint8_t> done(parts, 0);
+  const std::size_t count = parts.end - parts.begin;
+  std::vector<std::uint8_t> done(count, 0);
   if (journal != nullptr)
-    parallelFor(workers, parts, [&](int, std::size_t part) {
+    parallelFor(workers, count, [&](int, std::size_t i) {
+      const std::size_t part = parts.begin + i;
       const std::optional<record::Bytes> kept = journal->find(part);
       if (!kept) return;
       try {
         record::ByteSource source(*kept);
         restore(part, source);
         journal->taken(part);
-        done[part] = 1;
+        done[i] = 1;
       } catch (const record::RecordError&) {  // what its record stands for is not what it was
       }
     });
   std::vector<std::size_t> left;
-  for (std::size_t part = 0; part < parts; ++part)
-    if (done[part] == 0) left.push_back(part);
+  for (std::size_t i = 0; i < count; ++i)
+    if (done[i] == 0) left.push_back(parts.begin + i);
   parallelFor(workers, left.size(), [&](int worker, std::size_t i) {
     const auto start = std::chrono::steady_clock::now();
     const record::Bytes result = work(worker, left[i]);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/record/byte_stream.h"
+#include "tools/solver/base/blocks.h"
 
 namespace palpate::solver {
 
@@ -71,12 +72,23 @@ void getArray(record::ByteSource& in, std::vector<T>& values) {
   if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
 }
 
+/// The parts of a stage that a process does.
+struct PartRange {
+  std::size_t begin, end;
+  PartRange(std::size_t count) : begin(0), end(count) {}
+  PartRange(std::size_t from, std::size_t to) : begin(from), end(to) {}
+};
+/// Parts of `part` entries each, of which this rank's blocks are made.
+[[nodiscard]] inline PartRange partsOf(const Blocks& blocks, std::size_t part) {
+  return {(blocks.ownBegin() + part - 1) / part, (blocks.ownEnd() + part - 1) / part};
+}
+
 /// parallelFor() over the parts of a stage that no journal has.
 /// @param journal  null: nothing is kept
 /// @param restore  takes what was kept of a part; throws record::RecordError where it is damaged, and the part is done again.
 ///                 Called from several threads, as the next
 /// @param work  does a part and says what is to be kept
-void parallelParts(int workers, std::size_t parts, Journal* journal,
+void parallelParts(int workers, PartRange parts, Journal* journal,
                    const std::function<void(std::size_t part, record::ByteSource& kept)>& restore,
                    const std::function<record::Bytes(int worker, std::size_t part)>& work);
 

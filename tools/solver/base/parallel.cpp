@@ -12,20 +12,13 @@
 
 namespace palpate::solver {
 
-namespace {
+SerialBlas::SerialBlas() : threads_(openblas_get_num_threads()) {
+  openblas_set_num_threads(1);
+}
 
-class SerialBlas {
- public:
-  SerialBlas() : threads_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
-  ~SerialBlas() { openblas_set_num_threads(threads_); }
-  SerialBlas(const SerialBlas&) = delete;
-  SerialBlas& operator=(const SerialBlas&) = delete;
-
- private:
-  int threads_;
-};
-
-}  // namespace
+SerialBlas::~SerialBlas() {
+  openblas_set_num_threads(threads_);
+}
 
 int machineThreads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

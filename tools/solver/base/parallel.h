@@ -7,6 +7,18 @@
 
 namespace palpate::solver {
 
+/// OpenBLAS computes with one thread while this lives: with several, last bits depend on how many there are.
+class SerialBlas {
+ public:
+  SerialBlas();
+  ~SerialBlas();
+  SerialBlas(const SerialBlas&) = delete;
+  SerialBlas& operator=(const SerialBlas&) = delete;
+
+ private:
+  int threads_;
+};
+
 /// Runs work(worker, chunk) for chunk = 0 .. chunks - 1, each once, on `workers` threads; BLAS uses one
 /// thread meanwhile. The first exception of a worker stops the others and is thrown again here.
 void parallelFor(int workers, std::size_t chunks,

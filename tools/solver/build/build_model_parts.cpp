@@ -10,6 +10,7 @@
 
 #include "tools/solver/base/lanes.h"
 #include "tools/solver/base/progress.h"
+#include "tools/solver/fit/spatial_order.h"
 
 namespace palpate::solver {
 
@@ -38,57 +39,68 @@ DomainCriteria criteriaOf(const Case& c) {
   return criteria;
 }
 
+Blocks blocksOf(const SolverSetup& setup, std::span<const std::int32_t> nodes, std::size_t part,
+                const Ranks& ranks) {
+  std::vector<Vec3> places;
+  for (const std::int32_t node : nodes) places.push_back(setup.surface.positions[at(node)]);
+  return {spatialOrder(places), part, Blocks::kMost, ranks};
+}
+
 void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,
                     const Cholesky& factor, SeriesKind kind, const BuildOptions& options, FieldTable& table,
                     const SeriesSink& sink) {
   const ContactPositions& positions = setup.positions;
-  const std::size_t count = positions.nodes.size();
+  const Blocks& blocks = table.blocks();
   const std::size_t block = table.coefficients() * table.rows();
-  const auto lanesOf = [&](std::size_t chunk) {
-    return std::min<std::size_t>(kLanes, count - chunk * kLanes);
+  const auto positionsOf = [&](std::size_t chunk) {
+    const std::size_t first = chunk * kLanes;
+    return blocks.order().subspan(first, std::min<std::size_t>(kLanes, blocks.order().size() - first));
   };
-  Progress progress("series, contact positions", count, options.quiet);
+  Progress progress("series, contact positions", blocks.ownEnd() - blocks.ownBegin(), options.quiet);
   std::vector<std::unique_ptr<SeriesSolver>> solvers(at(options.workers));
   std::vector<std::vector<float>> fields(at(options.workers));  // of the chunk that a worker has
+  std::vector<std::vector<double>> numbers(positions.nodes.size(), std::vector<double>(sink.count));
   const auto restore = [&](std::size_t chunk, record::ByteSource& kept) {
-    std::vector<std::vector<double>> numbers(lanesOf(chunk));
     std::vector<float> room;
-    for (std::size_t lane = 0; lane < numbers.size(); ++lane) {
-      if (kept.get<std::uint32_t>() != table.checksum(chunk * kLanes + lane, room))
+    for (const std::int32_t position : positionsOf(chunk)) {
+      if (kept.get<std::uint32_t>() != table.checksum(at(position), room))
         throw record::RecordError("the scratch file has other fields");
-      getArray(kept, numbers[lane]);
+      getArray(kept, numbers[at(position)]);
     }
-    for (std::size_t lane = 0; lane < numbers.size(); ++lane)
-      sink.store(chunk * kLanes + lane, numbers[lane]);
-    progress.skip(numbers.size());
+    progress.skip(positionsOf(chunk).size());
   };
   const auto solve = [&](int worker, std::size_t chunk) {
     auto& solver = solvers[at(worker)];
     if (!solver) solver = std::make_unique<SeriesSolver>(setup.model, factor, c.orders(), kind);
-    const std::size_t first = chunk * kLanes, lanes = lanesOf(chunk);
-    solver->solve(std::span(positions.patches).subspan(first, lanes));
+    const auto own = positionsOf(chunk);
+    std::vector<Patch> patches;
+    for (const std::int32_t position : own) patches.push_back(positions.patches[at(position)]);
+    solver->solve(patches);
     const std::vector<SeriesRadii> radii = solver->domainRadii(criteriaOf(c));
     std::vector<float>& chunk_fields = fields[at(worker)];
-    chunk_fields.resize(lanes * block);
+    chunk_fields.resize(own.size() * block);
     solver->copyDisplacements(setup.surface.nodes, chunk_fields);
     record::Bytes kept;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    for (std::size_t lane = 0; lane < own.size(); ++lane) {
+      const std::size_t position = at(own[lane]);
       if (!(radii[lane].domain > 0.0))
         throw std::runtime_error(
             c.mesh.string() + ": node " +
-            std::to_string(mesh.node_tags[at(setup.surface.nodes[at(positions.nodes[first + lane])])]) +
+            std::to_string(mesh.node_tags[at(setup.surface.nodes[at(positions.nodes[position])])]) +
             ": the series has no domain; is the organ held by \"" + c.fixed + "\"?");
-      const std::span<const float> own = std::span(chunk_fields).subspan(lane * block, block);
-      const std::vector<double> numbers = sink.numbers(*solver, static_cast<int>(lane), radii[lane]);
-      sink.store(first + lane, numbers);
-      table.write(first + lane, own);
-      record::put(kept, FieldTable::checksum(own));
-      putArray(kept, numbers);
+      const std::span<const float> own_fields = std::span(chunk_fields).subspan(lane * block, block);
+      numbers[position] = sink.numbers(*solver, static_cast<int>(lane), radii[lane]);
+      table.write(position, own_fields);
+      record::put(kept, FieldTable::checksum(own_fields));
+      putArray(kept, numbers[position]);
     }
-    progress.advance(lanes);
+    progress.advance(own.size());
     return kept;
   };
-  parallelParts(options.workers, (count + kLanes - 1) / kLanes, options.journal("series"), restore, solve);
+  parallelParts(options.workers, partsOf(blocks, kLanes), options.journal("series"), restore, solve);
+  share(blocks, [&](std::int32_t position) { return std::span(numbers[at(position)]); });
+  for (std::size_t position = 0; position < numbers.size(); ++position)
+    sink.store(position, numbers[position]);
 }
 
 void storeAttributes(const Case& c, const SolverSetup& setup, ModelAttributes& attributes) {

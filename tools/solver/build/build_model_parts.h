@@ -37,15 +37,23 @@ void factorizeAtRest(Cholesky& factor, const SolverSetup& setup, const mesh::Tet
 /// What the case asks of force and field within d_max.
 [[nodiscard]] DomainCriteria criteriaOf(const Case& c);
 
-/// What a model keeps of the series of a position beside its fields: some numbers, as many for each. Both are called from several
-/// threads, once per position.
+/// What a model keeps of the series of a position beside its fields: some numbers, as many for each.
 struct SeriesSink {
+  std::size_t count;  ///< of the numbers
+  /// Called from several threads, once for each position that is solved.
   std::function<std::vector<double>(const SeriesSolver& series, int lane, const SeriesRadii& radii)> numbers;
+  /// Called once for each position of all ranks.
   std::function<void(std::size_t position, std::span<const double> numbers)> store;
 };
 
-/// Solves the series of all contact positions on all workers; surface fields go to the table.
-/// @param table  positions x coefficients of the fields x 3 Ns, kept where options.checkpoint keeps their journal
+/// Places on the surface in blocks, neighbours together.
+/// @param nodes  surface nodes  @param part  how many are solved at once
+[[nodiscard]] Blocks blocksOf(const SolverSetup& setup, std::span<const std::int32_t> nodes, std::size_t part,
+                              const Ranks& ranks);
+
+/// Solves the series of all contact positions on all workers of all ranks; surface fields go to the table.
+/// @param table  positions x coefficients of the fields x 3 Ns, in blocks of parts of kLanes, kept where options.checkpoint keeps
+///               their journal
 /// @throw std::runtime_error naming the node whose series has no domain
 void solveAllSeries(const SolverSetup& setup, const mesh::TetMesh& mesh, const Case& c,
                     const Cholesky& factor, SeriesKind kind, const BuildOptions& options, FieldTable& table,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/solver/base/checkpoint.h"
+#include "tools/solver/base/ranks.h"
 #include "tools/solver/fit/field_table.h"
 #include "tools/solver/series/series_orders.h"
 
@@ -17,8 +18,9 @@ struct BuildOptions {
   int workers{1};
   std::filesystem::path scratch{"."};  ///< folder of the scratch file
   bool quiet{false};
-  std::filesystem::path output{};   ///< folder of the file that is written later; empty: none
-  Checkpoint* checkpoint{nullptr};  ///< keeps what is done; null: nothing is kept
+  std::filesystem::path output{};     ///< folder of the file that is written later; empty: none
+  Checkpoint* checkpoint{nullptr};    ///< keeps what is done; null: nothing is kept
+  const Ranks* ranks{&Ranks::one()};  ///< the processes that solve together
 
   /// Of a scratch file, kept by its name where there is a checkpoint.
   [[nodiscard]] ScratchPlace scratchFile(const char* name) const {

@@ -18,7 +18,6 @@
 #include "tools/solver/build/displacement_fields.h"
 #include "tools/solver/build/edge_fields.h"
 #include "tools/solver/build/estimate.h"
-#include "tools/solver/fit/gram_sums.h"
 #include "tools/solver/series/nodal_greens.h"
 
 namespace palpate::solver {
@@ -152,9 +151,8 @@ Estimate DisplacementBuilder::sizes() const {
       4.0 * (near * 3.0 * Cm + 9.0 * near_loads + 3.0 * Ce * near_edges + n * (rows + M * Cm + 3.0 * G));
   const double work =
       options_.workers * (2.0 * 4.0 * 32.0 * C * rows + 8.0 * n * rows + 4.0 * 256.0 * 0.5 * n * n);
-  const double sums = 2.0 * n * n * options_.workers *
-                      static_cast<double>(GramSums::blockSize(static_cast<Eigen::Index>(n), options_.workers,
-                                                              loaded_.size()));
+  constexpr double kNodes = 128.0;  // whose matrices a worker adds up
+  const double sums = 2.0 * n * n * options_.workers * kNodes;
   constexpr double kLibraries = 3e7;  // OpenBLAS, HDF5, stacks
   const double fit = 4.0 * nodes * std::max(M, G) + 8.0 * n * M * C + 32.0 * n * rows + work + sums;
   out.resident = residentBytes();
@@ -226,6 +224,7 @@ Estimate DisplacementBuilder::estimate() const {
 
 Estimate estimateDisplacementSeries(const Case& c, const mesh::TetMesh& organ, const BuildOptions& options,
                                     BuildReport& report) {
+  const SerialBlas serial;
   const ChosenOrgan chosen(c, organ, options, report);
   Estimate out = DisplacementBuilder(chosen, options, report).estimate();
   out.factor = report.factor_seconds;

@@ -28,6 +28,16 @@ Eigen::MatrixXf bentDirections(const MonomialBasis& basis, double x) {
   return out;
 }
 
+/// Lists of each position, which only its rank has, go to all.
+template <class T>
+void shareLists(const Blocks& blocks, std::vector<std::vector<T>>& lists) {
+  std::vector<std::size_t> lengths;
+  for (const std::vector<T>& list : lists) lengths.push_back(list.size());
+  share(blocks, [&](std::int32_t i) { return std::span(&lengths[static_cast<std::size_t>(i)], 1); });
+  for (std::size_t i = 0; i < lists.size(); ++i) lists[i].resize(lengths[i]);
+  share(blocks, [&](std::int32_t i) { return std::span(lists[static_cast<std::size_t>(i)]); });
+}
+
 }  // namespace
 
 void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const NearNodes> near,
@@ -41,7 +51,9 @@ void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<c
   }
   data.green_Y.resize(near.size() * 3 * n);
   data.green_near.resize(9 * data.green_near_node.size());
-  parallelFor(workers, near.size(), [&](int, std::size_t i) {
+  const Blocks& blocks = greens.table.blocks();
+  parallelFor(workers, blocks.ownEnd() - blocks.ownBegin(), [&](int, std::size_t own_number) {
+    const auto i = static_cast<std::size_t>(blocks.order()[blocks.ownBegin() + own_number]);
     std::vector<float> fields(3 * greens.table.rows());
     greens.table.read(i, fields);
     const Eigen::MatrixXf Y =  // the fit counts in units of the reference
@@ -60,6 +72,13 @@ void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<c
         Eigen::Map<Eigen::Vector3f>(out + 3 * (load * K + j)) = missed.col(static_cast<Eigen::Index>(load));
     }
   });
+  share(blocks, [&](std::int32_t i) {
+    return std::span(data.green_Y).subspan(3 * n * static_cast<std::size_t>(i), 3 * n);
+  });
+  share(blocks, [&](std::int32_t i) {
+    const auto first = static_cast<std::size_t>(9 * data.green_offset[static_cast<std::size_t>(i)]);
+    return std::span(data.green_near).subspan(first, 9 * near[static_cast<std::size_t>(i)].nodes.size());
+  });
 }
 
 std::vector<float> storeNearField(const FitProblem& problem, const FarField& far,
@@ -71,12 +90,18 @@ std::vector<float> storeNearField(const FitProblem& problem, const FarField& far
   data.modes_Y.resize(M * static_cast<std::size_t>(C - linear) * n);
   std::vector<std::vector<std::int32_t>> nodes(M);
   std::vector<std::vector<float>> blocks(M), sizes(M);
-  parallelFor(workers, M, [&](int, std::size_t position) {
+  const auto bent = [&](std::size_t position) {
+    return far.Y.middleCols(static_cast<Eigen::Index>(position) * C + linear, C - linear);
+  };
+  for (std::size_t position = 0; position < M; ++position)
+    Eigen::Map<Eigen::MatrixXf>(data.modes_Y.data() + position * static_cast<std::size_t>(C - linear) * n,
+                                far.Y.rows(), C - linear) = bent(position);
+  const Blocks& of_ranks = table.blocks();
+  parallelFor(workers, of_ranks.ownEnd() - of_ranks.ownBegin(), [&](int, std::size_t own_number) {
+    const auto position = static_cast<std::size_t>(of_ranks.order()[of_ranks.ownBegin() + own_number]);
     std::vector<float> fields(static_cast<std::size_t>(C) * table.rows());
     table.read(position, fields);
-    const auto Y = far.Y.middleCols(static_cast<Eigen::Index>(position) * C + linear, C - linear);
-    Eigen::Map<Eigen::MatrixXf>(data.modes_Y.data() + position * static_cast<std::size_t>(C - linear) * n,
-                                Y.rows(), Y.cols()) = Y;
+    const auto Y = bent(position);
     Eigen::Map<const Eigen::MatrixXf> U(fields.data(), static_cast<Eigen::Index>(table.rows()), C);
     const double ball = problem.sources[position].ball_radius, x = ball / problem.reference;
     const Eigen::MatrixXf directions = bentDirections(basis, x);
@@ -102,6 +127,9 @@ std::vector<float> storeNearField(const FitProblem& problem, const FarField& far
       for (const Eigen::Matrix3Xf& u : kept)
         blocks[position].insert(blocks[position].end(), u.col(k).data(), u.col(k).data() + 3);
   });
+  shareLists(of_ranks, nodes);
+  shareLists(of_ranks, blocks);
+  shareLists(of_ranks, sizes);
   std::vector<float> all;
   data.near_offset.push_back(0);
   for (std::size_t p = 0; p < M; ++p) {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/solver/base/lanes.h"
+#include "tools/solver/base/parallel.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/displacement_builder.h"
@@ -119,53 +121,63 @@ SeriesSink DisplacementBuilder::seriesSink() {
     std::copy(force.begin(), force.end(),
               data_.contact_force.begin() + static_cast<std::ptrdiff_t>(position * force.size()));
   };
-  return {numbers, store};
+  return {2 + 3 * at(force_basis_.size()), numbers, store};
 }
 
 /// The fields of unit loads at single nodes.
 void DisplacementBuilder::solveGreens(FieldTable& greens) {
   constexpr double kWidest = 6.5;  // of a patch's nodes, in a
   CloseGreens close(setup_.surface, loaded_, kWidest * setup_.patch_radius);
-  Progress progress("nodal Green's functions", loaded_.size(), options_.quiet);
+  const Blocks& blocks = greens.blocks();
+  Progress progress("nodal Green's functions", blocks.ownEnd() - blocks.ownBegin(), options_.quiet);
   std::vector<std::unique_ptr<NodalGreens>> solvers(at(options_.workers));
-  const std::size_t chunk = NodalGreens::kMost;
-  const auto restore = [&](std::size_t number, record::ByteSource& kept) {
-    const std::size_t first = number * chunk, count = std::min(chunk, loaded_.size() - first);
-    std::vector<float> fields;
-    for (std::size_t i = first; i < first + count; ++i) {
-      if (kept.get<std::uint32_t>() != greens.checksum(i, fields))
-        throw record::RecordError("the scratch file has other fields");
-      close.keep(i, Eigen::Map<const Eigen::MatrixXf>(fields.data(), Eigen::Index(greens.rows()), 3));
-    }
-    progress.skip(count);
+  const auto sourcesOf = [&](std::size_t chunk) {
+    const std::size_t first = chunk * NodalGreens::kMost;
+    return blocks.order().subspan(first, std::min(NodalGreens::kMost, blocks.order().size() - first));
   };
-  const auto solve = [&](int worker, std::size_t number) {
+  const auto restore = [&](std::size_t chunk, record::ByteSource& kept) {
+    std::vector<float> fields;
+    for (const std::int32_t source : sourcesOf(chunk)) {
+      if (kept.get<std::uint32_t>() != greens.checksum(at(source), fields))
+        throw record::RecordError("the scratch file has other fields");
+      close.keep(at(source),
+                 Eigen::Map<const Eigen::MatrixXf>(fields.data(), Eigen::Index(greens.rows()), 3));
+    }
+    progress.skip(sourcesOf(chunk).size());
+  };
+  const auto solve = [&](int worker, std::size_t chunk) {
     auto& solver = solvers[at(worker)];
     if (!solver) solver = std::make_unique<NodalGreens>(setup_.model, factor_, setup_.surface);
-    const std::size_t first = number * chunk, count = std::min(chunk, loaded_.size() - first);
-    solver->solve(std::span(loaded_).subspan(first, count));
+    const auto sources = sourcesOf(chunk);
+    std::vector<std::int32_t> nodes;
+    for (const std::int32_t source : sources) nodes.push_back(loaded_[at(source)]);
+    solver->solve(nodes);
     record::Bytes kept;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < sources.size(); ++i) {
       const Eigen::MatrixXf W = solver->of(i).cast<float>();
       const std::span<const float> fields(W.data(), static_cast<std::size_t>(W.size()));
-      close.keep(first + i, W);
-      greens.write(first + i, fields);
+      close.keep(at(sources[i]), W);
+      greens.write(at(sources[i]), fields);
       record::put(kept, FieldTable::checksum(fields));
     }
-    progress.advance(count);
+    progress.advance(sources.size());
     return kept;
   };
-  parallelParts(options_.workers, (loaded_.size() + chunk - 1) / chunk, options_.journal("greens"), restore,
+  parallelParts(options_.workers, partsOf(blocks, NodalGreens::kMost), options_.journal("greens"), restore,
                 solve);
-  data_.contact_stiffness = patchStiffness(setup_, patches_, close, options_.workers);
+  share(blocks, [&](std::int32_t source) { return close.of(at(source)); });
+  data_.contact_stiffness = patchStiffness(setup_, patches_, close, options_.workers, *options_.ranks);
 }
 
 modelfile::ModelData DisplacementBuilder::run() {
   const Stopwatch series_watch;
   const std::size_t rows = 3 * setup_.surface.nodes.size();
-  FieldTable table(options_.scratchFile("series"), setup_.positions.nodes.size(), at(basis_.size()), rows);
+  const Ranks& ranks = *options_.ranks;
+  FieldTable table(options_.scratchFile("series"), blocksOf(setup_, setup_.positions.nodes, kLanes, ranks),
+                   at(basis_.size()), rows);
   solveAllSeries(setup_, mesh_, case_, factor_, SeriesKind::kDisplacement, options_, table, seriesSink());
-  FieldTable greens(options_.scratchFile("greens"), loaded_.size(), 3, rows);
+  FieldTable greens(options_.scratchFile("greens"), blocksOf(setup_, loaded_, NodalGreens::kMost, ranks), 3,
+                    rows);
   solveGreens(greens);
   storeOrgan(setup_, mesh_, data_);
   ModelAttributes& a = data_.attributes;
@@ -224,6 +236,7 @@ ChosenOrgan::ChosenOrgan(const Case& c, const mesh::TetMesh& organ, const BuildO
 
 modelfile::ModelData buildDisplacementSeries(const Case& c, const mesh::TetMesh& organ,
                                              const BuildOptions& options, BuildReport& report) {
+  const SerialBlas serial;
   const ChosenOrgan chosen(c, organ, options, report);
   DisplacementBuilder builder(chosen, options, report);
   requireRoom(builder.sizes(), chosen.chosen, options, options.output);

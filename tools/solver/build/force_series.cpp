@@ -8,6 +8,8 @@
 
 #include "core/base/multi_index.h"
 #include "core/data/model_view.h"
+#include "tools/solver/base/lanes.h"
+#include "tools/solver/base/parallel.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/store_modes.h"
 #include "tools/solver/fit/far_field.h"
@@ -61,7 +63,8 @@ void ForceBuilder::solveSeries(FieldTable& table) {
   report_.factor_seconds = factor_watch.seconds();
   const Stopwatch series_watch;
   solveAllSeries(setup_, mesh_, case_, factor, SeriesKind::kForce, options_, table,
-                 {[](const SeriesSolver& series, int lane, const SeriesRadii& radii) {
+                 {2,
+                  [](const SeriesSolver& series, int lane, const SeriesRadii& radii) {
                     Mat3 C;
                     for (int k = 0; k < 3; ++k) C.col(k) = series.answer(lane, k);
                     return std::vector<double>{radii.series, C.norm() / std::sqrt(3.0)};
@@ -129,7 +132,9 @@ modelfile::ModelData ForceBuilder::compress(const FieldTable& table, const FitSi
 }
 
 std::vector<modelfile::ModelData> ForceBuilder::run(std::span<const FitSize> sizes) {
-  FieldTable table(options_.scratchFile("series"), setup_.positions.nodes.size(),
+  const SerialBlas serial;
+  FieldTable table(options_.scratchFile("series"),
+                   blocksOf(setup_, setup_.positions.nodes, kLanes, *options_.ranks),
                    static_cast<std::size_t>(basis_.size()), 3 * setup_.surface.nodes.size());
   solveSeries(table);
   f_ref_ = medianOf(radius_);

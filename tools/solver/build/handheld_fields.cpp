@@ -66,7 +66,8 @@ void DisplacementBuilder::storeCompactFields(const FitProblem& problem, const Fa
 std::unique_ptr<FieldTable> DisplacementBuilder::shareLoads(const FieldTable& greens) {
   const SharedLoads shared = sharedLoads(setup_, patches_, loaded_);
   if (shared.nodes.empty()) return nullptr;
-  auto fields = std::make_unique<FieldTable>(ScratchPlace(options_.scratch), shared.nodes.size(),
+  auto fields = std::make_unique<FieldTable>(ScratchPlace(options_.scratch),
+                                             blocksOf(setup_, shared.nodes, 1, *options_.ranks),
                                              std::size_t{3}, greens.rows());
   superpose(greens, shared, options_.workers, *fields);
   report_.shared_loads = shared.error;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/surface/smooth_places.h"
+#include "tools/solver/base/blocks.h"
 #include "tools/solver/base/parallel.h"
 
 namespace palpate::solver {
@@ -79,6 +80,10 @@ void CloseGreens::keep(std::size_t which, const Eigen::Ref<const Eigen::MatrixXf
     block_[k] = field.middleRows<3>(3 * node_[k]);
 }
 
+std::span<float> CloseGreens::of(std::size_t which) {
+  return {block_[0].data() + 9 * first_[which], 9 * (first_[which + 1] - first_[which])};
+}
+
 void CloseGreens::apply(const PatchNodes& patch, std::vector<Matrix3d>& Q) const {
   Q.assign(patch.count, Matrix3d::Zero());
   for (std::size_t i = 0; i < patch.count; ++i) {
@@ -102,13 +107,15 @@ std::vector<std::int32_t> loadedNodes(const SolverSetup& setup, const ContactPat
 }
 
 std::vector<double> patchStiffness(const SolverSetup& setup, const ContactPatches& patches,
-                                   const CloseGreens& greens, int workers) {
+                                   const CloseGreens& greens, int workers, const Ranks& ranks) {
   const auto& triangles = setup.surface.faces;
   const SmoothPlaces places(numbers(setup.surface.positions),
                             {triangles.front().data(), 3 * triangles.size()}, positionOfNode(setup));
   constexpr std::size_t kNumbers = 24;
   std::vector<double> out(kNumbers * places.size());
-  parallelFor(workers, places.size(), [&](int, std::size_t place) {
+  const Blocks blocks(places.size(), ranks);
+  parallelFor(workers, blocks.ownEnd() - blocks.ownBegin(), [&](int, std::size_t own_number) {
+    const std::size_t place = blocks.ownBegin() + own_number;
     PatchNodes patch = patches.room();
     std::vector<Matrix3d> Q;
     Stiffness K;
@@ -128,6 +135,7 @@ std::vector<double> patchStiffness(const SolverSetup& setup, const ContactPatche
         for (const Matrix3d& part : K.gradient) *number++ = part(i, j);
       }
   });
+  share(blocks, [&](std::int32_t place) { return std::span(out).subspan(kNumbers * at(place), kNumbers); });
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/surface/contact_patches.h"
+#include "tools/solver/base/ranks.h"
 #include "tools/solver/build/solver_setup.h"
 
 namespace palpate::solver {
@@ -21,6 +22,8 @@ class CloseGreens {
   /// Keeps what is close of a Green's function. Threads: any number, for different sources.
   /// @param which  number of the source  @param field  3 Ns x 3
   void keep(std::size_t which, const Eigen::Ref<const Eigen::MatrixXf>& field);
+  /// What is kept of a source, for other ranks.
+  [[nodiscard]] std::span<float> of(std::size_t which);
   /// Q_j = sum_i w_i W_ij for the patch's own nodes j, m/N.
   void apply(const PatchNodes& patch, std::vector<Eigen::Matrix3d>& Q) const;
 
@@ -39,6 +42,7 @@ class CloseGreens {
 /// @return [places][6][4]: xx xy xz yy yz zz of K, N/m, each with its gradient, N/m^2
 /// @throw std::runtime_error naming the node near which the compliance of a patch is not positive definite
 [[nodiscard]] std::vector<double> patchStiffness(const SolverSetup& setup, const ContactPatches& patches,
-                                                 const CloseGreens& greens, int workers);
+                                                 const CloseGreens& greens, int workers,
+                                                 const Ranks& ranks = Ranks::one());
 
 }  // namespace palpate::solver

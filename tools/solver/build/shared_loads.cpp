@@ -103,7 +103,7 @@ SharedLoads sharedLoads(const SolverSetup& setup, const ContactPatches& patches,
 }
 
 void superpose(const FieldTable& greens, const SharedLoads& loads, int workers, FieldTable& fields) {
-  constexpr std::size_t kChunk = 64;
+  constexpr std::size_t kChunk = 64, kBands = 16;
   const auto rows = static_cast<Index>(greens.rows());
   const std::size_t sources = loads.nodes.size(), count = greens.positions();
   std::vector<float> all(sources * 3 * greens.rows(), 0.0F);
@@ -115,9 +115,9 @@ void superpose(const FieldTable& greens, const SharedLoads& loads, int workers, 
     const Eigen::Map<const MatrixXf> W(chunk.data(), 3 * rows, static_cast<Index>(size));
     const MatrixXf R = loads.R.middleRows(static_cast<Index>(first), static_cast<Index>(size));
     Eigen::Map<MatrixXf> V(all.data(), 3 * rows, static_cast<Index>(sources));
-    parallelFor(workers, static_cast<std::size_t>(workers), [&](int, std::size_t part) {
-      const Index begin = 3 * rows * static_cast<Index>(part) / workers,
-                  end = 3 * rows * static_cast<Index>(part + 1) / workers;
+    parallelFor(workers, kBands, [&](int, std::size_t part) {
+      const auto boundary = [&](std::size_t p) { return 3 * rows * static_cast<Index>(p) / Index{kBands}; };
+      const Index begin = boundary(part), end = boundary(part + 1);
       V.middleRows(begin, end - begin).noalias() += W.middleRows(begin, end - begin) * R;
     });
   }

@@ -16,6 +16,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
+namespace {
+
+constexpr std::size_t kNodes = 128;  ///< of a block: their matrices share those of the sources
+
+}  // namespace
+
 FarFieldFit::FarFieldFit(const FitProblem& problem, const FitOptions& options)
     : problem_(problem),
       options_(options),
@@ -24,7 +30,9 @@ FarFieldFit::FarFieldFit(const FitProblem& problem, const FitOptions& options)
       modes_(options.modes),
       moment_factor_(momentFactor(problem.basis)),
       row_area_(rows_),
-      node_order_(spatialOrder(problem.places)),
+      sources_(problem.table.blocks()),
+      nodes_(spatialOrder(problem.places), 1, kNodes, sources_.ranks()),
+      errors_(problem.sources.size()),
       energies_(problem.sources.size(), -1.0),
       workers_(static_cast<std::size_t>(std::max(1, options.workers))) {
   const Index columns = static_cast<Index>(problem.sources.size()) * coefficients_;
@@ -33,9 +41,6 @@ FarFieldFit::FarFieldFit(const FitProblem& problem, const FitOptions& options)
   for (const double area : problem.areas) total += area;
   for (Index row = 0; row < rows_; ++row)
     row_area_[row] = problem.areas[static_cast<std::size_t>(row / 3)] / total;
-  std::vector<Vec3> places;
-  for (const FitSource& one : problem.sources) places.push_back(one.place);
-  source_order_ = spatialOrder(places);
   change_.setZero(rows_ / 3, static_cast<Index>(problem.sources.size()));
   for (std::size_t s = 0; s < problem.sources.size(); ++s) {
     const FitWeights& weights = problem.sources[s].weights;
@@ -49,7 +54,17 @@ FarFieldFit::FarFieldFit(const FitProblem& problem, const FitOptions& options)
 /// Sweeps go over every stride-th source from now on.
 void FarFieldFit::activate(std::size_t stride) {
   active_.clear();
-  for (std::size_t i = 0; i < source_order_.size(); i += stride) active_.push_back(source_order_[i]);
+  active_begin_.clear();
+  for (std::size_t b = 0; b <= sources_.count(); ++b) {
+    active_begin_.push_back(active_.size());
+    if (b == sources_.count()) break;
+    for (std::size_t i = sources_.begin(b); i < sources_.begin(b + 1); ++i)
+      if (i % stride == 0) active_.push_back(sources_.order()[i]);
+  }
+}
+
+FarFieldFit::Sources FarFieldFit::activeOf(std::size_t block) const {
+  return Sources(active_).subspan(active_begin_[block], active_begin_[block + 1] - active_begin_[block]);
 }
 
 /// The fields of some sources, columns i * C + k, scaled by reference^|alpha|: metres; and the same times the weights.
@@ -90,11 +105,21 @@ MatrixXf FarFieldFit::whitening(std::int32_t s) const {
   return D.cast<float>();
 }
 
-/// The Y of the active sources, each times its whitening; 0 for the others.
-MatrixXf FarFieldFit::whitenedY() {
-  MatrixXf Z = MatrixXf::Zero(result_.Y.rows(), result_.Y.cols());
-  for (const std::int32_t s : active_) columnsOf(Z, s) = columnsOf(result_.Y, s) * whitening(s);
+/// The Y of some sources side by side, each times its whitening.
+MatrixXd FarFieldFit::whitenedY(Sources sources) {
+  MatrixXd Z(modes_, static_cast<Index>(sources.size()) * coefficients_);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    Z.middleCols(static_cast<Index>(i) * coefficients_, coefficients_) =
+        (columnsOf(result_.Y, sources[i]) * whitening(sources[i])).cast<double>();
   return Z;
+}
+
+/// Every rank gets the Y of all sources.
+void FarFieldFit::shareY() {
+  const auto size = static_cast<std::size_t>(modes_ * coefficients_);
+  share(sources_, [&](std::int32_t s) {
+    return std::span(result_.Y.data() + static_cast<std::size_t>(s) * size, size);
+  });
 }
 
 /// Every fourth source is enough to begin with, where that leaves many times more columns than modes.
@@ -161,6 +186,7 @@ FarField FarFieldFit::run() {
     sweep(Step::kReweighted);
     sweep(Step::kLast);
   }
+  shareY();
   orderByEnergy();
   progress.advance();
   return std::move(result_);

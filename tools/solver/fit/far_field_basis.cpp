@@ -27,17 +27,20 @@ MatrixXf FarFieldFit::noise(Sources chunk, Index count) const {
 
 /// A first basis: the table times random numbers (a randomized range finder, one pass).
 void FarFieldFit::sketch() {
-  for (Worker& worker : workers_) worker.row_rhs = MatrixXd::Zero(rows_, modes_);
-  forBlocks(active_, kChunk, [&](Worker& worker, Sources chunk) {
-    read(chunk, worker);
-    const Eigen::Map<const MatrixXf> A(worker.fields.data(), rows_, worker.weighted.cols());
-    for (std::size_t i = 0; i < chunk.size(); ++i)
-      if (!A.middleCols(static_cast<Index>(i) * coefficients_, coefficients_).allFinite())
-        throw FitError("the fields of source " + std::to_string(chunk[i]) + " are not finite");
-    const MatrixXf product = A * noise(chunk, modes_);
-    worker.row_rhs += product.cast<double>();
+  TreeSum<MatrixXf> sum(sources_, rows_, modes_);
+  forOwn(sources_, [&](Worker& worker, std::size_t block) {
+    MatrixXf part = MatrixXf::Zero(rows_, modes_);
+    for (const Sources chunk : chunksOf(activeOf(block))) {
+      read(chunk, worker);
+      const Eigen::Map<const MatrixXf> A(worker.fields.data(), rows_, worker.weighted.cols());
+      for (std::size_t i = 0; i < chunk.size(); ++i)
+        if (!A.middleCols(static_cast<Index>(i) * coefficients_, coefficients_).allFinite())
+          throw FitError("the fields of source " + std::to_string(chunk[i]) + " are not finite");
+      part.noalias() += A * noise(chunk, modes_);
+    }
+    sum.add(block, std::move(part));
   });
-  orthonormalize(sumOfRhs());
+  orthonormalize(sum.finish().transpose().cast<double>());
 }
 
 /// More modes: the basis, and beside it what its modes leave of the active sources, times the weights and random
@@ -45,38 +48,68 @@ void FarFieldFit::sketch() {
 void FarFieldFit::grow(Index modes) {
   const Index more = modes - modes_;
   if (more <= 0) return;
-  for (Worker& worker : workers_) worker.row_rhs = MatrixXd::Zero(rows_, more);
-  forBlocks(active_, kChunk, [&](Worker& worker, Sources chunk) {
-    read(chunk, worker);
-    subtractModes(chunk, worker);
-    for (std::size_t i = 0; i < chunk.size(); ++i)
-      weigh(chunk[i], static_cast<Index>(i) * coefficients_, worker);
-    const MatrixXf product = worker.weighted * noise(chunk, more);
-    worker.row_rhs += product.cast<double>();
+  TreeSum<MatrixXf> sum(sources_, rows_, more);
+  forOwn(sources_, [&](Worker& worker, std::size_t block) {
+    MatrixXf part = MatrixXf::Zero(rows_, more);
+    for (const Sources chunk : chunksOf(activeOf(block))) {
+      read(chunk, worker);
+      subtractModes(chunk, worker);
+      for (std::size_t i = 0; i < chunk.size(); ++i)
+        weigh(chunk[i], static_cast<Index>(i) * coefficients_, worker);
+      part.noalias() += worker.weighted * noise(chunk, more);
+    }
+    sum.add(block, std::move(part));
   });
-  MatrixXd X(rows_, modes);
-  X << result_.X.cast<double>(), sumOfRhs();
+  MatrixXd Xt(modes, rows_);
+  Xt << result_.X.transpose().cast<double>(), sum.finish().transpose().cast<double>();
   modes_ = modes;
   result_.Y = MatrixXf::Zero(modes_, result_.Y.cols()).eval();
-  orthonormalize(X);
+  orthonormalize(std::move(Xt));
+}
+
+/// The columns of a block of nodes side by side. @param Xt  n x 3 Ns
+MatrixXd FarFieldFit::columnsOfNodes(const MatrixXd& Xt, std::size_t block) const {
+  const auto nodes = nodes_.block(block);
+  MatrixXd out(Xt.rows(), 3 * static_cast<Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    out.middleCols<3>(3 * static_cast<Index>(i)) = Xt.middleCols<3>(3 * nodes[i]);
+  return out;
 }
 
 /// X <- X R^-1 with X^T diag(area) X = R^T R; twice, since the first basis may be nearly dependent.
-void FarFieldFit::orthonormalize(MatrixXd X) {
+/// @param Xt  X^T, n x 3 Ns: of the nodes of this rank
+void FarFieldFit::orthonormalize(MatrixXd Xt) {
+  const Index n = Xt.rows();
   for (int pass = 0; pass < 2; ++pass) {
-    MatrixXd gram = X.transpose() * row_area_.asDiagonal() * X;
+    TreeSum<MatrixXd> sum(nodes_, n, n);
+    forOwn(nodes_, [&](Worker&, std::size_t block) {
+      const MatrixXd own = columnsOfNodes(Xt, block);
+      Eigen::VectorXd area(own.cols());
+      for (Index i = 0; i < area.size(); ++i)
+        area[i] = row_area_[3 * nodes_.block(block)[static_cast<std::size_t>(i / 3)]];
+      sum.add(block, own * area.asDiagonal() * own.transpose());
+    });
+    MatrixXd gram = sum.finish();
     gram.diagonal().array() += 1e-14 * gram.trace();
     const Eigen::LLT<MatrixXd> llt(gram);
     if (llt.info() != Eigen::Success || !gram.allFinite())
       throw FitError("the fit of the modes broke down: the fields are all zero");
-    X = llt.matrixL().solve(X.transpose()).transpose().eval();
+    forOwn(nodes_, [&](Worker&, std::size_t block) {
+      const MatrixXd own = llt.matrixL().solve(columnsOfNodes(Xt, block));
+      for (std::size_t i = 0; i < nodes_.block(block).size(); ++i)
+        Xt.middleCols<3>(3 * nodes_.block(block)[i]) = own.middleCols<3>(3 * static_cast<Index>(i));
+    });
   }
-  result_.X = X.cast<float>();
+  MatrixXf all = Xt.cast<float>();
+  share(nodes_, [&](std::int32_t node) {
+    return std::span(all.data() + 3 * n * node, static_cast<std::size_t>(3 * n));
+  });
+  result_.X = all.transpose();
 }
 
 /// Rotates the modes so that Y's mean square is diagonal and falls.
 void FarFieldFit::orderByEnergy() {
-  const MatrixXf Z = whitenedY();
+  const MatrixXf Z = whitenedY(active_).cast<float>();
   const MatrixXf gram = Z * Z.transpose();
   const MatrixXf turn = eigenpairs(gram.cast<double>()).V.cast<float>();
   result_.X = (result_.X * turn).eval();

@@ -55,13 +55,14 @@ void FarFieldFit::measure(Sources chunk, bool reweight, Worker& worker) {
                                    .transpose());
     errors = errors.cwiseSqrt();
     const FitWeights& weights = source(chunk[i]).weights;
-    worker.count += static_cast<double>(errors.size());
+    Errors& own = errors_[static_cast<std::size_t>(chunk[i])];
+    own.count += static_cast<double>(errors.size());
     for (std::size_t j = 0; j < weights.nodes.size(); ++j) {
       errors[weights.nodes[j]] *= weights.shown[j];
-      if (weights.shown[j] <= 0.0F) worker.count -= 1.0;
+      if (weights.shown[j] <= 0.0F) own.count -= 1.0;
     }
-    worker.seen += errors.cast<double>().sum();
-    result_.largest[static_cast<std::size_t>(chunk[i])] = errors.maxCoeff();
+    own.seen = errors.cast<double>().sum();
+    own.largest = double{errors.maxCoeff()};
     if (reweight && mean_seen_ > 0.0) moveWeights(chunk[i], errors, column, worker);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
@@ -8,17 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "tools/solver/base/blocks.h"
+#include "tools/solver/base/tree_sum.h"
 #include "tools/solver/fit/fit_problem.h"
 #include "tools/solver/fit/gram_sums.h"
 
 namespace palpate::solver {
 
-/// The work of fitFarField(): a sketch, then sweeps of a Y-step and an X-step each (far_field_fit.cpp).
+/// The work of fitFarField(): a sketch, then sweeps of a Y-step and an X-step each (far_field_fit.cpp). Each rank has the Y of the
+/// sources whose fields it has, and the X of a part of the nodes, until both are shared.
 class FarFieldFit {
  public:
   FarFieldFit(const FitProblem& problem, const FitOptions& options);
   FarField run();
-  /// Y for these modes, m. @param X  3 Ns x n
+  /// Y of this rank's sources for these modes, m. @param X  3 Ns x n
   Eigen::MatrixXf amplitudes(const Eigen::MatrixXf& X);
 
  private:
@@ -27,11 +31,13 @@ class FarFieldFit {
     std::vector<float> fields;
     Eigen::MatrixXf weighted;  // 3 Ns x (sources of the chunk C): fields times their weights, m
     GramSums::Work grams;
-    Eigen::MatrixXd row_rhs;  // 3 Ns x n, input of the X-step
-    double error{0.0};        // weighted square of the remainder
-    double energy{0.0};       // weighted square of the field
-    double seen{0.0};         // sum of the errors seen near the sources, over d
-    double count{0.0};        // of them
+  };
+  struct Errors {         // of a source
+    double error{0.0};    // weighted square of the remainder
+    double energy{0.0};   // weighted square of the field
+    double seen{0.0};     // sum of the errors seen near it, over d
+    double count{0.0};    // of them
+    double largest{0.0};  // FarField::largest
   };
   enum class Step : std::uint8_t { kPlain, kMeasured, kReweighted, kLast, kAmplitudes };
   using Sources = std::span<const std::int32_t>;
@@ -41,45 +47,53 @@ class FarFieldFit {
   [[nodiscard]] auto columnsOf(Eigen::MatrixXf& M, std::int32_t s) const {
     return M.middleCols(s * coefficients_, coefficients_);
   }
-  void forBlocks(Sources order, std::size_t block, const std::function<void(Worker&, Sources)>& work);
+  void forOwn(const Blocks& blocks, const std::function<void(Worker&, std::size_t block)>& work);
+  [[nodiscard]] Sources activeOf(std::size_t block) const;
+  [[nodiscard]] static std::vector<Sources> chunksOf(Sources sources);
   void read(Sources chunk, Worker& worker) const;
   void weigh(std::int32_t source, Eigen::Index column, Worker& worker) const;
   [[nodiscard]] Eigen::MatrixXf whitening(std::int32_t source) const;
-  [[nodiscard]] Eigen::MatrixXf whitenedY();
+  [[nodiscard]] Eigen::MatrixXd whitenedY(Sources sources);
   void activate(std::size_t stride);
   [[nodiscard]] std::size_t headStride() const;
   [[nodiscard]] Eigen::MatrixXf noise(Sources chunk, Eigen::Index count) const;
   void sketch();
   void grow(Eigen::Index modes);
-  void orthonormalize(Eigen::MatrixXd X);
+  void orthonormalize(Eigen::MatrixXd Xt);
+  [[nodiscard]] Eigen::MatrixXd columnsOfNodes(const Eigen::MatrixXd& Xt, std::size_t block) const;
   void headStart();
   void sweepAll();
   [[nodiscard]] double quantileOfLargest() const;
   [[nodiscard]] Eigen::Index modesFor(double error, double asked) const;
   void sweep(Step step);
-  void solveY(Sources block, const GramSums& grams, Step step, Worker& worker);
+  void solveY(Sources block, const GramSums& grams, Step step, Worker& worker, Eigen::MatrixXf& rhs);
+  void addUpErrors();
+  void shareY();
   void subtractModes(Sources chunk, Worker& worker);
   void measure(Sources chunk, bool reweight, Worker& worker);
   [[nodiscard]] Eigen::MatrixXf directions(std::int32_t source) const;
   void moveWeights(std::int32_t source, const Eigen::VectorXf& errors, Eigen::Index column, Worker& worker);
-  void addError(std::int32_t s, Eigen::Index column, const Eigen::MatrixXd& b, Worker& worker);
-  void feedX(Sources chunk, Worker& worker);
-  void solveX(const Eigen::MatrixXd& rhs);
-  [[nodiscard]] Eigen::MatrixXd sumOfRhs() const;
+  void addError(std::int32_t s, Eigen::Index column, const Eigen::MatrixXd& b, const Worker& worker);
+  void feedX(Sources chunk, const Worker& worker, Eigen::MatrixXf& rhs);
+  void solveX(const Eigen::MatrixXf& rhs);
+  [[nodiscard]] bool whitenAll(Eigen::MatrixXf& Z, Eigen::LLT<Eigen::MatrixXd>& llt);
   void orderByEnergy();
 
   const FitProblem& problem_;
   FitOptions options_;
   Eigen::Index rows_, coefficients_, modes_;
-  Eigen::MatrixXd moment_factor_;                        // C x C
-  Eigen::VectorXd row_area_;                             // 3 Ns, sums to 3
-  std::vector<std::int32_t> source_order_, node_order_;  // neighbours together
-  std::vector<std::int32_t> active_;                     // the sources that sweeps go over, in order
-  Eigen::MatrixXf change_;                               // Ns x M: weight - 1, moved by sweeps
-  double mean_seen_{0.0};                                // mean error near the sources, of the last measure
-  std::vector<double> energies_;  // weighted squares of each source's field, negative: not known yet
-  Eigen::MatrixXd area_gram_;     // X^T diag(area) X, n x n
-  Eigen::MatrixXf area_X_;        // diag(area) X
+  Eigen::MatrixXd moment_factor_;          // C x C
+  Eigen::VectorXd row_area_;               // 3 Ns, sums to 3
+  const Blocks& sources_;                  // of the table
+  Blocks nodes_;                           // of the X-step
+  std::vector<std::int32_t> active_;       // the sources that sweeps go over, in order
+  std::vector<std::size_t> active_begin_;  // by block of sources, and the end; offsets into active_
+  Eigen::MatrixXf change_;                 // Ns x M: weight - 1, moved by sweeps
+  double mean_seen_{0.0};                  // mean error near the sources, of the last measure
+  std::vector<Errors> errors_;             // of each source, of the last sweep
+  std::vector<double> energies_;           // weighted squares of each source's field, negative: not known yet
+  Eigen::MatrixXd area_gram_;              // X^T diag(area) X, n x n
+  Eigen::MatrixXf area_X_;                 // diag(area) X
   FarField result_;
   std::vector<Worker> workers_;
 };

@@ -27,13 +27,15 @@ int openScratch(const ScratchPlace& place) {
 
 }  // namespace
 
-FieldTable::FieldTable(const ScratchPlace& place, std::size_t positions, std::size_t coefficients,
+FieldTable::FieldTable(const ScratchPlace& place, Blocks positions, std::size_t coefficients,
                        std::size_t rows)
-    : file_(openScratch(place)), positions_(positions), coefficients_(coefficients), rows_(rows) {
+    : file_(openScratch(place)), blocks_(std::move(positions)), coefficients_(coefficients), rows_(rows) {
+  const std::size_t first = blocks_.ownBegin(), end = blocks_.ownEnd();
+  for (std::size_t i = first; i < end; ++i) slot_[static_cast<std::size_t>(blocks_.order()[i])] = i - first;
   if (file_ < 0)
     throw std::runtime_error(place.folder.string() +
                              ": cannot make a scratch file there: " + std::strerror(errno));
-  const std::size_t bytes = positions * blockBytes();
+  const std::size_t bytes = (end - first) * blockBytes();
   const int error = bytes > 0 ? posix_fallocate(file_, 0, static_cast<off_t>(bytes)) : 0;
   if (error != 0) {
     close(file_);
@@ -49,7 +51,7 @@ FieldTable::~FieldTable() {
 void FieldTable::write(std::size_t position, std::span<const float> fields) {
   const char* data = reinterpret_cast<const char*>(fields.data());
   const std::size_t bytes = fields.size_bytes();
-  const std::size_t begin = position * blockBytes();
+  const std::size_t begin = offsetOf(position);
   std::size_t done = 0;
   while (done < bytes) {
     const ssize_t n = pwrite(file_, data + done, bytes - done, static_cast<off_t>(begin + done));
@@ -61,10 +63,10 @@ void FieldTable::write(std::size_t position, std::span<const float> fields) {
 
 void FieldTable::read(std::size_t position, std::span<float> fields) const {
   char* data = reinterpret_cast<char*>(fields.data());
+  const std::size_t begin = offsetOf(position);
   std::size_t done = 0;
   while (done < blockBytes()) {
-    const ssize_t n =
-        pread(file_, data + done, blockBytes() - done, static_cast<off_t>(position * blockBytes() + done));
+    const ssize_t n = pread(file_, data + done, blockBytes() - done, static_cast<off_t>(begin + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) throw std::runtime_error(std::string("scratch file: read failed: ") + std::strerror(errno));
     done += static_cast<std::size_t>(n);

@@ -8,23 +8,25 @@ namespace palpate::solver {
 using Eigen::Index;
 using Eigen::MatrixXf;
 
-std::size_t GramSums::blockSize(Index n, int workers, std::size_t receivers) {
-  constexpr std::size_t kBytes = 256U << 20U, kLeast = 32, kMost = 512, kBlocksEach = 4;
-  const auto all = static_cast<std::size_t>(workers);
-  const std::size_t fits = kBytes / (all * sizeof(float) * static_cast<std::size_t>(packedSize(n)));
-  const std::size_t even = (receivers + kBlocksEach * all - 1) / (kBlocksEach * all);
-  return std::max(kLeast, std::min({fits, even, kMost}));
-}
-
 /// Packs the matrices wanted[first .. first + count).
 void GramSums::formGrams(std::size_t first, std::size_t count, Work& work) const {
+  constexpr Index kFew = 4;  // columns that no product of matrices is called for
   const Index n = columns_.rows();
   work.square.resize(n, n);
   for (std::size_t q = 0; q < count; ++q) {
     const auto B = columns_.middleCols(work.wanted[first + q] * width_, width_);
-    work.square.noalias() = B * B.transpose();
     float* out = work.grams.col(static_cast<Index>(q)).data();
-    for (Index j = 0; j < n; ++j) out = std::copy_n(work.square.col(j).data() + j, n - j, out);
+    if (width_ > kFew) {
+      work.square.triangularView<Eigen::Lower>().setZero();
+      work.square.selfadjointView<Eigen::Lower>().rankUpdate(B);
+      for (Index j = 0; j < n; ++j) out = std::copy_n(work.square.col(j).data() + j, n - j, out);
+      continue;
+    }
+    for (Index j = 0; j < n; out += n - j, ++j) {
+      Eigen::Map<Eigen::VectorXf> column(out, n - j);
+      column = B(j, 0) * B.col(0).tail(n - j);
+      for (Index c = 1; c < width_; ++c) column += B(j, c) * B.col(c).tail(n - j);
+    }
   }
 }
 

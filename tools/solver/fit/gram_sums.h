@@ -19,9 +19,6 @@ class GramSums {
   /// Numbers in a packed lower triangle, column by column.
   [[nodiscard]] static Eigen::Index packedSize(Eigen::Index n) { return n * (n + 1) / 2; }
 
-  /// Receivers in a block, so that the sums of all workers stay within 256 MiB and every worker gets some blocks.
-  [[nodiscard]] static std::size_t blockSize(Eigen::Index n, int workers, std::size_t receivers);
-
   /// What sum() needs, kept from block to block.
   struct Work {
     Eigen::MatrixXf sums;  ///< out: packed, one column for each receiver
