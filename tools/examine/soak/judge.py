@@ -91,11 +91,16 @@ def beats(times, ticks):
 
 
 def nothing_lost(plays):
-    """@param[in] plays  {"who", "lost", "failed"} of each time that a tool played to its end"""
-    lost = [f"{play['who']} lost {play['lost']}" for play in plays if play["lost"]]
+    """@param[in] plays  {"who", "lost", "failed"} of each time that a tool played to its end; with "stalled" true its poses came
+    too late to behave, and it is not judged"""
+    judged = [play for play in plays if not play.get("stalled")]
+    stalled = [play for play in plays if play.get("stalled")]
+    lost = [f"{play['who']} lost {play['lost']}" for play in judged if play["lost"]]
     failed = [f"{play['who']}: {play['failed']}" for play in plays if play["failed"]]
-    if not plays:
-        return Verdict("answers", False, "no tool played to its end")
+    left_out = (f"; {len(stalled)} more stood still for 50 ms, which lost {sum(play['lost'] for play in stalled)}: not judged"
+                if stalled else "")
+    if not judged:
+        return Verdict("answers", False, "no tool played to its end without standing still")
     if lost or failed:
-        return Verdict("answers", False, "; ".join((lost + failed)[:4]) + f" ({len(lost) + len(failed)} of {len(plays)} plays)")
-    return Verdict("answers", True, f"none lost in {len(plays)} plays of tools")
+        return Verdict("answers", False, "; ".join((lost + failed)[:4]) + f" ({len(lost) + len(failed)} of {len(plays)} plays){left_out}")
+    return Verdict("answers", True, f"none lost in {len(judged)} plays of tools{left_out}")

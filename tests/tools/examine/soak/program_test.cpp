@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// tools/soak as a whole, for seconds, against real programs on synthetic models.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "palpate/testing/paths.h"
+#include "palpate/testing/run_program.h"
+#include "palpate/testing/synthetic_model.h"
+
+namespace palpate::testing {
+
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kSoak = std::string(PALPATE_TOOLS_DIR) + "/soak";
+
+}  // namespace
+
+TEST(Soak, JudgesAServerAmongToolsVisitorsChangesAndAHostileClient) {
+  const TemporaryFile model("soaked.h5"), other("other.h5");
+  const TemporaryFolder out;
+  writeSyntheticModel(model.path(), {.subdivisions = 2, .modes = 6});
+  writeSyntheticModel(other.path(), {.subdivisions = 2, .modes = 6, .stiffness = 200.0});
+  const ProgramResult made =
+      runProgram(kSoak, {"--minutes", "0.33", "--bin", binDir(), "--model", model.path().string(), "--swap",
+                         other.path().string(), "--output", out.path().string(), "--json"});
+  EXPECT_EQ(made.exit_code, 0) << made.out << made.err << contentOf(out.path() / "soak.txt");
+  const auto json = nlohmann::json::parse(made.out);
+  EXPECT_EQ(json["verdicts"].size(), 10U);
+  EXPECT_GE(json["scenes"], 2);
+  for (const char* key : {"visitors", "pages", "frames", "asked", "accepted", "swaps", "wrong"})
+    EXPECT_GT(json["counts"][key], 0) << key;
+  for (const nlohmann::json& row : json["rows"]) {
+    EXPECT_GT(row["server"]["rss"], 10.0);
+    EXPECT_GT(row["viewer"]["descriptors"], 3);
+    EXPECT_GT(row["pose_to_force_us"]["p99"], row["pose_to_force_us"]["p50"]);
+    EXPECT_GT(row["ticks"], 1000);
+  }
+  EXPECT_THAT(contentOf(out.path() / "soak.txt"), HasSubstr("holds   server memory"));
+  if (isInstalled("gnuplot")) {
+    EXPECT_THAT(contentOf(out.path() / "soak.svg"), HasSubstr("</svg>"));
+  }
+}
+
+TEST(Soak, SimulatesTimeWithoutAServer) {
+  const TemporaryFile model("hours.h5");
+  writeSyntheticModel(model.path());
+  const ProgramResult made = runProgram(
+      kSoak, {"--simulated", "0.005", "--bin", binDir(), "--model", model.path().string(), "--json"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const auto json = nlohmann::json::parse(made.out);
+  EXPECT_EQ(json["holds"], true);
+  EXPECT_GT(json["rows"][0]["in_contact"], 1000);
+}
+
+}  // namespace palpate::testing
