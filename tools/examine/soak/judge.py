@@ -92,12 +92,12 @@ def beats(times, ticks):
 
 def nothing_lost(plays):
     """@param[in] plays  {"who", "lost", "failed"} of each time that a tool played to its end; with "stalled" true its poses came
-    too late to behave, and it is not judged"""
+    too late to behave, or somebody else's may have, and it is not judged"""
     judged = [play for play in plays if not play.get("stalled")]
     stalled = [play for play in plays if play.get("stalled")]
     lost = [f"{play['who']} lost {play['lost']}" for play in judged if play["lost"]]
-    failed = [f"{play['who']}: {play['failed']}" for play in plays if play["failed"]]
-    left_out = (f"; {len(stalled)} more stood still for 50 ms, which lost {sum(play['lost'] for play in stalled)}: not judged"
+    failed = [f"{play['who']}: {play['failed']}" for play in judged if play["failed"]]
+    left_out = (f"; {len(stalled)} more in scenes that stood still for 50 ms lost {sum(play['lost'] for play in stalled)}: not judged"
                 if stalled else "")
     if not judged:
         return Verdict("answers", False, "no tool played to its end without standing still")

@@ -20,11 +20,12 @@ SETTLED = 2.0        # s that tools play longer than a scene, since it takes as 
 SCRIPTS = ("slide", "press", "poke")
 MOTIONS = ("press", "drag", "tap")
 # A tool whose poses stop for so long may be taken by somebody else (docs/decisions/tool_ownership.md), and the hostile client is
-# after tool 1 all the time. Where the machine let its sender or the server's receive thread wait for so long, us, what it
-# lost is told and not judged.
+# after these two. Where the machine let tool 1's sender or the server's receive thread wait for so long, us, what both lost is
+# told and not judged.
 SILENCE = 50e3
+AT_RISK = ("tool 0", "tool 1")
 TOLD = ("lost", "late", "received", "sent", "superseded", "left_out", "model_changes", "overruns", "late_ticks")
-FEWEST_SECONDS = 5.0
+FEWEST_SECONDS = 4.0
 
 
 def quiet_part(seconds):
@@ -43,9 +44,9 @@ class Scene:
 
     def run(self):
         """@return whether the server lived"""
-        began = self._clock()
         tools = self._start_tools()
         self._until_all_play()
+        began = self._clock()
         busy_until = began + self._seconds - quiet_part(self._seconds)
         hostile = self._start_hostile(busy_until - self._clock())
         for at, act in self._plan(self._clock(), busy_until):
@@ -99,6 +100,10 @@ class Scene:
                 pass
             code = processes.end(process)
             self.plays.append(played(who, code, file.read_text(encoding="utf-8"), processes.last_line(self._stage.log("tools"))))
+        stalled = any(play.get("stalled") for play in self.plays)
+        for play in self.plays:
+            if play["who"] in AT_RISK:
+                play["stalled"] = stalled
 
     # -- those beside them
 
