@@ -114,6 +114,9 @@ def picture(run, file):
                       for s in run["samples"] if s["quiet"])
     times = "\n".join(f"{p['t'] / 60:.4f} {p['pose_to_force_us']['p50']:.1f} {p['pose_to_force_us']['p99']:.1f} "
                       f"{p['pose_to_force_us']['max']:.1f}" for p in run["plays"] if "pose_to_force_us" in p)
+    if not quiet or not times:
+        print("no figure: it ended before the first scene did", file=sys.stderr)
+        return
     drawn = subprocess.run(["gnuplot"], input=_PICTURE.format(file=file, quiet=quiet, times=times), capture_output=True, text=True,
                            check=False)
     if drawn.returncode != 0:
