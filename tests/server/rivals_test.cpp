@@ -128,8 +128,7 @@ TEST_F(RivalsAtLength, ARequestThatTwoServersTookIsNotReportedForOne) {
   const auto result = palpate::testing::runProgram(
       "palpate-parameters", {"--domain", std::to_string(domain_), "--friction", "0.1", "--wait", "5"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("2 servers have the id 0 and each took the request for itself"),
-            std::string::npos)
+  EXPECT_NE(result.err.find("2 servers have the id 0 and each answers for itself"), std::string::npos)
       << result.err;
 }
 

@@ -2,6 +2,7 @@
 #include "palpate/client/parameter_exchange.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,23 +21,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The first answer to a request, and who else answers it. One that says that another follows only says that there is a server.
+using Fits = std::function<bool(const dds::ServerParameters&)>;
+
+// The newest answer that fits, and who else sends such ones. One that says that another follows only says that there is a server.
 struct Answers {
-  std::optional<dds::ServerParameters> first;
+  std::optional<dds::ServerParameters> newest;
   bool pending{false};  // since the last look
   std::set<dds::WriterId> writers;
 
-  void take(std::uint64_t request_id, const dds::Reader<dds::ServerParameters>& reader) {
+  void take(const dds::Reader<dds::ServerParameters>& reader, const Fits& fits) {
     std::array<dds::ServerParameters, dds::kMaxTake> samples;
     std::array<dds::WriterId, dds::kMaxTake> from;
     const std::size_t count = reader.view().take(samples, from);
     for (std::size_t i = 0; i < count; ++i) {
-      if (samples[i].request_id != request_id) continue;
+      if (!fits(samples[i])) continue;
       writers.insert(from[i]);
       if (samples[i].pending)
         pending = true;
-      else if (!first)
-        first = samples[i];
+      else
+        newest = samples[i];
     }
   }
 };
@@ -45,9 +48,9 @@ struct Answers {
 dds::ServerParameters onlyAnswer(const Answers& answers) {
   if (answers.writers.size() > 1)
     throw ClientError(std::to_string(answers.writers.size()) + " servers have the id " +
-                      std::to_string(answers.first->server_id) +
-                      " and each took the request for itself: stop all but one");
-  return *answers.first;
+                      std::to_string(answers.newest->server_id) +
+                      " and each answers for itself: stop all but one");
+  return *answers.newest;
 }
 
 std::string missing(std::uint32_t server_id, const dds::Participant& participant,
@@ -58,21 +61,27 @@ std::string missing(std::uint32_t server_id, const dds::Participant& participant
   return mismatch.empty() ? text + kNoServerHint : text + "; " + mismatch;
 }
 
-// What a server answered last, to whomever.
-dds::ServerParameters newestAnswer(const dds::Participant& participant, const dds::ParameterRequest& question,
-                                   std::chrono::milliseconds patience) {
+constexpr auto kLinger = std::chrono::milliseconds(50);  // for another server of the same id
+
+// @param ask  called every few milliseconds
+dds::ServerParameters waitForAnswer(const dds::Participant& participant, std::uint32_t server_id,
+                                    std::chrono::milliseconds patience, const Fits& fits,
+                                    const std::function<void()>& ask) {
   const dds::Reader<dds::ServerParameters> answers(participant);
-  const Clock::time_point end = Clock::now() + patience;
-  std::array<dds::ServerParameters, dds::kMaxTake> samples;
+  Clock::time_point end = Clock::now() + patience;
+  std::optional<Clock::time_point> answered;
+  Answers found;
   while (Clock::now() <= end && !stopRequested()) {
-    for (std::size_t i = answers.view().take(samples); i-- > 0;)
-      if (!samples[i].pending && samples[i].server_id == question.server_id &&
-          (question.session == 0 || samples[i].session == question.session))
-        return samples[i];
+    ask();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    found.take(answers, fits);
+    if (std::exchange(found.pending, false)) end = Clock::now() + patience;
+    if (found.newest && !answered) answered = Clock::now();
+    if (answered && Clock::now() - *answered >= kLinger) break;
   }
+  if (found.newest) return onlyAnswer(found);
   if (stopRequested()) throw ClientError("interrupted while waiting for a server");
-  throw ClientError(missing(question.server_id, participant, answers, patience));
+  throw ClientError(missing(server_id, participant, answers, patience));
 }
 
 }  // namespace
@@ -84,31 +93,25 @@ dds::ServerParameters exchangeParameters(const dds::Participant& participant, dd
       throw ClientError("the identity " + participant.identity()->name() + " has the role " +
                         std::string(dds::wordOf(participant.identity()->role())) +
                         ", only an operator may change parameters");
-    return newestAnswer(participant, request, patience);
+    const Fits of_server = [&](const dds::ServerParameters& answer) {  // to whomever
+      return answer.server_id == request.server_id &&
+             (request.session == 0 || answer.session == request.session);
+    };
+    return waitForAnswer(participant, request.server_id, patience, of_server, [] {});
   }
   dds::Writer<dds::ParameterRequest> requests(participant);
-  const dds::Reader<dds::ServerParameters> answers(participant);
   request.request_id = firstRequestId();
-  Clock::time_point end = Clock::now() + patience;
-  constexpr auto kLinger = std::chrono::milliseconds(50);  // for another server of the same id
   Clock::time_point next = Clock::now();
-  std::optional<Clock::time_point> answered;
-  Answers found;
-  while (Clock::now() <= end && !stopRequested()) {
+  const auto ask = [&] {
     if (requests.matched() == 0) next = Clock::now() + kLinger;
-    if (Clock::now() >= next) {
-      (void)requests.write(request);
-      next = Clock::now() + std::chrono::milliseconds(200);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    found.take(request.request_id, answers);
-    if (std::exchange(found.pending, false)) end = Clock::now() + patience;
-    if (found.first && !answered) answered = Clock::now();
-    if (answered && Clock::now() - *answered >= kLinger) return onlyAnswer(found);
-  }
-  if (found.first) return onlyAnswer(found);
-  if (stopRequested()) throw ClientError("interrupted while waiting for a server");
-  throw ClientError(missing(request.server_id, participant, answers, patience));
+    if (Clock::now() < next) return;
+    (void)requests.write(request);
+    next = Clock::now() + std::chrono::milliseconds(200);
+  };
+  const Fits to_us = [&](const dds::ServerParameters& answer) {
+    return answer.request_id == request.request_id;
+  };
+  return waitForAnswer(participant, request.server_id, patience, to_us, ask);
 }
 
 }  // namespace palpate::client
