@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 
+#include "builtin_samples.h"
 #include "palpate/idl/endpoint_fit.h"
 #include "palpate/idl/error.h"
 #include "palpate/idl/identity.h"
@@ -17,11 +18,6 @@ namespace palpate::dds {
 namespace {
 
 using Other = dds_builtintopic_endpoint_t;
-
-Entity builtinReader(dds_entity_t participant, dds_entity_t topic) {
-  return Entity(
-      checked(dds_create_reader(participant, topic, nullptr, nullptr), "cannot read what DDS discovered"));
-}
 
 QosPtr qosOf(dds_entity_t entity) {
   QosPtr qos(dds_create_qos());
@@ -40,22 +36,6 @@ std::string reason(dds_entity_t ours, bool ours_writes, const std::string& our_t
              ? "type or permissions (another version of palpate.idl, or its identity's role may not?)"
              : "type (another version of palpate.idl?)";
 }
-
-// Samples of a builtin topic, borrowed.
-struct Found {
-  Found(dds_entity_t builtin, std::size_t most) : reader(builtin) {
-    count = dds_take(reader, samples.data(), infos.data(), most, static_cast<std::uint32_t>(most));
-  }
-  Found(const Found&) = delete;
-  Found& operator=(const Found&) = delete;
-  ~Found() {
-    if (count > 0) dds_return_loan(reader, samples.data(), count);
-  }
-  dds_entity_t reader;
-  std::array<void*, EndpointWatch::kMostAtOnce> samples{};
-  std::array<dds_sample_info_t, EndpointWatch::kMostAtOnce> infos;
-  dds_return_t count;
-};
 
 }  // namespace
 
@@ -90,13 +70,13 @@ std::vector<std::string> EndpointWatch::poll(Clock::time_point now) {
 void EndpointWatch::look(dds_entity_t builtin, bool writes, Clock::time_point now) {
   const std::size_t room = kMostAtOnce - suspects_.size();
   if (room == 0) return;
-  const Found found(builtin, room);
-  for (std::size_t i = 0; found.count > 0 && i < static_cast<std::size_t>(found.count); ++i) {
-    const dds_sample_info_t& info = found.infos[i];
-    if (info.valid_data && info.instance_state == DDS_IST_ALIVE) {
-      note(*static_cast<const Other*>(found.samples[i]), info.instance_handle, writes, now);
+  const BuiltinSamples found(builtin, room);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const dds_instance_handle_t endpoint = found.instance(i);
+    if (const auto* other = found.alive<Other>(i)) {
+      note(*other, endpoint, writes, now);
     } else {  // it left
-      std::erase_if(suspects_, [&](const Suspect& s) { return s.endpoint == info.instance_handle; });
+      std::erase_if(suspects_, [&](const Suspect& s) { return s.endpoint == endpoint; });
     }
   }
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "palpate/idl/error.h"
+#include "builtin_samples.h"
 #include "palpate/idl/printable.h"
 
 namespace palpate::dds {
@@ -33,9 +33,7 @@ Process processOf(dds_entity_t participants, dds_instance_handle_t participant) 
 }
 
 ProcessBook::ProcessBook(const Participant& participant)
-    : participants_(checked(
-          dds_create_reader(participant.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr),
-          "cannot read what DDS discovered")) {}
+    : participants_(builtinReader(participant.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT)) {}
 
 Process ProcessBook::processOf(dds_entity_t reader, dds_instance_handle_t writer) const {
   dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(reader, writer);

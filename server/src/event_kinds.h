@@ -24,6 +24,6 @@ constexpr std::uint64_t kAnnouncementFloodKind = kOverrunKind + 14;
 constexpr std::uint64_t kLateKind = kOverrunKind + 15;
 constexpr std::uint64_t kClockStepKind = kOverrunKind + 16;
 constexpr std::uint64_t kOutsiderKind = kOverrunKind + 17;
-constexpr std::uint64_t kIdentityKind = kOverrunKind + 18;  // of its own: strangers bring outsiders at will
+constexpr std::uint64_t kDdsLineKind = kOverrunKind + 18;
 
 }  // namespace palpate::server

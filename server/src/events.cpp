@@ -3,6 +3,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
 #include "core/base/status_flags.h"
 #include "event_kinds.h"
 #include "palpate/rt/clock.h"
@@ -84,13 +86,15 @@ void Events::noteParameters() {
 
 // An endpoint is reported once.
 void Events::noteMisfits(std::int64_t now_ns) {
-  if (endpoints_ != nullptr) warnOfSome(kMisfitKind, endpoints_->poll(), untold_misfits_, now_ns);
+  if (endpoints_ != nullptr) warnInTurn(kMisfitKind, endpoints_->poll(), misfits_, now_ns);
 }
 
 void Events::noteSecurity(std::int64_t now_ns) {
   if (security_ == nullptr) return;
-  if (const std::string end = security_->pollOwn(now_ns); !end.empty()) warn(kIdentityKind, end, now_ns);
-  warnOfSome(kOutsiderKind, security_->pollOthers(), untold_outsiders_, now_ns);
+  // Rare by itself, and strangers cannot bring it: never left out.
+  if (const std::string end = security_->pollOwn(now_ns); !end.empty()) warn(end);
+  warnInTurn(kOutsiderKind, security_->pollOthers(), outsiders_, now_ns);
+  warnInTurn(kDdsLineKind, security_->pollLines(), dds_lines_, now_ns);
 }
 
 void Events::noteUnknownTools(std::int64_t now_ns) {
@@ -238,25 +242,19 @@ bool Events::isDue(std::uint64_t kind, std::int64_t now_ns) {
 }
 
 void Events::warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns) {
-  if (!isDue(kind, now_ns)) return;
+  if (isDue(kind, now_ns)) warn(text);
+}
+
+void Events::warn(const std::string& text) {
   spdlog::warn(text);
   health_.message = text;
   changed_ = true;
 }
 
-void Events::warnOfSome(std::uint64_t kind, std::vector<std::string> lines, std::uint64_t& untold,
+void Events::warnInTurn(std::uint64_t kind, std::vector<std::string> lines, LinesInTurn& waiting,
                         std::int64_t now_ns) {
-  for (std::string& line : lines) {
-    if (untold > 0) line += " (" + std::to_string(untold) + " more before it)";
-    if (!isDue(kind, now_ns)) {
-      ++untold;
-      continue;
-    }
-    untold = 0;
-    spdlog::warn(line);
-    health_.message = line;
-    changed_ = true;
-  }
+  waiting.add(std::move(lines));
+  if (!waiting.empty() && isDue(kind, now_ns)) warn(waiting.next());
 }
 
 void Events::info(const std::string& text) {

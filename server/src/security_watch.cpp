@@ -37,13 +37,16 @@ std::string SecurityWatch::pollOwn(std::int64_t now_ns) {
 }
 
 std::vector<std::string> SecurityWatch::pollOthers() {
-  std::vector<std::string> lines = outsiders_.poll();
+  return outsiders_.poll();
+}
+
+std::vector<std::string> SecurityWatch::pollLines() {
   const std::lock_guard lock(mutex_);
-  if (line_.empty()) return lines;
-  lines.push_back("DDS: " + std::exchange(line_, {}));
+  if (line_.empty()) return {};
+  std::string line = "DDS: " + std::exchange(line_, {});
   if (const std::uint64_t more = std::exchange(more_, 0); more > 0)
-    lines.back() += " (and " + std::to_string(more) + " more lines)";
-  return lines;
+    line += " (and " + std::to_string(more) + " more lines)";
+  return {line};
 }
 
 // What others' certificates say is printed too.

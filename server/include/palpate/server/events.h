@@ -12,6 +12,7 @@
 #include "palpate/rt/phase_lock.h"
 #include "palpate/server/channels.h"
 #include "palpate/server/health.h"
+#include "palpate/server/lines_in_turn.h"
 #include "palpate/server/parameter_service.h"
 #include "palpate/server/rest_surface.h"
 #include "palpate/server/rival_watch.h"
@@ -78,8 +79,8 @@ class Events {
   /// Whether a line of this kind may be written: once a second.
   [[nodiscard]] bool isDue(std::uint64_t kind, std::int64_t now_ns);
   void warn(std::uint64_t kind, const std::string& text, std::int64_t now_ns);
-  /// Of lines that come within a second of another only their number is told, with the next one.
-  void warnOfSome(std::uint64_t kind, std::vector<std::string> lines, std::uint64_t& untold,
+  void warn(const std::string& text);
+  void warnInTurn(std::uint64_t kind, std::vector<std::string> lines, LinesInTurn& waiting,
                   std::int64_t now_ns);
   void info(const std::string& text);
   void publishIfDue(std::int64_t now_ns);
@@ -91,8 +92,7 @@ class Events {
   dds::EndpointWatch* endpoints_{nullptr};
   RestSurface* rest_surface_{nullptr};
   SecurityWatch* security_{nullptr};
-  std::uint64_t untold_misfits_{0};
-  std::uint64_t untold_outsiders_{0};
+  LinesInTurn misfits_, outsiders_, dds_lines_;
   const dds::ProcessBook* processes_{nullptr};
   dds_entity_t poses_{0};
   std::array<std::uint64_t, kMaxTools> owners_{};  // as channels_.owners, looked up

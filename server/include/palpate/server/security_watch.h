@@ -11,8 +11,9 @@
 namespace palpate::server {
 
 /// What there is to tell of a server with an identity: who is not let in, what DDS finds wrong with others' certificates and
-/// permissions, and that its own end or have ended: DDS then leaves the domain, so that no pose comes any more. While it lives, DDS logs here instead of to standard error; one at a time.
-/// Threads: poll() on one; DDS logs on any. The participant must outlive it. Real-time: no.
+/// permissions, and that its own end or have ended: DDS then leaves the domain, so that no pose comes any more.
+/// While it lives, DDS logs here instead of to standard error; one at a time.
+/// Threads: the polls on one; DDS logs on any. The participant must outlive it. Real-time: no.
 class SecurityWatch {
  public:
   /// @param[in] participant  one with an identity
@@ -21,9 +22,11 @@ class SecurityWatch {
   SecurityWatch(const SecurityWatch&) = delete;
   SecurityWatch& operator=(const SecurityWatch&) = delete;
 
-  /// Of others, since the last call. Of DDS's own lines the first, with the number of those that came behind it: others decide
-  /// how many there are.
+  /// Who was not let in, since the last call.
   [[nodiscard]] std::vector<std::string> pollOthers();
+  /// What DDS logged since the last call: the first line, with the number of those that came behind it, since others decide how
+  /// many there are.
+  [[nodiscard]] std::vector<std::string> pollLines();
   /// That the own identity ends: 30 days before, at the first call and each day; and once, that it has. Empty: nothing to tell.
   /// Apart from others' lines, which may be left out.
   [[nodiscard]] std::string pollOwn(std::int64_t now_ns);
