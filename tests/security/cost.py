@@ -75,7 +75,7 @@ def main():
             for _ in range(arguments.rounds):
                 for kind in kinds:
                     done = subprocess.run([BIN / "palpate-latency", "--seconds", str(arguments.seconds), "--json",
-                                           *words(kind, "driver")], check=True, capture_output=True, text=True)
+                                           *words(kind, "driver")], check=True, stdout=subprocess.PIPE, text=True)
                     found[kind].append(json.loads(done.stdout))
         finally:
             for server in servers:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who should not get in, as a process: joins a domain and writes poses of tools 0 and 1, forces of a session of its own, and
-// requests for another friction, 200 a second, for some seconds. Says how many readers each of its writers matched.
-//   security_intruder DOMAIN SECONDS [FOLDER [PROPERTY=VALUE...]]
+// requests for another friction, 200 a second, until SIGTERM. Says its participant and which writers it has, and at its end how many
+// readers each matched.
+//   security_intruder DOMAIN [FOLDER [PROPERTY=VALUE... | no-poses]]
 // With FOLDER, an identity, whose properties may be replaced one by one, without the checks of dds::Identity. Its own side takes
 // permissions and governance of whoever signed them.
 #include "intruder.h"
@@ -11,9 +12,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,6 +36,8 @@ extern "C" int PKCS7_verify(PKCS7* message, STACK_OF(X509) * certificates, X509_
 namespace palpate::dds {
 namespace {
 
+volatile std::sig_atomic_t stop = 0;
+
 template <class T>
 class Intruding {
  public:
@@ -42,8 +46,9 @@ class Intruding {
     const dds_entity_t topic = raw::createTopic(participant.handle(), Traits::descriptor(), Traits::kName);
     try {
       writer_ = Entity(raw::createWriter(participant.handle(), topic, Traits::kName, Traits::kProfile));
+      std::cout << Traits::kName << ": writer made" << std::endl;
     } catch (const DdsError& error) {
-      std::cout << error.what() << "\n";
+      std::cout << error.what() << std::endl;
     }
   }
   void write(const T& sample) {
@@ -60,13 +65,14 @@ class Intruding {
 
 Entity join(const std::vector<std::string>& words) {
   const QosPtr qos(dds_create_qos());
-  if (words.size() > 2) Identity::load(words[2]).applyTo(*qos);
+  if (words.size() > 1) Identity::load(words[1]).applyTo(*qos);
   char* plugin = nullptr;  // for lenient_access_control.c
   if (dds_qget_prop(qos.get(), "dds.sec.access.library.path", &plugin))
     setenv("PALPATE_ACCESS_CONTROL", plugin, 1);
   dds_free(plugin);
-  for (std::size_t i = 3; i < words.size(); ++i) {
+  for (std::size_t i = 2; i < words.size(); ++i) {
     const std::size_t equals = words[i].find('=');
+    if (equals == std::string::npos) continue;
     dds_qset_prop(qos.get(), words[i].substr(0, equals).c_str(), words[i].substr(equals + 1).c_str());
   }
   const auto domain = static_cast<dds_domainid_t>(std::stoul(words[0]));
@@ -84,8 +90,14 @@ ToolPose poseOf(std::uint32_t tool, std::uint64_t seq) {
 }
 
 int run(const std::vector<std::string>& words) {
+  std::signal(SIGTERM, [](int) { stop = 1; });
   const Entity participant = join(words);
-  Intruding<ToolPose> poses(participant);
+  dds_guid_t guid{};
+  (void)dds_get_guid(participant.handle(), &guid);
+  std::cout << "participant " << raw::textOf(guid) << std::endl;
+  const bool with_poses = std::find(words.begin(), words.end(), "no-poses") == words.end();
+  std::optional<Intruding<ToolPose>> poses;
+  if (with_poses) poses.emplace(participant);
   Intruding<ToolForce> forces(participant);
   Intruding<ParameterRequest> requests(participant);
   ToolForce force{};
@@ -94,17 +106,16 @@ int run(const std::vector<std::string>& words) {
   request.request_id = testing::kIntrudersSession;
   request.tool_id = kAllTools;
   request.fields = parameter::kFriction;
-  request.friction = 0.01;
-  const auto end =
-      std::chrono::steady_clock::now() + std::chrono::milliseconds(std::lround(1e3 * std::stod(words[1])));
-  for (std::uint64_t seq = 1; std::chrono::steady_clock::now() < end; ++seq) {
-    for (const std::uint32_t tool : {0U, 1U}) poses.write(poseOf(tool, seq));
+  request.friction = testing::kIntrudersFriction;
+  for (std::uint64_t seq = 1; stop == 0; ++seq) {
+    if (poses)
+      for (const std::uint32_t tool : {0U, 1U}) poses->write(poseOf(tool, seq));
     force.seq = seq;
     forces.write(force);
     if (seq % 20 == 0) requests.write(request);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  poses.tell();
+  if (poses) poses->tell();
   forces.tell();
   requests.tell();
   return 0;

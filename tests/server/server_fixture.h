@@ -78,9 +78,9 @@ class ServerEndToEnd : public ::testing::Test {
     target_ = *target;
   }
 
-  // Whether the server logs it within 5 s.
-  [[nodiscard]] bool logs(const std::string& text) const {
-    for (int i = 0; i < 250; ++i, pause(20))
+  // Whether the server logs it within some seconds.
+  [[nodiscard]] bool logs(const std::string& text, int seconds = 5) const {
+    for (int i = 0; i < 50 * seconds; ++i, pause(20))
       if (server_->log().find(text) != std::string::npos) return true;
     return false;
   }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is in force, as one is told who may send no request: the servers' last answers, to whomever.
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "authority_folder.h"
+#include "palpate/client/error.h"
+#include "palpate/client/parameter_exchange.h"
+#include "palpate/idl/writer.h"
+#include "palpate/testing/test_domain.h"
+
+namespace palpate::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+class ParameterAnswer : public ::testing::Test {
+ protected:
+  // A server, as far as this needs one.
+  struct Server {
+    explicit Server(const dds::Identity& identity)
+        : participant(palpate::testing::exclusiveDomain(), identity) {}
+    void answer(std::uint64_t session, std::uint64_t revision, bool pending) {
+      dds::ServerParameters said{};
+      said.session = session;
+      said.revision = revision;
+      said.pending = pending;
+      EXPECT_TRUE(answers.write(said));
+    }
+    dds::Participant participant;
+    dds::Writer<dds::ServerParameters> answers{participant};
+  };
+
+  [[nodiscard]] dds::ServerParameters ask(std::uint64_t session, std::chrono::milliseconds patience) const {
+    const dds::Participant viewer(palpate::testing::exclusiveDomain(),
+                                  dds::Identity::load(authority_.of("viewer")));
+    dds::ParameterRequest question{};
+    question.session = session;
+    return exchangeParameters(viewer, question, patience);
+  }
+
+  const palpate::testing::AuthorityFolder authority_;
+  const dds::Identity identity_ = dds::Identity::load(authority_.of("server"));
+  Server server_{identity_};
+};
+
+TEST_F(ParameterAnswer, IsTheOneThatWasKept) {
+  server_.answer(1, 3, false);
+  server_.answer(1, 4, false);
+  EXPECT_EQ(ask(0, 5s).revision, 4U);
+}
+
+TEST_F(ParameterAnswer, ThatSaysThatAnotherFollowsIsWaitedFor) {
+  server_.answer(1, 3, true);
+  auto asked = std::async(std::launch::async, [&] { return ask(0, 5s); });
+  EXPECT_EQ(asked.wait_for(300ms), std::future_status::timeout);
+  server_.answer(1, 4, false);
+  EXPECT_EQ(asked.get().revision, 4U);
+}
+
+TEST_F(ParameterAnswer, OfTwoServersOfOneIdIsRefused) {
+  Server second(identity_);
+  server_.answer(1, 3, false);
+  second.answer(2, 5, false);
+  try {
+    (void)ask(0, 5s);
+    FAIL() << "one of two was taken";
+  } catch (const ClientError& error) {
+    EXPECT_NE(std::string(error.what()).find("2 servers have the id 0 and each answers for itself"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(ask(2, 5s).revision, 5U) << "asked of one run";
+}
+
+TEST_F(ParameterAnswer, OfNoServerIsAnError) {
+  EXPECT_THROW((void)ask(7, 100ms), ClientError);
+}
+
+}  // namespace
+}  // namespace palpate::client
