@@ -3,18 +3,22 @@
 //
 // Sample runs:  palpate-solve liver.msh -o liver.h5
 //               palpate-solve case.toml -o liver.h5 --json
+//               mpirun -n 2 palpate-solve case.toml -o liver.h5 --threads 1
 //               palpate-solve case.toml -o liver.h5 --dry-run
 //               palpate-solve liver.msh --template -o case.toml
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <thread>
 
 #include "tools/make/solve/checkpoint_of.h"
 #include "tools/make/solve/dry_run.h"
 #include "tools/make/solve/options.h"
 #include "tools/make/solve/provenance.h"
 #include "tools/make/solve/size_warnings.h"
+#include "tools/make/solve/start_ranks.h"
 #include "tools/make/solve/summary.h"
 #include "tools/mesh/checks.h"
 #include "tools/mesh/mesh_error.h"
@@ -100,7 +104,17 @@ void writeTemplate(const solve_program::Options& options) {
     program::writeFile(options.output, text);
 }
 
-void run(solve_program::Options options) {
+/// All ranks know that the file is there.
+void waitForFile(const solver::Ranks& ranks) {
+  std::byte written{1};
+  ranks.broadcast({&written, 1}, 0);
+}
+
+void run(solve_program::Options options, const solver::Ranks& ranks) {
+  if (ranks.size() > 1 && (options.case_template || options.dry_run))
+    throw program::UsageError(std::string(options.dry_run ? "--dry-run" : "--template") +
+                              " is for one process, not for " + std::to_string(ranks.size()));
+  options.quiet = options.quiet || !ranks.isFirst();
   if (options.case_template) return writeTemplate(options);
   if (options.input.empty()) throw program::UsageError("input is required: a case file or a mesh");
   if (options.output.empty()) options.output = "model.h5";
@@ -119,21 +133,28 @@ void run(solve_program::Options options) {
   const std::filesystem::path folder = std::filesystem::absolute(options.output).parent_path();
   if (options.scratch.empty()) options.scratch = folder;
   solver::BuildOptions build{options.threads, options.scratch, options.quiet, folder};
+  build.ranks = &ranks;
   for (const std::string& warning : solve_program::sizeWarnings(c, organ))
-    std::cerr << "warning: " << warning << '\n';
+    if (ranks.isFirst()) std::cerr << "warning: " << warning << '\n';
   if (options.dry_run) return tell(options, c, organ, build);
   // 3. The model, by the method of the case.
   solver::BuildReport report;
-  const std::unique_ptr<solver::Checkpoint> checkpoint = solve_program::checkpointOf(options, c);
+  const std::unique_ptr<solver::Checkpoint> checkpoint = solve_program::checkpointOf(options, c, ranks);
   build.checkpoint = checkpoint.get();
   modelfile::ModelData data = solver::buildModel(c, organ, build, report);
   if (checkpoint) report.kept_seconds = checkpoint->found();
-  // 4. Where it came from, and the file.
+  // 4. Where it came from, and the file, by the first rank.
+  if (!ranks.isFirst()) {
+    waitForFile(ranks);
+    if (checkpoint) checkpoint->remove();
+    return;
+  }
   solve_program::addProvenance(data, c, report);
   const auto write_start = Clock::now();
   modelfile::writeModel(options.output, data);
   modelfile::writeXdmf(options.output);
   const double write_seconds = secondsSince(write_start);
+  waitForFile(ranks);
   if (checkpoint) checkpoint->remove();
   // 5. What came out.
   const program::Json s =
@@ -149,10 +170,18 @@ int body(int argc, char** argv) {
   solve_program::Options options;
   solve_program::describe(line.options(), options);
   if (!line.read(argc, argv)) return program::kDone;
+  const solver::Ranks& ranks = solve_program::startRanks();
   try {
-    run(options);
-  } catch (const std::bad_alloc&) {
-    throw std::runtime_error("out of memory; fewer modes, a smaller near_radius or a lower order need less");
+    run(options, ranks);
+  } catch (...) {
+    // What is wrong with the case all ranks find, and the first one says it and ends all.
+    if (!ranks.isFirst()) std::this_thread::sleep_for(std::chrono::seconds(1));
+    try {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw std::runtime_error(
+          "out of memory; fewer modes, a smaller near_radius or a lower order need less");
+    }
   }
   return program::kDone;
 }
@@ -160,5 +189,7 @@ int body(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return program::runProgram("palpate-solve", &body, argc, argv);
+  const int code = program::runProgram("palpate-solve", &body, argc, argv);
+  solve_program::endRanks(code);
+  return code;
 }

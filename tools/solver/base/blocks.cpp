@@ -23,7 +23,8 @@ Blocks::Blocks(std::vector<std::int32_t> order, std::size_t part, std::size_t mo
   count_ = std::min(kMultiple * ((parts_ * part + each - 1) / each), parts_);
 }
 
-Blocks::Blocks(std::size_t entries, const Ranks& ranks) : Blocks(upTo(entries), 1, kMost, ranks) {}
+Blocks::Blocks(std::size_t entries, const Ranks& ranks, std::size_t part)
+    : Blocks(upTo(entries), part, kMost, ranks) {}
 
 int Blocks::rankOf(std::size_t block) const noexcept {
   int rank = 0;

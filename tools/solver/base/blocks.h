@@ -22,7 +22,7 @@ class Blocks {
   /// @param part   entries that are worked on together: a block has whole parts  @param most  entries of a block, whole parts
   Blocks(std::vector<std::int32_t> order, std::size_t part, std::size_t most, const Ranks& ranks);
   /// Entries in the order of their numbers.
-  Blocks(std::size_t entries, const Ranks& ranks = Ranks::one());
+  Blocks(std::size_t entries, const Ranks& ranks = Ranks::one(), std::size_t part = 1);
 
   [[nodiscard]] const Ranks& ranks() const noexcept { return *ranks_; }
   [[nodiscard]] std::span<const std::int32_t> order() const noexcept { return order_; }
@@ -73,6 +73,20 @@ void share(const Blocks& blocks, const PieceOf& piece) {
       next += static_cast<std::ptrdiff_t>(own.size());
     }
   }
+}
+
+/// The same for lists whose lengths only their rank knows.
+/// @param list  list(entry): the vector of an entry
+template <class ListOf>
+void shareLists(const Blocks& blocks, const ListOf& list) {
+  if (blocks.ranks().size() == 1) return;
+  std::vector<std::uint64_t> lengths(blocks.order().size());
+  for (const std::int32_t entry : blocks.order())
+    lengths[static_cast<std::size_t>(entry)] = list(entry).size();
+  share(blocks, [&](std::int32_t entry) { return std::span(&lengths[static_cast<std::size_t>(entry)], 1); });
+  for (const std::int32_t entry : blocks.order())
+    list(entry).resize(lengths[static_cast<std::size_t>(entry)]);
+  share(blocks, [&](std::int32_t entry) { return std::span(list(entry)); });
 }
 
 }  // namespace palpate::solver

@@ -113,4 +113,27 @@ T keptOr(Journal* journal, std::uint64_t part, const Compute& compute, const Put
   return result;
 }
 
+/// keptOr() of what all ranks compute together: the first rank keeps it.
+template <class T, class Compute, class Put, class Get>
+T keptByFirstOr(const Ranks& ranks, Journal* journal, std::uint64_t part, const Compute& compute,
+                const Put& put, const Get& get) {
+  if (ranks.size() == 1) return keptOr<T>(journal, part, compute, put, get);
+  Journal* const own = ranks.isFirst() ? journal : nullptr;
+  record::Bytes kept = own == nullptr ? record::Bytes() : own->find(part).value_or(record::Bytes());
+  std::uint64_t size = kept.size();
+  ranks.broadcast(std::as_writable_bytes(std::span(&size, 1)), 0);
+  kept.resize(size);
+  ranks.broadcast(std::as_writable_bytes(std::span(kept)), 0);
+  if (size > 0) try {
+      record::ByteSource source(kept);
+      T result{};
+      get(source, result);
+      if (own != nullptr) own->taken(part);
+      return result;
+    } catch (const record::RecordError&) {  // all do it again
+    }
+  const auto nothing = [](record::ByteSource&, T&) { throw record::RecordError("is done again"); };
+  return keptOr<T>(own, part, compute, put, nothing);
+}
+
 }  // namespace palpate::solver

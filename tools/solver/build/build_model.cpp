@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/solver/build/build_model.h"
 
+#include <string>
 #include <utility>
 
 #include "tools/solver/build/build_model_pgd.h"
@@ -12,6 +13,10 @@ namespace palpate::solver {
 modelfile::ModelData buildModel(const Case& c, const mesh::TetMesh& mesh, const BuildOptions& options,
                                 BuildReport& report) {
   checkCase(c);
+  const bool series = c.method == Method::kSeriesDisplacement || c.method == Method::kSeriesForce;
+  if (options.ranks->size() > 1 && (!series || c.handheld()))
+    throw CaseError((c.handheld() ? std::string("target handheld") : "method " + toString(c.method)) +
+                    " is solved by one process, not by " + std::to_string(options.ranks->size()));
   switch (c.method) {
     case Method::kSeriesDisplacement:
       return buildDisplacementSeries(c, mesh, options, report);

@@ -11,6 +11,7 @@ namespace palpate::solver {
 /// Builds the model of an organ with the method c.method (table of methods: tools/make/solve/README.md).
 /// The memory of the series methods depends on the model and the workers only: the table of all fields is in
 /// a scratch file.
+/// All ranks get the model; they share the work of the series methods, except for a handheld target.
 /// @param mesh  checked  @throw CaseError, std::runtime_error
 [[nodiscard]] modelfile::ModelData buildModel(const Case& c, const mesh::TetMesh& mesh,
                                               const BuildOptions& options, BuildReport& report);

@@ -28,16 +28,6 @@ Eigen::MatrixXf bentDirections(const MonomialBasis& basis, double x) {
   return out;
 }
 
-/// Lists of each position, which only its rank has, go to all.
-template <class T>
-void shareLists(const Blocks& blocks, std::vector<std::vector<T>>& lists) {
-  std::vector<std::size_t> lengths;
-  for (const std::vector<T>& list : lists) lengths.push_back(list.size());
-  share(blocks, [&](std::int32_t i) { return std::span(&lengths[static_cast<std::size_t>(i)], 1); });
-  for (std::size_t i = 0; i < lists.size(); ++i) lists[i].resize(lengths[i]);
-  share(blocks, [&](std::int32_t i) { return std::span(lists[static_cast<std::size_t>(i)]); });
-}
-
 }  // namespace
 
 void storeGreens(const FitProblem& greens, const Eigen::MatrixXf& X, std::span<const NearNodes> near,
@@ -127,9 +117,12 @@ std::vector<float> storeNearField(const FitProblem& problem, const FarField& far
       for (const Eigen::Matrix3Xf& u : kept)
         blocks[position].insert(blocks[position].end(), u.col(k).data(), u.col(k).data() + 3);
   });
-  shareLists(of_ranks, nodes);
-  shareLists(of_ranks, blocks);
-  shareLists(of_ranks, sizes);
+  shareLists(
+      of_ranks, [&](std::int32_t p) -> auto& { return nodes[static_cast<std::size_t>(p)]; });
+  shareLists(
+      of_ranks, [&](std::int32_t p) -> auto& { return blocks[static_cast<std::size_t>(p)]; });
+  shareLists(
+      of_ranks, [&](std::int32_t p) -> auto& { return sizes[static_cast<std::size_t>(p)]; });
   std::vector<float> all;
   data.near_offset.push_back(0);
   for (std::size_t p = 0; p < M; ++p) {

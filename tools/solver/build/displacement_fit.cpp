@@ -134,8 +134,9 @@ void DisplacementBuilder::fit(const FieldTable& table, const FieldTable& greens)
   do {
     const std::vector<FitSource> sources = fitSources(setup_.positions.nodes, data_.contact_domain_radius);
     const FitProblem problem{table, basis_, setup_.surface.areas, setup_.surface.positions, sources, d_ref_};
-    const FarField far = keptOr<FarField>(
-        options_.journal("fit"), attempt++, [&] { return fitFarField(problem, fitOptions()); }, putFarField,
+    const FarField far = keptByFirstOr<FarField>(
+        *options_.ranks, options_.journal("fit"), attempt++,
+        [&] { return fitFarField(problem, fitOptions()); }, putFarField,
         [&](record::ByteSource& in, FarField& kept) {
           getFarField(in, static_cast<Eigen::Index>(table.rows()), kept);
         });

@@ -119,7 +119,8 @@ EdgeChoice storeEdgeFields(const SolverSetup& setup, const Cholesky& factor, con
     if (edges.isLong(edge)) chosen.push_back(edge);
   if (chosen.empty()) return {};
   std::vector<Surplus> surplus(edges.count());
-  Progress progress("series, edge midpoints", chosen.size(), options.quiet);
+  Progress progress("series, edge midpoints", chosen.size() / static_cast<std::size_t>(options.ranks->size()),
+                    options.quiet);
   std::vector<std::unique_ptr<SeriesSolver>> solvers(static_cast<std::size_t>(options.workers));
   const std::string fit = std::to_string(fitChecksum(data));  // they add to what it leaves
   const auto solve = [&](const std::vector<std::size_t>& list, const std::string& name) {
@@ -155,8 +156,14 @@ EdgeChoice storeEdgeFields(const SolverSetup& setup, const Cholesky& factor, con
       progress.advance(of.size());
       return kept;
     };
-    parallelParts(options.workers, (list.size() + kLanes - 1) / kLanes, options.journal(name + fit), restore,
-                  work);
+    const Blocks blocks(list.size(), *options.ranks, kLanes);
+    parallelParts(options.workers, partsOf(blocks, kLanes), options.journal(name + fit), restore, work);
+    const auto of = [&](std::int32_t i) -> Surplus& { return surplus[list[index(i)]]; };
+    shareLists(
+        blocks, [&](std::int32_t i) -> auto& { return of(i).nodes; });
+    shareLists(
+        blocks, [&](std::int32_t i) -> auto& { return of(i).field; });
+    share(blocks, [&](std::int32_t i) { return std::span(&of(i).force_radius, 1); });
   };
   const auto [tried, others] = spread(chosen, kTried);
   solve(tried, "tried-edges-");

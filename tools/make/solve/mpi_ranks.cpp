@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#define OMPI_SKIP_MPICXX 1
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <initializer_list>
+
+#include "tools/make/solve/start_ranks.h"
+
+namespace palpate::solve_program {
+
+namespace {
+
+/// MPI counts in int.
+constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
+
+class MpiRanks : public solver::Ranks {
+ public:
+  MpiRanks() {
+    int given = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  [[nodiscard]] int rank() const noexcept override { return rank_; }
+  [[nodiscard]] int size() const noexcept override { return size_; }
+  void broadcast(std::span<std::byte> data, int from) const override {
+    for (; !data.empty(); data = data.subspan(std::min(kMostBytes, data.size())))
+      MPI_Bcast(data.data(), countOf(data), MPI_BYTE, from, MPI_COMM_WORLD);
+  }
+  void move(std::span<std::byte> data, int from, int to) const override {
+    for (; !data.empty(); data = data.subspan(std::min(kMostBytes, data.size()))) {
+      if (rank_ == from) MPI_Send(data.data(), countOf(data), MPI_BYTE, to, 0, MPI_COMM_WORLD);
+      if (rank_ == to)
+        MPI_Recv(data.data(), countOf(data), MPI_BYTE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    }
+  }
+
+ private:
+  [[nodiscard]] static int countOf(std::span<std::byte> data) {
+    return static_cast<int>(std::min(kMostBytes, data.size()));
+  }
+
+  int rank_{0}, size_{1};
+};
+
+/// What Open MPI's mpirun, and launchers that speak PMIx or PMI, tell their processes. Without a launcher MPI would start one.
+bool isLaunched() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_SIZE"})
+    if (std::getenv(name) != nullptr) return true;
+  return false;
+}
+
+}  // namespace
+
+const solver::Ranks& startRanks() {
+  if (!isLaunched()) return solver::Ranks::one();
+  static const MpiRanks ranks;
+  return ranks;
+}
+
+void endRanks(int code) {
+  int begun = 0;
+  MPI_Initialized(&begun);
+  if (begun == 0) return;
+  if (code != 0) MPI_Abort(MPI_COMM_WORLD, code);
+  MPI_Finalize();
+}
+
+}  // namespace palpate::solve_program
