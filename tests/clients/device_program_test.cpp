@@ -20,38 +20,17 @@ namespace {
 
 using nlohmann::json;
 
-// Against a spring the hand's and the organ's stiffness share the depth.
-TEST(Device, PressRestsWhereHandAndOrganBalance) {
-  const FakeServer server(exclusiveDomain(), {.stiffness = 300.0, .tip_radius = 0.004});
-  const TemporaryFile svg("device.svg");
-  const auto result =
-      runProgram("palpate-device", onDomain({"--preset", "premium15", "--hand", "0.1,3,200", "--motion",
-                                             "press", "--seconds", "2.5", "--json", "--plot", svg.path()}));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const json report = json::parse(result.out);
-  EXPECT_EQ(report["device"]["mass"], 0.075);
-  EXPECT_TRUE(report["stable"]);
-  EXPECT_LT(report["settle_s"].get<double>(), 1.0);
-  const double rest = 0.054 - report["tip_m"][2000][2].get<double>();
-  EXPECT_NEAR(rest, 0.003 * 200.0 / 500.0, 2e-4) << "Coulomb friction holds it up to 0.04 N / 500 N/m away";
-  EXPECT_GE(report["penetration_m"].get<double>(), rest);
-  EXPECT_NEAR(report["max_force_N"].get<double>(), 300.0 * report["penetration_m"].get<double>(), 1e-3);
-  EXPECT_EQ(report["flags"], 1) << "contact, and nothing else";
-  EXPECT_NEAR(report["energy_net_J"].get<double>(), 0.0, 5e-5) << "a spring gives back what it took";
-  EXPECT_EQ(xmlFault(contentOf(svg.path())), "");
-}
+constexpr const char* kMachineStoodStill = "the machine stood still in each of five runs";
 
-TEST(Device, AWallThatIsTooStiffForItsHandIsCalledUnstable) {
-  const FakeServer server(exclusiveDomain(), {.stiffness = 8000.0});
-  const auto result =
-      runProgram("palpate-device", onDomain({"--preset", "custom", "--mass", "0.05", "--hand", "0.02,0.5,50",
-                                             "--motion", "press", "--seconds", "2.5", "--json"}));
-  ASSERT_EQ(result.exit_code, 3) << result.err;
-  const json report = json::parse(result.out);
-  EXPECT_FALSE(report["stable"]);
-  EXPECT_GT(report["oscillation_pp_m"].get<double>(),
-            2.0 * report["oscillation_without_organ_pp_m"].get<double>());
-  EXPECT_LT(report["energy_net_J"].get<double>(), 0.0) << "and gives energy that nobody put in";
+// A run in which the machine stood still too often tells nothing of the loop: again until one counts.
+// @return that run, or nothing where there was none
+std::optional<ProgramResult> runThatCounts(std::vector<std::string> arguments) {
+  arguments.push_back("--json");
+  for (int i = 0; i < 5; ++i) {
+    ProgramResult result = runProgram("palpate-device", onDomain(arguments));
+    if (!result.out.empty() && json::parse(result.out)["judged"] == true) return result;
+  }
+  return std::nullopt;
 }
 
 // A contact in which the machine stood still tells nothing of the loop: taps until one run has another kind.
@@ -68,7 +47,44 @@ std::optional<ProgramResult> tapThatCounts(std::vector<std::string> more) {
   }
   return std::nullopt;
 }
-constexpr const char* kMachineStoodStill = "the machine stood still in every tap of five runs";
+
+// Against a spring the hand's and the organ's stiffness share the depth.
+TEST(Device, PressRestsWhereHandAndOrganBalance) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 300.0, .tip_radius = 0.004});
+  const TemporaryFile svg("device.svg");
+  const auto run = runThatCounts({"--preset", "premium15", "--hand", "0.1,3,200", "--motion", "press",
+                                  "--seconds", "2.5", "--plot", svg.path()});
+  if (!run) GTEST_SKIP() << kMachineStoodStill;
+  const auto& result = *run;
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["device"]["mass"], 0.075);
+  EXPECT_TRUE(report["stable"]);
+  EXPECT_LT(report["settle_s"].get<double>(), 1.0);
+  const double rest = 0.054 - report["tip_m"][2000][2].get<double>();
+  EXPECT_NEAR(rest, 0.003 * 200.0 / 500.0, 2e-4) << "Coulomb friction holds it up to 0.04 N / 500 N/m away";
+  EXPECT_GE(report["penetration_m"].get<double>(), rest);
+  EXPECT_NEAR(report["max_force_N"].get<double>(), 300.0 * report["penetration_m"].get<double>(), 1e-3);
+  EXPECT_EQ(report["flags"], 1) << "contact, and nothing else";
+  EXPECT_NEAR(report["energy_net_J"].get<double>(), 0.0, 5e-5) << "a spring gives back what it took";
+  EXPECT_EQ(xmlFault(contentOf(svg.path())), "");
+}
+
+TEST(Device, AWallThatIsTooStiffForItsHandIsCalledUnstable) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 8000.0});
+  const auto run = runThatCounts({"--preset", "custom", "--mass", "0.05", "--hand", "0.02,0.5,50", "--motion",
+                                  "press", "--seconds", "2.5"});
+  if (!run) GTEST_SKIP() << kMachineStoodStill;
+  const auto& result = *run;
+  ASSERT_EQ(result.exit_code, 3) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_FALSE(report["stable"]);
+  if (report["judged_s"].get<double>() > 0.0) {  // else its contacts alone show it
+    EXPECT_GT(report["oscillation_pp_m"].get<double>(),
+              2.0 * report["oscillation_without_organ_pp_m"].get<double>());
+  }
+  EXPECT_LT(report["energy_net_J"].get<double>(), 0.0) << "and gives energy that nobody put in";
+}
 
 // A spring k that answers a period later gives k 1.5 ms v^2, as a damping of -0.45 N s/m; hand and device have 2.
 TEST(Device, ATapIsJudgedByTheEnergyThatItsLagGives) {
@@ -98,19 +114,34 @@ TEST(Device, ATapOnAWallThatGivesMoreThanIsDampedIsUnstable) {
   EXPECT_NE(result.err.find("more than was damped"), std::string::npos) << result.err;
 }
 
-// Stiff enough that 40 ms without an answer, felt, would throw the tip off; soft enough to stand answers that are always
-// a period late, as a busy machine gives them.
+// Stiff enough that 40 ms without an answer, felt, would throw the tip off. The server stalls from time to time: what lies between
+// is judged.
 TEST(Device, AStallOfTheServerIsWaitedForAndNotFelt) {
-  const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .stall_every = 150});
+  const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .stall_every = 1500});
+  const auto run =
+      runThatCounts({"--preset", "custom", "--mass", "0.05", "--motion", "press", "--seconds", "6"});
+  if (!run) GTEST_SKIP() << kMachineStoodStill;
+  EXPECT_EQ(run->exit_code, 0) << run->err;
+  const json report = json::parse(run->out);
+  EXPECT_GE(report["waited_periods"].get<int>(), 100) << "at least three stalls";
+  EXPECT_TRUE(report["stable"]);
+  EXPECT_LT(report["judged_s"].get<double>(), 3.5) << "the stalls take their 0.5 s each";
+  EXPECT_EQ(report["tip_m"].size(), 6001U);
+  EXPECT_NEAR(report["penetration_m"].get<double>(), 0.003 * 200.0 / 700.0, 1e-4);
+}
+
+// A damper goes on by its own clock while the device stands still, so a loop that it holds is not the same one after stalls.
+TEST(Device, AHoldFullOfStallsIsNotJudgedWhereADamperFeelsThem) {
+  const FakeServer server(exclusiveDomain(), {.stiffness = 500.0, .damping_s = 2e-3, .stall_every = 150});
   const auto result = runProgram(
       "palpate-device",
       onDomain({"--preset", "custom", "--mass", "0.05", "--motion", "press", "--seconds", "2.5", "--json"}));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << result.err;
   const json report = json::parse(result.out);
+  EXPECT_FALSE(report["judged"]);
+  EXPECT_FALSE(report["stable"]);
   EXPECT_GE(report["waited_periods"].get<int>(), 200) << "some ten stalls";
-  EXPECT_TRUE(report["stable"]);
-  EXPECT_EQ(report["tip_m"].size(), 2501U);
-  EXPECT_NEAR(report["penetration_m"].get<double>(), 0.003 * 200.0 / 700.0, 1e-4);
+  EXPECT_NE(result.err.find("stood still too often: not judged"), std::string::npos) << result.err;
 }
 
 TEST(Device, ARunWithoutAContactIsNotJudged) {

@@ -84,7 +84,8 @@ void FakeServer::answer(const dds::ToolPose& pose, std::uint64_t seq) {
   force.seq = seq;
   force.pose_seq = pose.seq;
   force.pose_stamp_ns = pose.stamp_ns;
-  force.force[2] = options_.stiffness * depth;
+  force.stamp_ns = rt::monotonicNow();
+  force.force[2] = damped(options_.stiffness * depth, force.stamp_ns);
   force.penetration = depth;
   force.wakeup_ns = 50'000;
   force.tick_ns = 70'000;
@@ -98,6 +99,19 @@ void FakeServer::answer(const dds::ToolPose& pose, std::uint64_t seq) {
   force.superseded = superseded_;
   if (options_.drop_every == 0 || seq % options_.drop_every != 0) (void)forces_.write(force);
   sendField(depth, seq);
+}
+
+// The damper decays by the server's clock, also while the device stands still.
+double FakeServer::damped(double spring, std::int64_t now_ns) noexcept {
+  constexpr double kSmoothing = 2e-3;  // s
+  const double dt = 1e-9 * static_cast<double>(now_ns - ticked_ns_);
+  if (spring > 0.0 && spring_ > 0.0 && dt > 0.0)
+    rate_ += (dt / (dt + kSmoothing)) * ((spring - spring_) / dt - rate_);
+  else
+    rate_ = 0.0;
+  spring_ = spring;
+  ticked_ns_ = now_ns;
+  return std::clamp(spring + options_.damping_s * rate_, 0.0, 2.0 * spring);
 }
 
 void FakeServer::sendField(double depth, std::uint64_t seq) {

@@ -14,7 +14,8 @@ namespace palpate::testing {
 
 /// How a FakeServer behaves.
 struct FakeServerOptions {
-  double stiffness{500.0};   ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
+  double stiffness{500.0};  ///< N/m: force = stiffness * depth below z = 0.05 m + tip radius, along +z
+  double damping_s{0.0};  ///< b / stiffness of a damper on the force, as CouplingDamper by the wall clock, s
   double tip_radius{0.005};  ///< m
   bool far{false};           ///< the organ lies where no tool comes: no contact
   std::uint32_t server_id{0};
@@ -40,6 +41,7 @@ class FakeServer {
   void announce();
   void run();
   void answer(const dds::ToolPose& pose, std::uint64_t seq);
+  [[nodiscard]] double damped(double spring, std::int64_t now_ns) noexcept;
   void sendField(double depth, std::uint64_t seq);
 
   FakeServerOptions options_;
@@ -51,6 +53,8 @@ class FakeServer {
   dds::Writer<dds::ToolForce> forces_;
   dds::Writer<dds::SurfaceDisplacement> fields_;
   std::mutex mutex_;
+  double spring_{0.0}, rate_{0.0};  // of the damper: force of the last tick, N, and its change, N/s
+  std::int64_t ticked_ns_{0};       // of the last tick
   dds::ToolPose pose_{};
   bool seen_{false};
   std::uint64_t superseded_{0};

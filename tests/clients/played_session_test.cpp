@@ -5,10 +5,10 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 
-#include "palpate/idl/types.h"
 #include "palpate/testing/run_program.h"
 #include "running_server.h"
 
@@ -109,18 +109,18 @@ TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
   EXPECT_EQ(row["bound"], "delays");
   const double stiffness = row["safe_rendered_N_per_m"].get<double>(),
                damping = row["safe_damping_Ns_per_m"].get<double>();
-  // Again where the machine stalled and the server blended the force: what is shown is the loop's.
-  const auto press = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> all{"--youngs-modulus", "1e6"};
+  // Again where the machine stood still too often to judge the loop; nothing where it did in all runs.
+  const auto press = [&](const std::vector<std::string>& options) -> std::optional<ProgramResult> {
+    std::vector<std::string> all{"--youngs-modulus", "1e6", "--phase-lock"};
     all.insert(all.end(), options.begin(), options.end());
     const Running server(all);
-    ProgramResult result;
-    for (int tries = 0; tries < 4; ++tries) {
-      result = runProgram("palpate-device", {"--preset", "desktop", "--delay-from", delays, "--json",
-                                             "--wait", "30", "--domain", server.domain});
-      if (result.out.empty() || json::parse(result.out)["flags"] == dds::flag::kInContact) break;
+    for (int tries = 0; tries < 5; ++tries) {
+      ProgramResult result =
+          runProgram("palpate-device", {"--preset", "desktop", "--delay-from", delays, "--json", "--seconds",
+                                        "6", "--wait", "30", "--domain", server.domain});
+      if (!result.out.empty() && json::parse(result.out)["judged"] == true) return result;
     }
-    return result;
+    return std::nullopt;
   };
   const auto times = [&](double share) {
     return std::vector<std::string>{"--device",
@@ -130,15 +130,15 @@ TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
                                     "--coupling-damping",
                                     std::to_string(share * damping)};
   };
-  const auto below = press(times(0.8));
-  EXPECT_EQ(below.exit_code, 0) << below.err;
-  EXPECT_NEAR(json::parse(below.out)["delays"]["mean_ms"].get<double>(), row["mean_delay_ms"].get<double>(),
+  const auto below = press(times(0.8)), found_one = press({"--config", (folder / "desktop.toml").string()}),
+             above = press(times(1.4));
+  if (!below || !found_one || !above) GTEST_SKIP() << "the machine stood still in each of five runs";
+  EXPECT_EQ(below->exit_code, 0) << below->err;
+  EXPECT_NEAR(json::parse(below->out)["delays"]["mean_ms"].get<double>(), row["mean_delay_ms"].get<double>(),
               1e-9);
-  const auto found_one = press({"--config", (folder / "desktop.toml").string()});
-  EXPECT_EQ(found_one.exit_code, 0) << found_one.err;
-  const auto above = press(times(1.4));
-  EXPECT_EQ(above.exit_code, 3) << above.err;
-  EXPECT_NE(above.err.find("UNSTABLE"), std::string::npos) << above.err;
+  EXPECT_EQ(found_one->exit_code, 0) << found_one->err;
+  EXPECT_EQ(above->exit_code, 3) << above->err;
+  EXPECT_NE(above->err.find("UNSTABLE"), std::string::npos) << above->err;
 }
 
 }  // namespace

@@ -55,6 +55,12 @@ std::string energyText(const EnergyVerdict& energy) {
   return text + '\n';
 }
 
+const char* verdictText(const Session& s) {
+  if (!s.touched()) return "no contact, so not judged";
+  if (!s.judged()) return "stalls left too little of the hold, so not judged";
+  return s.stable() ? "stable" : "UNSTABLE";
+}
+
 Json delaysJson(const Session& s) {
   if (s.delays == nullptr) return nullptr;
   return {{"file", s.delay_from},           {"poses", s.delays->poses()},
@@ -97,10 +103,9 @@ std::string textOf(const Session& s) {
     depth.push_back(std::max(0.0, 1e3 * depthOf(s.motion, recording.trace.position[i])));
   }
   text += report::textChart(t, depth, "s", "tip below the rest surface / mm") + '\n';
-  text += printed("%s; oscillation %.4f mm (without organ %.4f mm); %s\n",
-                  s.touched() ? s.stable() ? "stable" : "UNSTABLE" : "no contact, so not judged",
-                  1e3 * s.verdict.oscillation_pp, 1e3 * s.verdict.oscillation_without_organ_pp,
-                  settled(s.verdict).c_str());
+  text += printed("%s; %.2f s of the hold judged: oscillation %.4f mm (without organ %.4f mm); %s\n",
+                  verdictText(s), s.verdict.judged_s, 1e3 * s.verdict.oscillation_pp,
+                  1e3 * s.verdict.oscillation_without_organ_pp, settled(s.verdict).c_str());
   text += printed(
       "largest force %.4f N, penetration %.3f mm; work on the organ %.6f J in all; waited %llu ms; flags: ",
       s.verdict.max_force, 1e3 * largest(recording.penetration), recording.work.back(),
@@ -130,6 +135,8 @@ Json jsonOf(const Session& s) {
       {"normal", s.spot.normal},
       {"model_id", s.server.surface.model_id},
       {"stable", s.stable()},
+      {"judged", s.judged()},
+      {"judged_s", s.verdict.judged_s},
       {"settle_s", settle},
       {"oscillation_pp_m", s.verdict.oscillation_pp},
       {"oscillation_without_organ_pp_m", s.verdict.oscillation_without_organ_pp},

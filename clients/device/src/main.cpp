@@ -215,6 +215,10 @@ int body(int argc, char** argv) {
     std::cerr << "palpate-device: " << report::neverTouchedText(nearest) << '\n';
     return program::kFailed;
   }
+  if (!session.judged()) {
+    std::cerr << "palpate-device: the machine stood still too often: not judged, try again\n";
+    return program::kFailed;
+  }
   return session.stable() ? program::kDone : program::kNotHeld;
 }
 

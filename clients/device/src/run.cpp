@@ -1,109 +1,150 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run.h"
 
-#include <array>
 #include <cmath>
 #include <iostream>
+#include <optional>
+#include <utility>
 
 #include "core/devices/path/path.h"
+#include "core/devices/sim/answer_line.h"
 #include "palpate/client/error.h"
 #include "palpate/client/letting_go.h"
 #include "palpate/client/sending.h"
 #include "palpate/client/stop_signal.h"
+#include "palpate/rt/clock.h"
 #include "palpate/rt/pacer.h"
+#include "palpate/rt/spsc_queue.h"
 
 namespace palpate::device {
 namespace {
 
 constexpr double kPeriod = 1e-3;  // s
 constexpr std::int64_t kPeriodNs = 1'000'000;
-constexpr std::uint64_t kPatience = 1000;  // periods
+constexpr std::int64_t kStallNs = static_cast<std::int64_t>(kStall) * kPeriodNs;
+constexpr std::int64_t kPatienceNs = 1000 * kPeriodNs;
+constexpr std::int64_t kLookNs = kPeriodNs / 10;  // between two looks for a late answer
+constexpr std::int64_t kAgainNs =
+    5 * kPeriodNs;  // until a pose goes out again: far below a server's stale timeout
+
+// Whether the server's force is another one than that of the contact: it let go, or its ticks stood still and it blends over.
+class Disturbance {
+ public:
+  void add(const dds::ToolForce& answer) noexcept {
+    const bool gap = last_ns_ != 0 && answer.stamp_ns - last_ns_ > kStallNs;
+    last_ns_ = answer.stamp_ns;
+    blends_ = gap || (blends_ && (answer.flags & dds::flag::kRamping) != 0);
+    on_ = letting_go_.add(answer.flags) || blends_;
+    came_ = came_ || on_;
+  }
+  [[nodiscard]] bool on() const noexcept { return on_; }
+  /// Whether there was one since the last call.
+  [[nodiscard]] bool came() noexcept { return std::exchange(came_, on_); }
+
+ private:
+  std::int64_t last_ns_{0};
+  bool blends_{false}, on_{false}, came_{false};
+  client::LettingGo letting_go_;
+};
 
 // One exchange with the server per period.
 class Exchange {
  public:
-  explicit Exchange(client::ToolClient& tool) : tool_(tool), pacer_(kPeriodNs) {}
-
-  void send(const Point& position) {
-    before_ = last_sent_;
-    sent_ = position;
-    publish();
+  Exchange(const dds::Participant& participant, std::uint32_t tool_id, const client::ServerRun& server)
+      : tool_(participant, tool_id, &onForce, &arrived_, server), pacer_(kPeriodNs) {
+    if (!client::prepareToSend(tool_)) std::cerr << client::kNotRealtime;
+    pacer_ = rt::Pacer(kPeriodNs);
   }
 
-  /// Waits for the next period, and longer until the server has answered the pose before the newest one.
+  void send(std::size_t step, const Point& position) {
+    position_ = position;
+    if (const std::uint64_t seq = tool_.publish(position_); seq != 0) line_.sent(step, seq);
+  }
+
+  /// Waits for the next period, and longer while the answer to the pose of step `wanted` may still come or the server blends. The
+  /// periods after it begin with it: where the answer needs a little more than a period, that is waited for once.
   /// @return false when the run must end
-  bool await(Recording& recording) {
-    stalled_ = false;
-    for (std::uint64_t periods = 0;; ++periods) {
-      pacer_.wait();
+  bool await(std::optional<std::size_t> wanted, Recording& recording) {
+    const std::int64_t late_ns = pacer_.wait(), begin_ns = rt::monotonicNow();
+    std::int64_t now_ns = begin_ns, again_ns = begin_ns + kAgainNs;
+    take(recording);
+    while (!recording.server_left && !recording.interrupted &&
+           (disturbance_.on() || (wanted && !line_.has(*wanted)))) {
+      if (now_ns - begin_ns > kPatienceNs)
+        throw client::ClientError("the server has not answered for a second");
+      if (now_ns >= again_ns) {
+        (void)tool_.publish(position_);
+        again_ns += kAgainNs;
+      }
+      rt::sleepUntil(now_ns + kLookNs);
+      now_ns = rt::monotonicNow();
       take(recording);
-      if (recording.server_left || recording.interrupted) return false;
-      if (answer_.pose_seq >= before_ && answer_.pose_seq != 0 && !letting_go_.on()) return true;
-      if (periods == kPatience) throw client::ClientError("the server has not answered for a second");
-      ++recording.waited;
-      stalled_ = stalled_ || letting_go_.on() || periods + 1 >= kStall;
-      publish();
     }
+    if (now_ns != begin_ns) pacer_ = rt::Pacer(kPeriodNs);
+    const std::int64_t waited_ns = late_ns + now_ns - begin_ns;
+    waited_ns_ += waited_ns >= kLookNs ? waited_ns : 0;
+    recording.waited = static_cast<std::uint64_t>(waited_ns_ / kPeriodNs);
+    const bool disturbed = disturbance_.came();
+    stalled_ = disturbed || waited_ns >= kStallNs;
+    return !recording.server_left && !recording.interrupted;
   }
   /// Whether the last await() was a stall.
   [[nodiscard]] bool stalled() const { return stalled_; }
-  [[nodiscard]] const dds::ToolForce& answer() const { return answer_; }
+  /// The answer that acts for the pose of `step`; nothing: none is known.
+  [[nodiscard]] const dds::ToolForce* answer(std::size_t step) const { return line_.at(step); }
+  [[nodiscard]] const client::ToolClient& tool() const { return tool_; }
 
  private:
-  void publish() {
-    const std::uint64_t seq = tool_.publish(sent_);
-    if (seq != 0) last_sent_ = seq;
+  using Arrived = rt::SpscQueue<dds::ToolForce, 256>;  // from the receive thread to the run's
+
+  static void onForce(const dds::ToolForce& force, std::int64_t, void* context) noexcept {
+    (void)static_cast<Arrived*>(context)->push(force);  // full: the run stands still, and its wait is a stall
   }
 
   void take(Recording& recording) {
     recording.interrupted = client::stopRequested();
-    if (!tool_.latest(answer_)) return;
-    recording.flags |= answer_.flags;
-    recording.server_left = (answer_.flags & dds::flag::kShuttingDown) != 0;
-    (void)letting_go_.add(answer_.flags);
-    if (const auto& f = answer_.force; !std::isfinite(f[0] + f[1] + f[2]))
-      throw client::ClientError("the server sent a force that is not finite");
+    for (dds::ToolForce answer{}; arrived_.pop(answer);) {
+      recording.flags |= answer.flags;
+      recording.server_left = recording.server_left || (answer.flags & dds::flag::kShuttingDown) != 0;
+      disturbance_.add(answer);
+      if (const auto& f = answer.force; !std::isfinite(f[0] + f[1] + f[2]))
+        throw client::ClientError("the server sent a force that is not finite");
+      line_.add(answer.pose_seq, answer);
+    }
   }
 
-  client::ToolClient& tool_;
+  Arrived arrived_;
+  client::ToolClient tool_;
   rt::Pacer pacer_;
-  dds::ToolForce answer_{};
-  Point sent_{};
-  std::uint64_t last_sent_{0};
-  std::uint64_t before_{0};  // the last seq of the previous pose
+  AnswerLine<dds::ToolForce> line_;
+  Disturbance disturbance_;
+  Point position_{};
+  std::int64_t waited_ns_{0};
   bool stalled_{false};
-  client::LettingGo letting_go_;
 };
 
 Point forceOf(const dds::ToolForce& answer) {
   return {answer.force[0], answer.force[1], answer.force[2]};
 }
 
-/// Which answer acts, and which pose goes out, in each step.
-class DelayLine {
+/// The delay of each step: a period, or as it was measured in the worst stretch that is as long as the run.
+class Schedule {
  public:
-  /// @param[in] steps  of the run: it goes through the worst stretch of so many periods
-  DelayLine(const Delays* delays, std::size_t steps)
+  Schedule(const Delays* delays, std::size_t steps)
       : delays_(delays), first_(delays == nullptr ? 0 : delays->worstStretch(steps)) {}
 
-  /// @param[in] i  step  @param[in] position  of the device  @return the pose that goes out
-  [[nodiscard]] const Point& pose(std::size_t i, const Point& position) {
-    if (delays_ == nullptr || i == 0 || delays_->at(first_ + i).sends) sent_ = position;
-    return sent_;
+  [[nodiscard]] bool sends(std::size_t step) const {
+    return delays_ == nullptr || step == 0 || delays_->at(first_ + step).sends;
   }
-  /// @param[in] newest  the answer to the pose of step i - 1  @return the one that acts in step i
-  [[nodiscard]] dds::ToolForce answer(std::size_t i, const dds::ToolForce& newest) {
-    if (delays_ == nullptr) return newest;
-    answers_[i % answers_.size()] = newest;
-    const std::size_t before = delays_->at(first_ + i).lag - std::size_t{1};  // steps
-    return before > i ? dds::ToolForce{} : answers_[(i - before) % answers_.size()];
+  /// The step whose pose's answer acts; nothing: the step is before the first answer.
+  [[nodiscard]] std::optional<std::size_t> answered(std::size_t step) const {
+    const std::size_t lag = delays_ == nullptr ? 1 : delays_->at(first_ + step).lag;
+    return lag > step ? std::nullopt : std::optional(step - lag);
   }
 
  private:
   const Delays* delays_;
   std::size_t first_;
-  Point sent_{};
-  std::array<dds::ToolForce, Delays::kStall> answers_{};  // by the step that has them as the newest
 };
 
 void note(const HeldDevice& device, const dds::ToolForce& answer, bool stalled, Recording& recording) {
@@ -120,25 +161,24 @@ void note(const HeldDevice& device, const dds::ToolForce& answer, bool stalled, 
 Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device,
               const client::ServerRun& server, const Delays* delays) {
   const client::StatusBoard statuses(participant);
-  client::ToolClient tool(participant, tool_id, nullptr, nullptr, server);
-  if (!client::prepareToSend(tool)) std::cerr << client::kNotRealtime;
+  Exchange exchange(participant, tool_id, server);
   Recording recording;
   recording.trace.dt = kPeriod;
-  Exchange exchange(tool);
   const auto count = static_cast<std::size_t>(std::lround(device.path().seconds() / kPeriod));
-  DelayLine line(delays, count);
-  note(device, {}, false, recording);
+  const Schedule schedule(delays, count);
+  dds::ToolForce acts{};
+  note(device, acts, false, recording);
   bool goes_on = true;
   for (std::size_t i = 0; i < count && goes_on; ++i) {
-    const dds::ToolForce answer =
-        line.answer(i, exchange.answer());  // the newest when the period begins, or as was measured
-    exchange.send(line.pose(i, device.position()));
-    device.step(forceOf(answer), kPeriod);
-    note(device, answer, exchange.stalled(), recording);
-    goes_on = exchange.await(recording);
+    if (const auto step = schedule.answered(i))
+      if (const dds::ToolForce* answer = exchange.answer(*step)) acts = *answer;
+    if (schedule.sends(i)) exchange.send(i, device.position());
+    device.step(forceOf(acts), kPeriod);
+    note(device, acts, exchange.stalled(), recording);
+    goes_on = exchange.await(schedule.answered(i + 1), recording);
   }
-  recording.left_out = tool.hold().leftOut();
-  recording.model_changes = tool.modelChanges();
+  recording.left_out = exchange.tool().hold().leftOut();
+  recording.model_changes = exchange.tool().modelChanges();
   std::cerr << client::leftOutText(recording.left_out, statuses);
   return recording;
 }

@@ -19,22 +19,24 @@ struct Recording {
   std::uint32_t flags{0};           ///< FLAG_* of all answers, or-ed
   client::LeftOut left_out;         ///< forces of other servers
   std::uint64_t model_changes{0};   ///< how often the server took another model
-  std::uint64_t waited{0};          ///< periods in which the device stood still because an answer was late
-  bool server_left{false};          ///< the server said that it shuts down
+  std::uint64_t waited{0};  ///< periods in which the device stood still: an answer, or the process, was late
+  bool server_left{false};  ///< the server said that it shuts down
   bool interrupted{false};
 };
 
-/// Periods without an answer that are a stall: the server's default stale timeout.
-inline constexpr std::uint64_t kStall = 20;
+/// Periods that are a stall: after a longer pause of its ticks the server blends the force of a contact (Discontinuity).
+inline constexpr std::uint64_t kStall = 10;
 
-/// Runs a device along its path, in periods of 1 ms. Each period begins with sending the pose; then the device advances by
-/// 1 ms under the newest force, usually the answer to the previous pose (closedLoop() with a delay of 1). The device's time
-/// is its steps. While that answer is missing, or the server fades the force because poses came late, the device
-/// stands still and keeps sending. So a stall of a process is neither felt nor taken for an instability. A wait of kStall
-/// periods, or for a force that the server faded, is noted in Trace::stalled: the server's contact may be another one after it.
-/// @param[in] delays  measured ones, from where they are worst for as long as the run is, which the answers get on top of being computed: in each step the answer acts that acted in
-///                    that period of the measurement, and where no pose went out then, the one before goes out again. Nothing:
-///                    the answer to the previous pose acts
+/// Runs a device along its path, in periods of 1 ms. In each the device sends its pose and advances by 1 ms under
+/// the answer to the pose of the step before (closedLoop() with a delay of 1): of exactly that one, or, where the
+/// server never answered it because a later pose superseded it, the newest answer to one before. The device's time
+/// is its steps. While that answer may still come, or the server blends the force because poses or ticks stopped,
+/// the device stands still. What the server does with its own clock meanwhile is felt; so a wait of kStall periods,
+/// a pause of the ticks that is longer, and a force that the server blended are noted in Trace::stalled, and not
+/// judged.
+/// @param[in] delays  measured ones, from where they are worst for as long as the run is: in each step the answer
+///   to the pose acts that acted in that period of the measurement, and where no pose went out then, none does.
+///   Nothing: as above
 /// @throw client::ClientError  no server takes poses, or none answers for a second
 [[nodiscard]] Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device,
                             const client::ServerRun& server, const Delays* delays = nullptr);

@@ -8,10 +8,12 @@
 namespace palpate::device {
 namespace {
 
-constexpr double kSettling = 0.5;    // s of the hold that are not judged
+constexpr double kSettling = 0.5;    // s of the hold, and after a stall, that are not judged
 constexpr double kHalfMean = 0.125;  // s; half of the running mean's window
 constexpr double kFarAway = 10.0;    // m
 constexpr double kGrowth = 1.2;
+constexpr double kShortest = 0.15;  // s of a stretch that is judged
+constexpr double kEnough = 1.0;     // s of all stretches
 
 std::size_t indexAt(const Trace& trace, double t) {
   return static_cast<std::size_t>(std::llround(t / trace.dt));
@@ -53,17 +55,44 @@ double peakToPeak(const std::vector<Point>& values, std::size_t first, std::size
   return largest;
 }
 
+// Entries, both included.
+struct Stretch {
+  std::size_t first, last;
+};
+
+// The parts of the hold between stalls, each from its start on.
+std::vector<Stretch> stretchesOf(const Trace& trace, Stretch hold) {
+  std::vector<Stretch> stretches{hold};
+  for (std::size_t i = hold.first; i <= hold.last && i < trace.stalled.size(); ++i) {
+    if (!trace.stalled[i]) continue;
+    if (i > hold.first) stretches.back().last = i - 1;
+    stretches.push_back({i, hold.last});
+  }
+  return stretches;
+}
+
+// Adds what a stretch shows after it has settled.
+void add(const Trace& trace, const Stretch& stretch, Oscillation& sum) {
+  const std::size_t half = indexAt(trace, kHalfMean), first = stretch.first + indexAt(trace, kSettling);
+  if (stretch.last < first + half + indexAt(trace, kShortest)) return;
+  const std::vector<Point> about = detrended(trace, first, stretch.last - half, half);
+  const double early = peakToPeak(about, 0, about.size() / 2);
+  const double late = peakToPeak(about, about.size() / 2, about.size());
+  sum.pp = std::max(sum.pp, peakToPeak(about, 0, about.size()));
+  sum.growing = sum.growing || late > kGrowth * early + kNoiseFloor;
+  sum.seconds += static_cast<double>(about.size()) * trace.dt;
+}
+
 }  // namespace
 
 Oscillation oscillationIn(const Trace& trace, const Motion& motion) {
-  const std::size_t first = indexAt(trace, motion.hold_start + kSettling);
-  const std::size_t half = indexAt(trace, kHalfMean);
-  const std::size_t end = indexAt(trace, motion.hold_end);
-  if (trace.position.size() <= end || !isSane(trace)) return {kFarAway, true};
-  const std::vector<Point> about = detrended(trace, first, end - half, half);
-  const double early = peakToPeak(about, 0, about.size() / 2);
-  const double late = peakToPeak(about, about.size() / 2, about.size());
-  return {peakToPeak(about, 0, about.size()), late > kGrowth * early + kNoiseFloor};
+  const Stretch hold{indexAt(trace, motion.hold_start), indexAt(trace, motion.hold_end)};
+  if (trace.position.size() <= hold.last || !isSane(trace)) return {kFarAway, true};
+  Oscillation sum;
+  for (const Stretch& stretch : stretchesOf(trace, hold)) add(trace, stretch, sum);
+  const double most = motion.hold_end - motion.hold_start - kSettling - kHalfMean;
+  sum.enough = sum.seconds >= std::min(kEnough, 0.5 * most);
+  return sum;
 }
 
 std::optional<double> settleTime(const Trace& trace, const Motion& motion) {
@@ -82,7 +111,9 @@ Verdict judge(const Trace& with_organ, const Trace& without_organ, const Motion&
   const Oscillation with = oscillationIn(with_organ, motion);
   const Oscillation without = oscillationIn(without_organ, motion);
   Verdict verdict;
-  verdict.stable = !with.growing && with.pp <= 2.0 * without.pp + kNoiseFloor;
+  verdict.judged = with.enough;
+  verdict.judged_s = with.seconds;
+  verdict.stable = with.enough && !with.growing && with.pp <= 2.0 * without.pp + kNoiseFloor;
   verdict.settle_s = settleTime(with_organ, motion);
   verdict.oscillation_pp = with.pp;
   verdict.oscillation_without_organ_pp = without.pp;

@@ -16,7 +16,7 @@ struct Trace {
   std::vector<Point> position;       ///< n tip positions; entry i at time i dt, m
   std::vector<Point> force;          ///< n forces on the tool that acted until then, N
   std::vector<AlongForce> energy{};  ///< n sums until then; may be empty where nobody judges it
-  std::vector<bool> stalled{};       ///< n: the device stood still before the step to the entry; empty: never
+  std::vector<bool> stalled{};  ///< n: the machine stood still before the step to the entry; empty: never
 };
 
 /// Motion of the tip about its slow trend, after the time to settle.
@@ -24,13 +24,17 @@ struct Oscillation {
   double pp{0.0};  ///< peak to peak on the axis that moves most, m
   bool growing{
       false};  ///< the second half of the time is larger than 1.2 times the first and the noise floor
+  double seconds{0.0};  ///< that were judged
+  bool enough{true};    ///< at least 1 s of them, or half of the time that the hold has for it
 };
 
 /// Oscillations below this do not count. It is the finest nominal position resolution of the presets' devices (0.02 mm,
 /// Premium 3.0): none of them could show less.
 inline constexpr double kNoiseFloor = 20e-6;  // m
 
-/// The trace in the hold, from 0.5 s after its start to 0.125 s before its end, less its running mean over 0.25 s.
+/// The trace in the hold, from 0.5 s after its start to 0.125 s before its end, less its running mean over 0.25 s. After a
+/// stall, which moves the tip as a blow would, as after the start: each stretch between stalls is judged alone, from 0.5 s on,
+/// where at least 0.15 s of it are left. The largest pp counts, and whether one grows.
 /// A trace counts as growing when it ends earlier, or holds a number that is not finite or beyond 10 m.
 [[nodiscard]] Oscillation oscillationIn(const Trace& trace, const Motion& motion);
 
@@ -40,8 +44,10 @@ inline constexpr double kNoiseFloor = 20e-6;  // m
 
 /// Judgement of a run in contact with the organ, beside the same run without it.
 struct Verdict {
-  bool stable{
-      false};  ///< not growing, and the oscillation at most twice that without the organ plus kNoiseFloor
+  bool judged{false};  ///< Oscillation::enough. Without it nothing is known of the loop
+  bool stable{false};  ///< judged, not growing, and the oscillation at most twice that without the organ plus
+                       ///< kNoiseFloor
+  double judged_s{0.0};
   std::optional<double> settle_s;
   double oscillation_pp{0.0};                ///< m
   double oscillation_without_organ_pp{0.0};  ///< m

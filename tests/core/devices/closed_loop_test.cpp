@@ -144,6 +144,35 @@ TEST(Oscillation, ATraceThatEndsEarlyIsNotCalledStable) {
   EXPECT_FALSE(judge(trace, swinging(motion, 0.0, 0.0), motion).stable);
 }
 
+// A stall moves the tip as a blow does: what it starts is not the loop's.
+TEST(Oscillation, IsJudgedBetweenStallsWhereItHasSettled) {
+  const Motion motion = makeMotion("press", kSurface, kUp, {.seconds = 6.0});
+  Trace trace{1e-3, std::vector<Point>(6001), std::vector<Point>(6001)};
+  trace.stalled.assign(6001, false);
+  trace.stalled[2500] = true;
+  for (std::size_t i = 2500; i < 2800; ++i) trace.position[i] = 1e-3 * std::sin(0.1 * i) * kUp;
+  const Oscillation with = oscillationIn(trace, motion);
+  EXPECT_EQ(with.pp, 0.0);
+  EXPECT_TRUE(with.enough);
+  EXPECT_NEAR(with.seconds, (2.5 - 1.5 - 0.125) + (5.8 - 3.0 - 0.125), 5e-3);
+  for (std::size_t i = 3500; i < 6000; ++i) trace.position[i] = 1e-3 * std::sin(0.1 * i) * kUp;
+  EXPECT_NEAR(oscillationIn(trace, motion).pp, 2e-3, 0.3e-3) << "rings without a stall";
+  trace.stalled.assign(6001, false);
+  EXPECT_GT(oscillationIn(trace, motion).pp, 1e-3) << "told, it is the loop's";
+}
+
+TEST(Oscillation, OfAHoldFullOfStallsIsNotJudged) {
+  const Motion motion = makeMotion("press", kSurface, kUp, {});
+  Trace trace = swinging(motion, 0.0, 0.0);
+  EXPECT_TRUE(judge(trace, trace, motion).judged);
+  const Trace without = trace;
+  trace.stalled.assign(trace.position.size(), false);
+  for (std::size_t i = 0; i < trace.stalled.size(); i += 700) trace.stalled[i] = true;
+  const Verdict verdict = judge(trace, without, motion);
+  EXPECT_FALSE(verdict.judged);
+  EXPECT_FALSE(verdict.stable) << "nothing is known of the loop";
+}
+
 TEST(SettleTime, IsWhenTheTipStaysInTheBand) {
   const Motion motion = makeMotion("press", kSurface, kUp, {});
   // 1 mm exp(-4 t) enters the band of 5 % of 3 mm after ln(1 / 0.15) / 4 s, give or take a swing.
