@@ -107,8 +107,8 @@ void declare(program::Options line, Given& given) {
                program::installedText(PALPATE_CONFIG_FROM_BIN))
       .valueName("FILE");
   line.add("--record", &given.record,
-           "Record every tick's input and answer in this file, for palpate-replay; for another organ in the "
-           "next one beside it (FILE-2 and on), 1000 in all; how large they get the disk alone bounds")
+           "Record every tick's input and answer in this file, for palpate-replay; another organ goes to "
+           "session-2.rec beside session.rec, at most 1000 files; the size is not bounded")
       .valueName("FILE");
   line.add("--domain", &given.domain, "DDS domain, 0 to 230, default 0");
   line.add("--security", &given.security,

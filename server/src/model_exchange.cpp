@@ -102,7 +102,8 @@ ExchangeOutcome ModelExchange::take(std::int64_t now_ns) {
   outcome.line = "another organ: " + describe(*engine_->model, loaded_.name) + "; " +
                  program::certificateLine(engine_->model->attributes().certificate);
   if (!engine_->model->locked()) outcome.line += "; not locked into memory, a tick may wait for a page";
-  if (!record_.empty()) outcome.line += "; the recording goes on in " + record_;
+  if (!record_.empty() && !channels_.recording_failed.load(std::memory_order_relaxed))
+    outcome.line += "; the recording goes on in " + record_;
   loaded_ = {};
   state_ = State::kClearing;
   rests_until_ns_ = std::max(rests_until_ns_, now_ns + kRest);

@@ -25,13 +25,14 @@ Recorder::Recorder(Channels& channels, const std::filesystem::path& path, const 
 
 std::filesystem::path Recorder::expect(std::uint64_t engine, const record::SessionFacts& facts) {
   std::filesystem::path path;
+  if (files_ >= kMostFiles)
+    throw record::RecordError(first_path_.string() + ": this session has " + std::to_string(kMostFiles) +
+                              " files for its models, and gets no more");
   do {
-    if (files_ >= kMostFiles)
-      throw record::RecordError(first_path_.string() + ": this session has " + std::to_string(kMostFiles) +
-                                " files for its models, and gets no more");
     path = first_path_.parent_path() /
-           (first_path_.stem().string() + "-" + std::to_string(++files_) + first_path_.extension().string());
-  } while (std::filesystem::exists(path));
+           (first_path_.stem().string() + "-" + std::to_string(++number_) + first_path_.extension().string());
+  } while (std::filesystem::exists(path));  // of an earlier session
+  ++files_;
   const std::lock_guard lock(mutex_);
   expected_.insert_or_assign(engine, Next{path, facts});
   return path;

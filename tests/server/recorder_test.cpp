@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <fstream>
 #include <memory>
 
 #include "core/record/record_reader.h"
@@ -90,6 +91,14 @@ TEST_F(RecorderTest, ModelsBeyondAThousandAreRefused) {
     EXPECT_EQ(recorder.expect(static_cast<std::uint64_t>(i), facts()),
               folder / ("session-" + std::to_string(i) + ".rec"));
   EXPECT_THROW(recorder.expect(1001, facts()), record::RecordError);
+}
+
+TEST_F(RecorderTest, FilesOfAnEarlierSessionDoNotCount) {
+  const palpate::testing::TemporaryFolder folder;
+  for (int i = 2; i <= Recorder::kMostFiles; ++i)
+    std::ofstream(folder / ("session-" + std::to_string(i) + ".rec")) << "another session's";
+  Recorder recorder(*channels_, folder / "session.rec", facts());
+  EXPECT_EQ(recorder.expect(1, facts()), folder / "session-1001.rec");
 }
 
 TEST_F(RecorderTest, TicksLostToAFullRingAreToldInTheFileOfTheirModel) {

@@ -20,7 +20,7 @@ namespace palpate::server {
 /// another model goes on in another file, "session-2.rec" after "session.rec": a recording is of one model.
 class Recorder {
  public:
-  static constexpr int kMostFiles = 1000;  ///< of a session, session.rec to session-1000.rec
+  static constexpr int kMostFiles = 1000;  ///< of a session; their numbers are higher where files of an earlier one are there
 
   /// Creates the file and the ring. Before the tick starts. @throw record::RecordError
   Recorder(Channels& channels, const std::filesystem::path& path, const record::SessionFacts& facts);
@@ -55,7 +55,8 @@ class Recorder {
     record::SessionFacts facts;
   };
   std::map<std::uint64_t, Next> expected_;  // by engine
-  int files_{1};                            // expect()'s: the number of the newest file
+  int number_{1};                           // expect()'s: in the name of the newest file
+  int files_{1};                            // expect()'s: of this session
   std::string failure_;                     // why the file ends early; empty: it does not
 };
 
