@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -77,6 +78,8 @@ MemoryHog::MemoryHog(const MemoryGroup& group, const std::filesystem::path& file
   if (opened < 0 || pipe(ready.data()) != 0) return;
   process_ = fork();
   if (process_ == 0) {  // only what may be called between fork() and exec()
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    close(ready[1]);  // so that read() ends where the parent has ended before that
     static std::array<char, 65536> buffer;
     char begin = 0;
     if (read(ready[0], &begin, 1) != 1) _exit(1);
