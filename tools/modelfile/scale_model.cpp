@@ -33,13 +33,6 @@ std::vector<double> timesAsStored(double factor, std::span<const double> numbers
   return scaled;
 }
 
-/// Compact files have fields of 8 bits; there is no mark of it in the view.
-bool isCompact(const ModelView& view) {
-  constexpr std::int16_t kMost = 127;
-  return std::all_of(view.modes_X.begin(), view.modes_X.end(),
-                     [](std::int16_t whole) { return std::abs(whole) <= kMost; });
-}
-
 }  // namespace
 
 void writeScaled(const std::filesystem::path& path, const MetaModel& model, double E,

@@ -1,37 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/modelfile/write_certificate.h"
 
-#include <hdf5.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "core/data/hdf5_handle.h"
+#include <cerrno>
+#include <cstring>
+
 #include "core/model/meta_model.h"
 #include "tools/modelfile/file_parts.h"
 #include "tools/modelfile/model_data.h"
+#include "tools/modelfile/write_model.h"
 #include "tools/program/write_file.h"
 
 namespace palpate::modelfile {
 
 namespace {
 
-void replaceTexts(const std::filesystem::path& path, const std::string& certificate, const Digest& content) {
-  Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, aligned().get()), H5Fclose);
-  require(file.valid(), path);
-  for (const char* name : {"certificate", "certificate_digest", "certificate_of"})
-    if (H5Aexists(file.get(), name) > 0) require(H5Adelete(file.get(), name) >= 0, name);
-  writeCertificateTexts(file, certificate, content.hex());
-  require(file.closeNow(), path);
+/// Nobody else reads what is written there, before it has the mode of the file whose place it takes.
+void makeEmpty(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
+  const bool good = descriptor >= 0 && ::fchmod(descriptor, 0600) == 0;
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!good) throw program::WriteError(path, std::strerror(error));
+}
+
+/// Of the checked arrays, so that HDF5 opens nothing here that another program made.
+void writeCertified(const std::filesystem::path& file, const std::filesystem::path& to,
+                    const std::string& certificate, const Digest& content) {
+  const MetaModel model = MetaModel::load(file);
+  if (model.digest() != content)
+    throw ModelFileError("not certified: the certificate belongs to the content " + content.hex() +
+                         ", the digest of this content is " + model.digest().hex());
+  ModelAttributes attributes = model.attributes();
+  attributes.certificate = certificate;
+  writeModelTo(to, attributes, model.view(), isCompact(model.view()));
 }
 
 /// @param file  no symbolic link: it would be replaced, and not what it leads to
 void replaceFile(const std::filesystem::path& file, const std::string& certificate, const Digest& content) {
-  using std::filesystem::perms;
+  const std::filesystem::perms mode = std::filesystem::status(file).permissions();
   program::FileBeside beside(file);
-  // What a process of the same number left behind is of no use.
-  std::filesystem::copy_file(file, beside.path(), std::filesystem::copy_options::overwrite_existing);
-  const perms mode = std::filesystem::status(file).permissions();
-  std::filesystem::permissions(beside.path(), mode | perms::owner_read | perms::owner_write);
-  replaceTexts(beside.path(), certificate, content);
-  (void)MetaModel::load(beside.path());  // refuses it where the file became another one meanwhile
+  makeEmpty(beside.path());
+  writeCertified(file, beside.path(), certificate, content);
+  (void)MetaModel::load(beside.path());  // refuses a certificate that no reader takes
   std::filesystem::permissions(beside.path(), mode);
   sync(beside.path());
   beside.takePlace();
@@ -42,7 +56,6 @@ void replaceFile(const std::filesystem::path& file, const std::string& certifica
 
 void writeCertificate(const std::filesystem::path& path, const std::string& certificate,
                       const Digest& content) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out
   try {
     replaceFile(std::filesystem::canonical(path), certificate, content);
   } catch (const std::filesystem::filesystem_error& error) {

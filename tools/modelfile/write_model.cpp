@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <span>
 #include <string>
@@ -223,15 +224,6 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   return v;
 }
 
-void writeAll(const std::string& path, const ModelAttributes& attributes, const ModelView& view,
-              bool compact) {
-  Hdf5Handle file = createFile(path);
-  makeGroups(file, attributes, view);
-  writeContent(file, attributes, view, compact);
-  require(file.closeNow(), path);
-  sync(path);
-}
-
 }  // namespace
 
 std::uint64_t storedBytes(const ModelData& data) {
@@ -256,12 +248,27 @@ void writeModel(const std::filesystem::path& path, const ModelData& data) {
   writeModel(path, attributes, viewOf(data, fields), data.compact);
 }
 
+bool isCompact(const ModelView& view) {
+  constexpr std::int16_t kMost = 127;
+  return std::all_of(view.modes_X.begin(), view.modes_X.end(),
+                     [](std::int16_t whole) { return std::abs(whole) <= kMost; });
+}
+
+void writeModelTo(const std::filesystem::path& path, const ModelAttributes& attributes, const ModelView& view,
+                  bool compact) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out
+  Hdf5Handle file = createFile(path);
+  makeGroups(file, attributes, view);
+  writeContent(file, attributes, view, compact);
+  require(file.closeNow(), path);
+}
+
 void writeModel(const std::filesystem::path& path, const ModelAttributes& attributes, const ModelView& view,
                 bool compact) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors leave as exceptions, not as HDF5's own print-out
   program::FileBeside beside(path);
   try {
-    writeAll(beside.path(), attributes, view, compact);
+    writeModelTo(beside.path(), attributes, view, compact);
+    sync(beside.path());
     beside.takePlace();
     syncFolder(path);
   } catch (const program::WriteError& error) {

@@ -21,6 +21,13 @@ void writeModel(const std::filesystem::path& path, const ModelData& data);
 void writeModel(const std::filesystem::path& path, const ModelAttributes& attributes, const ModelView& view,
                 bool compact);
 
+/// The same right into a file, which is not synced; what is there goes. @throw ModelFileError
+void writeModelTo(const std::filesystem::path& path, const ModelAttributes& attributes, const ModelView& view,
+                  bool compact);
+
+/// Whether a file of these numbers is a compact one: fields of 8 bits. There is no mark of it in the view.
+[[nodiscard]] bool isCompact(const ModelView& view);
+
 /// About what writeModel() makes of it, bytes: arrays, and what HDF5 adds to them. @param data  parts may be empty
 [[nodiscard]] std::uint64_t storedBytes(const ModelData& data);
 
