@@ -65,7 +65,8 @@ Bracket searchBelow(double most, const StableThere& stable) {
   // 4. Where it rings below that, below that.
   if (found.stable > least && !holdsBelow(found.stable, stable)) {
     Bracket below = searchBelow(kSafeShare * found.stable, stable);
-    if (!(below.unstable > 0.0)) below.unstable = found.stable;
+    const double share = stable(kSafeShare * found.stable, stiffest) ? kSafeShare * kSafeShare : kSafeShare;
+    if (!(below.unstable > 0.0)) below.unstable = share * found.stable;
     return below;
   }
   return found;
@@ -99,15 +100,19 @@ std::optional<StabilityCase> firstUnstable(const MetaModel& model, std::span<con
 SafeCoupling stiffestStable(std::span<const PressPlace> places, double most, const Stable& stable) {
   SafeCoupling safe;
   safe.largest_stable = most;
-  for (const PressPlace& place : places) {
-    if (!(safe.largest_stable > 0.0)) break;
+  // Round and round until no place lowers it: what a later place allows may ring at an earlier one that is stable above.
+  std::size_t holding = 0;  // places in a row at which it holds
+  for (std::size_t i = 0; holding < places.size() && safe.largest_stable > 0.0; ++i) {
+    const PressPlace& place = places[i % places.size()];
     const auto there = [&](double stiffness, double E) { return stable(place, stiffness, E); };
-    if (&place != &places.front() && holdsAt(safe.largest_stable, there)) continue;
+    ++holding;
+    if (i > 0 && holdsAt(safe.largest_stable, there)) continue;
     const Bracket found = searchBelow(safe.largest_stable, there);
     safe.largest_stable = found.stable;
     if (!(found.unstable > 0.0)) continue;
     safe.unstable_at = found.unstable;
     safe.place = place;
+    holding = 1;
   }
   safe.by_device = !safe.place;
   return safe;

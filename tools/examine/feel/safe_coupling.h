@@ -57,9 +57,10 @@ struct SafeCoupling {
 /// Whether a device is stable at a place; of K_r, N/m, and E, Pa.
 using Stable = std::function<bool(const PressPlace&, double, double)>;
 
-/// At the first place upward from 8 N/m in steps of 1.25 to the first K_r that is unstable on the stiffest organ, then by bisection to
-/// 3 %; lowered further where a softer organ is unstable with it, or 0.8 of it rings, or 0.64. It ends at `most`, N/m. At each other place what was found is tried;
-/// where it rings, the search is made there too, up to it.
+/// At the first place upward from 8 N/m in steps of 1.25 to the first K_r that is unstable on the stiffest organ,
+/// then by bisection to 3 %; lowered further where a softer organ is unstable with it, or 0.8 of it rings, or 0.64.
+/// It ends at `most`, N/m. At each other place what was found is tried; where it rings, the search is made there
+/// too, up to it, and all places are tried again.
 /// @param[in] places  at least one  @return largest_stable, unstable_at, place and by_device
 [[nodiscard]] SafeCoupling stiffestStable(std::span<const PressPlace> places, double most,
                                           const Stable& stable);

@@ -120,6 +120,14 @@ std::array<double, 3> pointOf(const MetaModel& model, const ContactPoint& s) {
   return {X.x(), X.y(), X.z()};
 }
 
+// Of palpate-device: its hand and friction where they are not what it takes with --delay-from.
+std::string optionsOf(const StabilityCase& rings) {
+  std::string text =
+      program::printed(" --hand %g,%g,%g", rings.hand.mass, rings.hand.damping, rings.hand.stiffness);
+  if (rings.friction) text += program::printed(" --friction %g", device::mechanicsOf(rings.preset).friction);
+  return text;
+}
+
 // The command that found a coupling, and the one that tries it where it rings first.
 std::vector<std::string> originOf(const Study& study, const MetaModel& model, const DevicePreset& preset,
                                   const SafeCoupling& safe) {
@@ -129,9 +137,15 @@ std::vector<std::string> originOf(const Study& study, const MetaModel& model, co
   const std::array<double, 3> at = pointOf(model, safe.place->s);
   lines.push_back(program::printed(
       "rings from %.4g N/m, first at the %s place: palpate-device --preset %s --delay-from %s "
-      "--at %.6g,%.6g,%.6g",
+      "--at %.6g,%.6g,%.6g%s",
       safe.unstable_at, std::string(safe.place->name).c_str(), std::string(preset.name).c_str(),
-      study.delay_from.c_str(), at[0], at[1], at[2]));
+      study.delay_from.c_str(), at[0], at[1], at[2], safe.rings ? optionsOf(*safe.rings).c_str() : ""));
+  if (safe.rings)
+    lines.push_back(program::printed(
+        "that is on a server with --youngs-modulus %g, %s", safe.rings->youngs_modulus,
+        safe.rings->first_delay == 0
+            ? "with the delays from the beginning of the file; palpate-device takes their worst stretch"
+            : "in the worst stretch of the delays, as palpate-device takes them"));
   return lines;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,8 +49,8 @@ struct Organ {
 
 std::vector<feel::StabilityCase> casesAt(const device::Delays& delays, const DevicePreset& preset,
                                          const ContactPoint& s, double stiffness) {
-  return feel::casesUnder(delays, feel::withRendered(preset, stiffness), s, Organ{}.stiffness,
-                          feel::kModuli.back());
+  static const double kOrgan = largestStiffness(unevenOrgan());
+  return feel::casesUnder(delays, feel::withRendered(preset, stiffness), s, kOrgan, feel::kModuli.back());
 }
 
 class SafeCoupling : public ::testing::TestWithParam<DevicePreset> {};
@@ -126,6 +127,20 @@ TEST(StiffestStable, IsWhatHoldsAtEachPlace) {
   const feel::SafeCoupling soft =
       search({{"highest", 900.0}, {"median", 60.0}, {"softest", 900.0}, {"stiffest", 900.0}}, 40.0);
   EXPECT_NEAR(soft.largest_stable, 40.0, 0.05 * 40.0) << "a softer organ rings from less";
+  // The first place rings from 75 to 78 N/m, the second from 77: what the second allows has to hold at the first too.
+  const feel::SafeCoupling pocket = feel::stiffestStable(
+      std::span(places).first(2), 100.0, [](const feel::PressPlace& place, double stiffness, double) {
+        return place.name == "highest" ? stiffness < 75.0 || stiffness > 78.0 : stiffness < 77.0;
+      });
+  EXPECT_LT(pocket.largest_stable, 75.0);
+  EXPECT_GE(pocket.unstable_at, 75.0);
+  // Rings from 50 to 55 N/m and from 66: the steps upward pass over the first, and 0.8 of what they find lies in it.
+  const feel::SafeCoupling under = feel::stiffestStable(
+      std::span(places).first(1), 300.0, [](const feel::PressPlace&, double stiffness, double) {
+        return stiffness < 50.0 || (stiffness > 55.0 && stiffness < 66.0);
+      });
+  EXPECT_LT(under.largest_stable, 50.0);
+  EXPECT_NEAR(under.unstable_at, 51.0, 1.5);
   const feel::SafeCoupling none =
       search({{"highest", 900.0}, {"median", 900.0}, {"softest", 900.0}, {"stiffest", 900.0}});
   EXPECT_EQ(none.largest_stable, 300.0);
