@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "palpate/idl/types.h"
 #include "palpate/testing/run_program.h"
 #include "running_server.h"
 
@@ -109,16 +110,22 @@ TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
   EXPECT_EQ(row["bound"], "delays");
   const double stiffness = row["safe_rendered_N_per_m"].get<double>(),
                damping = row["safe_damping_Ns_per_m"].get<double>();
-  // Again where the machine stood still too often to judge the loop; nothing where it did in all runs.
-  const auto press = [&](const std::vector<std::string>& options) -> std::optional<ProgramResult> {
+  // Again where the machine stood still, which damps what rings and shakes what does not; nothing where it did in all runs. That a run
+  // rings is seen nevertheless.
+  const auto press = [&](const std::vector<std::string>& options,
+                         bool rings) -> std::optional<ProgramResult> {
     std::vector<std::string> all{"--youngs-modulus", "1e6", "--phase-lock"};
     all.insert(all.end(), options.begin(), options.end());
     const Running server(all);
-    for (int tries = 0; tries < 5; ++tries) {
+    for (int tries = 0; tries < 6; ++tries) {
       ProgramResult result =
           runProgram("palpate-device", {"--preset", "desktop", "--delay-from", delays, "--json", "--seconds",
                                         "6", "--wait", "30", "--domain", server.domain});
-      if (!result.out.empty() && json::parse(result.out)["judged"] == true) return result;
+      if (result.out.empty()) continue;
+      const json said = json::parse(result.out);
+      if (said["judged"] == true &&
+          (said["flags"] == dds::flag::kInContact || (rings && result.exit_code == 3)))
+        return result;
     }
     return std::nullopt;
   };
@@ -130,9 +137,10 @@ TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
                                     "--coupling-damping",
                                     std::to_string(share * damping)};
   };
-  const auto below = press(times(0.8)), found_one = press({"--config", (folder / "desktop.toml").string()}),
-             above = press(times(1.4));
-  if (!below || !found_one || !above) GTEST_SKIP() << "the machine stood still in each of five runs";
+  const auto below = press(times(0.8), false),
+             found_one = press({"--config", (folder / "desktop.toml").string()}, false),
+             above = press(times(1.4), true);
+  if (!below || !found_one || !above) GTEST_SKIP() << "the machine stood still in each of six runs";
   EXPECT_EQ(below->exit_code, 0) << below->err;
   EXPECT_NEAR(json::parse(below->out)["delays"]["mean_ms"].get<double>(), row["mean_delay_ms"].get<double>(),
               1e-9);
