@@ -41,6 +41,7 @@ Point without(const Point& v, const Point& direction, double sign) noexcept {
 
 void ForceRenderer::sent(std::uint64_t seq, const Point& position) noexcept PALPATE_NONBLOCKING {
   poses_[seq % kPoses] = {seq, position};
+  newest_sent_ = seq;
 }
 
 bool ForceRenderer::answered(const Answer& answer) noexcept PALPATE_NONBLOCKING {
@@ -73,9 +74,13 @@ void ForceRenderer::watch(std::int64_t now_ns) noexcept PALPATE_NONBLOCKING {
   read_ns_ = now_ns;
   age_ = has_answer_ ? 1e-9 * static_cast<double>(std::max<std::int64_t>(now_ns - answer_.arrived_ns, 0))
                      : std::numeric_limits<double>::infinity();
-  const double fresh = std::clamp(1.0 - (age_ - kStaleAfter) / kRamp, 0.0, 1.0);
+  const double rendered_for = std::min(since_read, kLongestRead);
+  const double fresh = std::clamp(1.0 - (age_ + rendered_for - kStaleAfter) / kRamp, 0.0, 1.0);
   const double attentive = std::clamp(1.0 - (since_read - kStaleAfter) / kRamp, 0.0, 1.0);
-  gain_ = std::min(fresh, std::min(gain_, attentive) + std::min(since_read, kLongestRead) / kRamp);
+  // What comes first after a pause may have waited in the socket for as long as that was.
+  if (attentive == 0.0) rises_from_ = newest_sent_ + 1;
+  const double rise = answer_.pose_seq >= rises_from_ ? rendered_for / kRamp : 0.0;
+  gain_ = std::min(fresh, std::min(gain_, attentive) + rise);
 }
 
 Point ForceRenderer::extrapolated(const Point& position) const noexcept PALPATE_NONBLOCKING {

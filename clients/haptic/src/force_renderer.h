@@ -33,7 +33,7 @@ class ForceRenderer {
   static constexpr double kStaleAfter = 0.020;  ///< s without an answer until the force falls
   static constexpr double kRamp = 0.030;        ///< s from full force to none, and back
   static constexpr double kLongestRead =
-      0.005;  ///< s; one read raises the force by at most this much of the ramp
+      0.005;  ///< s; of the time between two reads, what counts: in a rise of the force, and as the time it is rendered for
   static constexpr std::size_t kPoses = 1024;  ///< remembered poses; a quarter of a second at 4 kHz
 
   /// @param[in] max_extrapolation  m
@@ -46,7 +46,8 @@ class ForceRenderer {
   /// @return false when it is ignored: a number is not finite, or the pose is older than that of the last answer
   bool answered(const Answer& answer) noexcept PALPATE_NONBLOCKING;
 
-  /// The current force.
+  /// The current force. The device renders it until its next read, which is taken to be as far off as the last one: by then it has
+  /// fallen far enough. After kStaleAfter + kRamp without a read it is zero, and rises once an answer to a later pose has come.
   /// @param[in] position  of the tool; null: the answered force is held
   /// @param[in] limit     of the force's size, N
   [[nodiscard]] Force at(const Point* position, std::int64_t now_ns,
@@ -71,6 +72,8 @@ class ForceRenderer {
   bool has_answer_{false};
   double age_{0.0};  // s
   double gain_{0.0};
+  std::uint64_t newest_sent_{0};
+  std::uint64_t rises_from_{0};  // the answered pose from which on the force may rise
   double nearest_{std::numeric_limits<double>::infinity()};  // m
   std::int64_t read_ns_{0};                                  // when at() was called last; 0: never
 };

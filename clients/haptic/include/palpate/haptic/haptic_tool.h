@@ -56,8 +56,9 @@ struct Options {
 /// servers never reach the device. When the held server was silent for a second, or 100 ms after it said that it stops, the next
 /// may be held on to; the force is zero by then and rises from there. Force::session tells.
 ///
-/// Watchdog, by this machine's clock: 20 ms after the newest answer the force begins to fall; 30 ms later it is zero. When
-/// answers come or come back, the force rises within 30 ms. The watchdog acts when the caller reads: a driver that stops
+/// Watchdog, by this machine's clock: 20 ms after the newest answer the force at the device begins to fall; 30 ms later it is
+/// zero, when it is read every 5 ms or more often. When answers come or come back, the force rises within 30 ms. After 50 ms
+/// without a read it is zero until a later pose is answered. The watchdog acts when the caller reads: a driver that stops
 /// reading must release its device itself.
 ///
 /// Threads: one thread sends and reads. The library receives answers on its own thread.
