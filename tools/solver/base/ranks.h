@@ -23,6 +23,9 @@ class Ranks {
   /// What one rank has goes to another one; the others do nothing. @param data  as long on both
   virtual void move(std::span<std::byte> data, int from, int to) const;
 
+  /// Whether all ranks say yes; the same on each. Also waits for the last one.
+  [[nodiscard]] bool all(bool own) const;
+
   [[nodiscard]] bool isFirst() const noexcept { return rank() == 0; }
   [[nodiscard]] static const Ranks& one();
 };

@@ -113,18 +113,21 @@ bool DisplacementBuilder::widenNear() {
   const double usual = std::exchange(near_radius_, wider);
   near_ = nearOf(setup_.positions.nodes);
   near_loaded_ = nearOf(loaded_);
+  bool fits = true;
   try {
     checkNear();
     Estimate more = sizes();
     more.scratch = 0.0;  // it is there already
     requireRoom(more, case_, options_, options_.output);
-    return true;
-  } catch (const CaseError&) {  // what is there is kept, and its error told
-    near_radius_ = usual;
-    near_ = nearOf(setup_.positions.nodes);
-    near_loaded_ = nearOf(loaded_);
-    return false;
+  } catch (const CaseError&) {
+    fits = false;
   }
+  // Each rank sees the room of its own machine; all fit again, or none.
+  if (options_.ranks->all(fits)) return true;
+  near_radius_ = usual;  // what is there is kept, and its error told
+  near_ = nearOf(setup_.positions.nodes);
+  near_loaded_ = nearOf(loaded_);
+  return false;
 }
 
 /// The modes are those of the patches' fields, which are smoother than those of single nodes: they want fewer.

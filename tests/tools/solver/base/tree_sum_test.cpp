@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstring>
 #include <functional>
@@ -11,6 +12,8 @@
 #include <mutex>
 #include <numeric>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -29,15 +32,23 @@ class Mailbox {
   void take(int from, int to, std::span<std::byte> data) {
     std::unique_lock lock(mutex_);
     auto& letters = letters_[{from, to}];
-    arrived_.wait(lock, [&] { return !letters.empty(); });
+    if (!arrived_.wait_for(lock, kLongest, [&] { return !letters.empty() || stuck_; }) || letters.empty()) {
+      stuck_ = true;
+      arrived_.notify_all();
+      throw std::runtime_error("nothing came from rank " + std::to_string(from) + " to " +
+                               std::to_string(to));
+    }
     ASSERT_EQ(letters.front().size(), data.size());
     std::copy(letters.front().begin(), letters.front().end(), data.begin());
     letters.erase(letters.begin());
   }
 
  private:
+  static constexpr std::chrono::seconds kLongest{10};
+
   std::mutex mutex_;
   std::condition_variable arrived_;
+  bool stuck_{false};  ///< a rank has waited for what nobody sends: all end
   std::map<std::pair<int, int>, std::vector<std::vector<std::byte>>> letters_;
 };
 
@@ -65,7 +76,13 @@ void onRanks(int size, const std::function<void(const Ranks&)>& work) {
   Mailbox mailbox;
   std::vector<std::jthread> threads;
   for (int rank = 0; rank < size; ++rank)
-    threads.emplace_back([&, rank] { work(ThreadRank(rank, size, mailbox)); });
+    threads.emplace_back([&, rank] {
+      try {
+        work(ThreadRank(rank, size, mailbox));
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << "rank " << rank << " of " << size << ": " << error.what();
+      }
+    });
 }
 
 std::vector<std::int32_t> upTo(std::size_t entries) {
@@ -89,6 +106,12 @@ Eigen::MatrixXf sumOf(const Blocks& blocks, unsigned seed) {
   TreeSum<Eigen::MatrixXf> sum(blocks, 5, 3);
   for (const std::size_t block : own) sum.add(block, partOf(block));
   return sum.finish();
+}
+
+TEST(Ranks, AgreeWhereOneSaysNo) {
+  for (const int size : {1, 2, 3})
+    for (int no = -1; no < size; ++no)
+      onRanks(size, [&](const Ranks& ranks) { EXPECT_EQ(ranks.all(ranks.rank() != no), no < 0); });
 }
 
 TEST(TreeSum, HasTheSameBitsForAnyOrderAndAnyNumberOfRanks) {
