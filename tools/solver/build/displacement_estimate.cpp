@@ -126,7 +126,13 @@ Estimate DisplacementBuilder::sizes() const {
                G = static_cast<double>(loaded_.size());
   const double C = basis_.size(), Cm = C - 3.0;
   Estimate out;
-  out.scratch = 4.0 * rows * (M * C + 3.0 * G);
+  const auto own = [&](std::size_t entries, std::size_t part) {  // of this rank
+    const Blocks blocks(entries, *options_.ranks, part);
+    return static_cast<double>(blocks.ownEnd() - blocks.ownBegin());
+  };
+  out.scratch =
+      4.0 * rows *
+      (own(setup_.positions.nodes.size(), kLanes) * C + 3.0 * own(loaded_.size(), NodalGreens::kMost));
   double n = case_.modes ? *case_.modes : modesFor(case_.fieldErrorOrDefault(), setup_.surface, near_radius_);
   if (case_.handheld() && !case_.modes)
     n = std::clamp(0.45 * case_.sizeLimitOrDefault() / (rows + 3.0 * G + M * Cm / 3.0), 12.0, 400.0);

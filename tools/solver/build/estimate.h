@@ -17,7 +17,7 @@ struct Estimate {
   double probe{0};     ///< s: what the probe itself took
   double memory{0};    ///< bytes, largest resident
   double resident{0};  ///< bytes, of these there already
-  double scratch{0};   ///< bytes
+  double scratch{0};   ///< bytes, of this rank
   double file{0};      ///< bytes
   int modes{0};        ///< as given, or about as many as the field's error wants
 
