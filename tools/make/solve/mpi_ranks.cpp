@@ -22,9 +22,14 @@ class MpiRanks : public solver::Ranks {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &on_machine_);
+    MPI_Comm_free(&machine);
   }
   [[nodiscard]] int rank() const noexcept override { return rank_; }
   [[nodiscard]] int size() const noexcept override { return size_; }
+  [[nodiscard]] int onMachine() const noexcept override { return on_machine_; }
   void broadcast(std::span<std::byte> data, int from) const override {
     for (; !data.empty(); data = data.subspan(std::min(kMostBytes, data.size())))
       MPI_Bcast(data.data(), countOf(data), MPI_BYTE, from, MPI_COMM_WORLD);
@@ -42,7 +47,7 @@ class MpiRanks : public solver::Ranks {
     return static_cast<int>(std::min(kMostBytes, data.size()));
   }
 
-  int rank_{0}, size_{1};
+  int rank_{0}, size_{1}, on_machine_{1};
 };
 
 /// What Open MPI's mpirun, and launchers that speak PMIx or PMI, tell their processes. Without a launcher MPI would start one.

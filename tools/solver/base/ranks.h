@@ -18,6 +18,8 @@ class Ranks {
   /// Of this process, from 0.
   [[nodiscard]] virtual int rank() const noexcept { return 0; }
   [[nodiscard]] virtual int size() const noexcept { return 1; }
+  /// Ranks of this one's machine, itself included: they share its memory.
+  [[nodiscard]] virtual int onMachine() const noexcept { return 1; }
   /// What one rank has goes to all. @param data  as long on all
   virtual void broadcast(std::span<std::byte> data, int from) const;
   /// What one rank has goes to another one; the others do nothing. @param data  as long on both

@@ -240,6 +240,7 @@ modelfile::ModelData buildDisplacementSeries(const Case& c, const mesh::TetMesh&
   const ChosenOrgan chosen(c, organ, options, report);
   DisplacementBuilder builder(chosen, options, report);
   requireRoom(builder.sizes(), chosen.chosen, options, options.output);
+  (void)options.ranks->all(true);  // none takes room before the last one has looked
   return builder.run();
 }
 

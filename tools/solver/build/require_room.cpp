@@ -50,10 +50,14 @@ void requireRoom(const Estimate& estimate, const Case& c, const BuildOptions& op
                     (c.handheld() ? "--size-limit" : "--target handheld") + " or " +
                     lowerOrder(c, estimate.file) + " makes it smaller");
   const AvailableMemory memory = availableMemory();
-  const double room = estimate.resident + static_cast<double>(memory.bytes);
+  // A limit of address space is each process's own.
+  const int sharing = memory.limit == "ulimit -v" ? 1 : options.ranks->onMachine();
+  const double room = estimate.resident + static_cast<double>(memory.bytes) / sharing;
   if (estimate.memory > kTooHigh * room)
     throw CaseError(c.mesh.string() + ": needs about " + gigabytes(estimate.memory) + " of memory, " +
-                    gigabytes(room) + " are available (" + memory.limit + "): fewer --threads or --modes, " +
+                    gigabytes(room) + " are available (" + memory.limit +
+                    (sharing > 1 ? ", shared by " + std::to_string(sharing) + " processes" : "") +
+                    "): fewer " + (sharing > 1 ? "processes, " : "") + "--threads or --modes, " +
                     lowerOrder(c, estimate.memory) + " need less");
 }
 

@@ -10,13 +10,14 @@ namespace {
 
 constexpr double kTooMuch = 1e18;  // bytes, which no machine has
 
-std::string refusal(const Estimate& estimate, Target target = Target::kServer) {
+std::string refusal(const Estimate& estimate, Target target = Target::kServer,
+                    const Ranks& ranks = Ranks::one()) {
   Case c;
   c.mesh = "organ.msh";
   c.order = 4;
   c.target = target;
   try {
-    requireRoom(estimate, c, {.workers = 2, .scratch = "."}, ".");
+    requireRoom(estimate, c, {.workers = 2, .scratch = ".", .ranks = &ranks}, ".");
   } catch (const CaseError& error) {
     return error.what();
   }
@@ -33,6 +34,20 @@ TEST(RequireRoom, TakesWhatFits) {
   there.memory = kTooMuch;
   there.resident = kTooMuch;
   EXPECT_EQ(refusal(there), "");
+}
+
+/// As many processes on this machine as none has room for.
+class CrowdedRanks : public Ranks {
+ public:
+  [[nodiscard]] int onMachine() const noexcept override { return 1000000; }
+};
+
+TEST(RequireRoom, SharesTheMachinesMemoryAmongItsRanks) {
+  Estimate estimate;
+  estimate.memory = 1e8;
+  EXPECT_EQ(refusal(estimate), "");
+  const std::string text = refusal(estimate, Target::kServer, CrowdedRanks());
+  EXPECT_TRUE(says(text, ", shared by 1000000 processes): fewer processes, --threads")) << text;
 }
 
 TEST(RequireRoom, NamesTheFolderOfTheScratchAndWhatNeedsLess) {
