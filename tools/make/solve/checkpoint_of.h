@@ -14,10 +14,9 @@ namespace palpate::solve_program {
 [[nodiscard]] bool keepsItsWork(const solver::Case& c);
 
 /// The folder OUTPUT.partial of a solve, in the scratch folder; says on standard error that it goes on. Null for the methods that
-/// keep nothing.
-/// @throw solver::CheckpointError  the folder is of another case, mesh, program, version of OpenBLAS or kind of processor, or in use; or another number of ranks,
-///        or one that has another case, mesh, program or processor than the first
-/// Each rank has a folder of its own: OUTPUT.partial, OUTPUT.partial.1 and so on.
+/// keep nothing. Each rank has one of its own: OUTPUT.partial, OUTPUT.partial.1 and so on. What one rank is refused, all are.
+/// @throw solver::CheckpointError  the folder is of another case, mesh, program, version of OpenBLAS, kind of processor or number
+///        of ranks, or in use; or a rank has another case, mesh, program or processor than the first
 [[nodiscard]] std::unique_ptr<solver::Checkpoint> checkpointOf(const Options& options, const solver::Case& c,
                                                                const solver::Ranks& ranks);
 
