@@ -3,11 +3,12 @@
 //
 // Sample runs:  palpate-solve liver.msh -o liver.h5
 //               palpate-solve case.toml -o liver.h5 --json
-//               mpirun -n 2 palpate-solve case.toml -o liver.h5 --threads 1
+//               mpirun -n 2 palpate-solve case.toml -o liver.h5
 //               palpate-solve case.toml -o liver.h5 --dry-run
 //               palpate-solve liver.msh --template -o case.toml
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
 #include <chrono>
+#include <cstddef>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -163,16 +164,25 @@ void run(solve_program::Options options, const solver::Ranks& ranks) {
   if (options.json) std::cout << s.dump(2) << '\n';
 }
 
+/// The first rank reads the command line before the others do: what is wrong with it, and --help, is said once.
+/// @return whether there is something to solve
+bool readOnce(program::CommandLine& line, int argc, char** argv, const solver::Ranks& ranks) {
+  std::byte goes_on{ranks.isFirst() && line.read(argc, argv)};
+  ranks.broadcast({&goes_on, 1}, 0);
+  return goes_on != std::byte{0} && (ranks.isFirst() || line.read(argc, argv));
+}
+
 int body(int argc, char** argv) {
+  const solver::Ranks& ranks = solve_program::startRanks();
   program::CommandLine line(
       "palpate-solve",
       "Computes the meta-model of an organ: its answer to a tool at any position and in any direction.");
   solve_program::Options options;
+  // Launchers bind each process to a core, or have one start for each.
+  if (ranks.size() > 1) options.threads = 1;
   solve_program::describe(line.options(), options);
-  if (!line.read(argc, argv)) return program::kDone;
-  const solver::Ranks& ranks = solve_program::startRanks();
   try {
-    run(options, ranks);
+    if (readOnce(line, argc, argv, ranks)) run(options, ranks);
   } catch (...) {
     // What is wrong with the case all ranks find, and the first one says it and ends all.
     if (!ranks.isFirst()) std::this_thread::sleep_for(std::chrono::seconds(1));

@@ -140,7 +140,9 @@ void describe(program::Options line, Options& options) {
            "folder of OUTPUT.partial, with which the same command goes on where it was interrupted (default: "
            "beside the output)");
   line.flag("--fresh", &options.fresh, "throw away what an interrupted run has left, and begin again");
-  line.add("--threads", &options.threads, "worker threads").range(1, 1024);
+  line.add("--threads", &options.threads,
+           "worker threads (of several processes, each has one unless more are given)")
+      .range(1, 1024);
   line.flag("--dry-run", &options.dry_run,
             "series-displacement: measure a few positions, say what the whole takes, and stop");
   line.flag("--json", &options.json, "print one JSON object on standard output");

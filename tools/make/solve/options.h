@@ -18,7 +18,7 @@ struct Options {
   bool case_template{false};
   bool fresh{false};
   std::filesystem::path scratch;
-  int threads{solver::machineThreads()};
+  int threads{solver::machineThreads()};  ///< of several processes, main() gives each one
   bool json{false};
   bool quiet{false};
 
