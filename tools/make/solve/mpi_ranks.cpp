@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
+#include <string>
 
 #include "tools/make/solve/start_ranks.h"
+#include "tools/program/exit_code.h"
 
 namespace palpate::solve_program {
 
@@ -57,18 +59,34 @@ bool isLaunched() {
   return false;
 }
 
+/// A launcher of another MPI starts processes of which each believes that it is alone.
+/// @throw program::UsageError
+void requireKnown(int size) {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    const char* const said = std::getenv(name);
+    const int started = said == nullptr ? 1 : std::atoi(said);
+    if (size > 1 || started <= 1) continue;
+    MPI_Finalize();
+    throw program::UsageError(
+        "the launcher says that there are " + std::to_string(started) +
+        " processes, MPI knows of one: mpirun has to be Open MPI's, as this program is");
+  }
+}
+
 }  // namespace
 
 const solver::Ranks& startRanks() {
   if (!isLaunched()) return solver::Ranks::one();
   static const MpiRanks ranks;
+  requireKnown(ranks.size());
   return ranks;
 }
 
 void endRanks(int code) {
-  int begun = 0;
+  int begun = 0, ended = 0;
   MPI_Initialized(&begun);
-  if (begun == 0) return;
+  MPI_Finalized(&ended);
+  if (begun == 0 || ended != 0) return;
   if (code != 0) MPI_Abort(MPI_COMM_WORLD, code);
   MPI_Finalize();
 }

@@ -7,6 +7,7 @@ namespace palpate::solve_program {
 
 /// The processes that a launcher (mpirun) has started with this one; by itself, the only one. Of a program that is built without
 /// MPI, always the only one. Call it once.                                               docs/decisions/ranks.md
+/// @throw program::UsageError  the launcher is of another MPI
 [[nodiscard]] const solver::Ranks& startRanks();
 
 /// Ends this process's part. @param code  not 0: all processes end now, with this exit code
