@@ -37,7 +37,7 @@ organ's stiffness from measurements.")
 set(CPACK_DEBIAN_SOLVER_PACKAGE_NAME ${PALPATE_PACKAGE_solver})
 set(CPACK_DEBIAN_SOLVER_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_SOLVER_PACKAGE_DEPENDS "palpate ${same_version}")  # palpate-read-model
-set(CPACK_DEBIAN_SOLVER_PACKAGE_SUGGESTS "calculix-ccx, gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_SOLVER_PACKAGE_SUGGESTS "calculix-ccx, gnuplot-nox | gnuplot, openmpi-bin")
 set(CPACK_COMPONENT_SOLVER_DESCRIPTION "makes organs and their models for palpate-server
 palpate-organ makes and imports tetrahedral meshes of organs, palpate-solve
 computes their models, palpate-query checks single touches against a full

@@ -52,7 +52,7 @@ def libraries(path):
 def owners():
     """File -> Debian package, for all libraries and headers."""
     found = {}
-    for line in run("dpkg-query", "--search", "*/lib/*.so*", "/usr/include/*").splitlines():
+    for line in run("dpkg-query", "--search", "*/lib/*.so*", "*/include/*").splitlines():
         if line.startswith("diversion by "):
             continue
         names, file = line.split(": ", 1)
