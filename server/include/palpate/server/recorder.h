@@ -20,7 +20,8 @@ namespace palpate::server {
 /// another model goes on in another file, "session-2.rec" after "session.rec": a recording is of one model.
 class Recorder {
  public:
-  static constexpr int kMostFiles = 1000;  ///< of a session; their numbers are higher where files of an earlier one are there
+  static constexpr int kMostFiles =
+      1000;  ///< of a session; their numbers are higher where files of an earlier one are there
 
   /// Creates the file and the ring. Before the tick starts. @throw record::RecordError
   Recorder(Channels& channels, const std::filesystem::path& path, const record::SessionFacts& facts);
