@@ -35,10 +35,13 @@ double ms(std::int64_t ns) {
 
 class ProcessFault : public Fault {
  protected:
+  ~ProcessFault() override { server_.reset(); }  // before its group
+
   void restartLikeSystemd(const char* stuck);
 
   const palpate::testing::TemporaryFolder folder_;
   const std::filesystem::path recording_ = folder_ / "session.rec";
+  std::optional<proof::MemoryGroup> group_;
 };
 
 TEST_F(ProcessFault, AKilledServerLeavesNoForceAndItsRecording) {
@@ -189,7 +192,7 @@ TEST_F(ProcessFault, AHogAboveTheTickLeavesNoForceOrTheTickMovesAway) {
 
 TEST_F(ProcessFault, MemoryThatIsShortTakesNoForce) {
   constexpr std::size_t kBytes = std::size_t{40} << 20;
-  const proof::MemoryGroup group(kBytes);
+  const proof::MemoryGroup& group = group_.emplace(kBytes);
   if (!group.granted()) GTEST_SKIP() << "no control group that bounds memory may be made here";
   ASSERT_NO_FATAL_FAILURE(start({"--record", recording_.string()}));
   ASSERT_TRUE(group.take(server_->pid()));
