@@ -110,10 +110,10 @@ TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
   EXPECT_EQ(row["bound"], "delays");
   const double stiffness = row["safe_rendered_N_per_m"].get<double>(),
                damping = row["safe_damping_Ns_per_m"].get<double>();
-  // Again where the machine stood still, which damps what rings and shakes what does not; nothing where it did in all runs. That a run
-  // rings is seen nevertheless.
+  // Stalls damp what rings and shake what does not: a run that they disturbed may confirm, but not contradict. Nothing where
+  // the machine let no run do either.
   const auto press = [&](const std::vector<std::string>& options,
-                         bool rings) -> std::optional<ProgramResult> {
+                         int expected) -> std::optional<ProgramResult> {
     std::vector<std::string> all{"--youngs-modulus", "1e6", "--phase-lock"};
     all.insert(all.end(), options.begin(), options.end());
     const Running server(all);
@@ -123,8 +123,7 @@ TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
                                         "6", "--wait", "30", "--domain", server.domain});
       if (result.out.empty()) continue;
       const json said = json::parse(result.out);
-      if (said["judged"] == true &&
-          (said["flags"] == dds::flag::kInContact || (rings && result.exit_code == 3)))
+      if (said["judged"] == true && (result.exit_code == expected || said["flags"] == dds::flag::kInContact))
         return result;
     }
     return std::nullopt;
@@ -137,9 +136,9 @@ TEST(DelayedDevice, IsStableWithTheCouplingThatWasFoundForItsDelays) {
                                     "--coupling-damping",
                                     std::to_string(share * damping)};
   };
-  const auto below = press(times(0.8), false),
-             found_one = press({"--config", (folder / "desktop.toml").string()}, false),
-             above = press(times(1.4), true);
+  const auto below = press(times(0.8), 0),
+             found_one = press({"--config", (folder / "desktop.toml").string()}, 0),
+             above = press(times(1.4), 3);
   if (!below || !found_one || !above) GTEST_SKIP() << "the machine stood still in each of six runs";
   EXPECT_EQ(below->exit_code, 0) << below->err;
   EXPECT_NEAR(json::parse(below->out)["delays"]["mean_ms"].get<double>(), row["mean_delay_ms"].get<double>(),
