@@ -45,7 +45,7 @@ ServiceManager::~ServiceManager() {
 
 void ServiceManager::tell(std::string_view lines) const noexcept {
   if (socket_ < 0) return;
-  (void)sendto(socket_, lines.data(), lines.size(), MSG_NOSIGNAL,
+  (void)sendto(socket_, lines.data(), lines.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
                static_cast<const sockaddr*>(static_cast<const void*>(&address_)), size_);
 }
 

@@ -2,6 +2,7 @@
 #include "palpate/server/tick.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "palpate/rt/clock.h"
 
@@ -69,6 +70,7 @@ void Tick::readPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   input_.dt_ns = last_woke_ns_ == 0 ? 0 : cycle.woke_ns - last_woke_ns_;
   input_.has_settings =
       channels_.parameters.read(input_.settings) ? 1 : 0;  // passed once; the engine blends over
+  unrehearsed_settings_ = unrehearsed_settings_ || input_.has_settings != 0;
   input_.shutting_down = next_engine_ != nullptr ? kHandsOver : 0;
   if (channels_.shutting_down.load(std::memory_order_relaxed)) input_.shutting_down = 1;
   input_.field_overflowed = channels_.field_overflowed.load(std::memory_order_relaxed) ? 1 : 0;
@@ -227,6 +229,7 @@ void Tick::followPoses(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
 
 void Tick::onRehearsal(void* context) noexcept PALPATE_NONBLOCKING {
   auto& tick = *static_cast<Tick*>(context);
+  tick.input_.has_settings = std::exchange(tick.unrehearsed_settings_, false) ? 1 : 0;
   (void)step(tick.engine_->organ, tick.engine_->rehearsal, tick.input_, tick.rehearsed_);
 }
 

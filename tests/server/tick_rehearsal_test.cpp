@@ -72,6 +72,18 @@ TEST_F(TickRehearsal, ThatIsLeftOutOrDoneTwiceChangesNoForce) {
   }));
 }
 
+TEST_F(TickRehearsal, TakesSettingsThatCameWhileItWasLeftOut) {
+  send(poseAtDepth(0, 0.001));
+  step();
+  AllToolSettings settings = toolSettings(StepConfig{});
+  settings[0].live.friction = 0.7;
+  channels_->parameters.write(settings);
+  runOneTick();  // not rehearsed
+  for (int i = 0; i < 300; ++i) step();
+  EXPECT_NEAR(work_.live().friction, 0.7, 1e-9);
+  EXPECT_EQ(engine_.rehearsal.live().friction, work_.live().friction);
+}
+
 TEST_F(TickRehearsal, BeforeTheFirstTickDoesNothing) {
   Tick::onRehearsal(&tick_);
   send(poseAtDepth(0, 0.001));

@@ -92,6 +92,7 @@ class Tick {
 
   StepInput input_;
   StepResult result_, rehearsed_;
+  bool unrehearsed_settings_{false};  // came in a tick that was not rehearsed since
   std::array<Ledger, kMaxTools> ledgers_{};
   Strangers strangers_{};
   std::array<std::uint64_t, std::tuple_size_v<Strangers>> stranger_seq_{};  // forces sent to each
