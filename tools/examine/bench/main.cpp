@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "palpate/rt/scheduling.h"
 #include "tools/examine/bench/cadence_bench.h"
 #include "tools/examine/bench/contact_force.h"
 #include "tools/examine/bench/eigen_product.h"
@@ -53,7 +54,11 @@ std::optional<std::filesystem::path> chooseModel(const Options& options) {
 int run(const Options& options, double seconds) {
   // 1. One processor, and other work that disturbs it.
   const int cpu = pinTo(options.cpu);
-  if (options.realtime) raiseLikeTheTick();
+  std::optional<rt::CpuLatencyHold> awake;  // as the server holds it
+  if (options.realtime) {
+    raiseLikeTheTick();
+    awake.emplace();
+  }
   for (const std::string& what : disturbances(cpu)) std::cerr << "palpate-bench: " << what << "\n";
   benchmark::AddCustomContext("pinned_to_cpu", std::to_string(cpu));
   benchmark::AddCustomContext("eigen_instructions", eigenInstructions());
@@ -92,7 +97,8 @@ int body(int argc, char** argv) {
           "there is one");
   add.add("--cpu", &options.cpu, "processor to run on; -1: the last one that may be used");
   add.flag("--realtime", &options.realtime,
-           "run with the priority of the tick, SCHED_FIFO 80: other work on that processor waits");
+           "run as the tick does, at SCHED_FIFO 80 and with processors out of deep sleep: other work on that "
+           "processor waits");
   add.flag("--scale", &options.scale, "instead print the largest synthetic model whose field fits 1 kHz");
   add.add("--rate", &options.rate_hz, "ticks a second of cadence and growth").range(100.0, 10000.0, "Hz");
   add.add("--modes", &options.modes, "modes of these models").range(20, 1000);
