@@ -29,9 +29,13 @@ std::uint64_t inodeOf(const fs::path& descriptor) {
   return target.rfind(kSocket, 0) == 0 ? std::strtoull(target.c_str() + kSocket.size(), nullptr, 10) : 0;
 }
 
-// recvUC-low is one that was lowered. A receive thread waits for dq.builtins, an ordinary thread, where much is discovered.
+// A receive thread waits for dq.builtins, an ordinary thread, where much is discovered.
+bool isDiscoveryThread(std::string_view name) {
+  return name.rfind("dq.", 0) == 0;
+}
+
+// recvUC-low is one that was lowered.
 bool isReceiveThread(std::string_view name) {
-  if (name.rfind("dq.", 0) == 0) return true;
   for (const std::string_view known : dds::kReceiveThreads)
     if (name == known || name == std::string(known) + "-low") return true;
   return false;
@@ -64,16 +68,19 @@ void ReceiveWatch::readQueues(const fs::path& file, Queues& queues) const {
 }
 
 std::optional<std::int64_t> ReceiveWatch::receiveThreadsRan() const {
-  std::optional<std::int64_t> ran_ns;
+  std::int64_t ran_ns = 0;
+  bool receives = false;
   std::error_code gone;
   for (const auto& task : fs::directory_iterator(process_ / "task", gone)) {
     std::string name;
     std::int64_t ns = 0, queued_ns = 0;
-    if (!std::getline(std::ifstream(task.path() / "comm"), name) || !isReceiveThread(name)) continue;
+    if (!std::getline(std::ifstream(task.path() / "comm"), name)) continue;
+    if (!isReceiveThread(name) && !isDiscoveryThread(name)) continue;
+    receives = receives || isReceiveThread(name);
     std::ifstream(task.path() / "schedstat") >> ns >> queued_ns;
-    ran_ns = ran_ns.value_or(0) + ns + queued_ns;  // who waits for a processor is not stuck
+    ran_ns += ns + queued_ns;  // who waits for a processor is not stuck
   }
-  return ran_ns;
+  return receives ? std::optional(ran_ns) : std::nullopt;
 }
 
 bool ReceiveWatch::takes(std::int64_t now_ns) {

@@ -81,6 +81,19 @@ TEST_F(ReceiveWatchTest, AFloodThatKeepsTheThreadBusyIsNoFault) {
   EXPECT_FALSE(look()) << "no longer busy";
 }
 
+TEST_F(ReceiveWatchTest, AFloodOfDiscoveryAndAThreadThatWaitsForAProcessorAreNoFault) {
+  std::filesystem::create_directories(folder_ / "task/9");
+  (void)folder_.write("task/9/comm", "dq.builtins\n");
+  (void)folder_.write("task/9/schedstat", "0 0 0\n");
+  wait("1FE0", 9000, 100);
+  EXPECT_TRUE(look());
+  (void)folder_.write("task/9/schedstat", "60000000 0 9\n");
+  EXPECT_TRUE(look()) << "it discovers";
+  (void)folder_.write("task/9/schedstat", "60000000 60000000 9\n");
+  EXPECT_TRUE(look()) << "it waits for a processor";
+  EXPECT_FALSE(look());
+}
+
 TEST_F(ReceiveWatchTest, WhatComesToAnotherPortOrAnotherProcessDoesNotCount) {
   wait("9C40", 1200, 100);  // Cyclone sends from such a port, and reads none of it
   EXPECT_TRUE(look());
