@@ -196,7 +196,8 @@ std::optional<fs::path> readerOf(const fs::path& self) {
     return (self.parent_path() / folder / "palpate-read-model").lexically_normal();
   };
   std::error_code failure;
-  for (const char* folder : {".", "../bin"})  // of a build or a copy of it, and of its tests
+  for (const char* folder : {PALPATE_READER_FROM_BIN, ".",
+                             "../bin"})  // the last ones of a build or a copy of it, and of its tests
     if (fs::exists(in(folder), failure)) return in(folder);
   return in(PALPATE_READER_FROM_BIN);
 }

@@ -18,7 +18,7 @@ struct ReaderProcess {
   const std::atomic<bool>* given_up{nullptr};  ///< set: nobody wants to know it; looked at ten times a second
 };
 
-/// The process's program as a program finds it: beside itself, in `bin` beside its folder, or by its place in the installation.
+/// The process's program as a program finds it: by its place in the installation, else beside itself, else in `bin` beside its folder.
 /// @param[in] self  where the program is  @return none: self is not absolute
 [[nodiscard]] std::optional<std::filesystem::path> readerOf(const std::filesystem::path& self);
 

@@ -62,8 +62,8 @@ class PeriodicThread::LateWatch {
                                              queue_.queued_ns(), slack_ns_.load(std::memory_order_relaxed)});
       before_ = readThisThread();  // the listener's time is nobody's
     } else {
-      const std::int64_t idle_ns =
-          ended.at_ns - (cycle.deadline_ns - lead_ns_) - (ended.cpu_ns - before_.cpu_ns);
+      const std::int64_t woken_ns = std::max(cycle.deadline_ns - lead_ns_, before_.at_ns);
+      const std::int64_t idle_ns = ended.at_ns - woken_ns - (ended.cpu_ns - before_.cpu_ns);
       if (idle_ns > 0)
         slack_ns_.store(slack_ns_.load(std::memory_order_relaxed) + idle_ns, std::memory_order_relaxed);
       before_ = ended;

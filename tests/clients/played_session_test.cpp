@@ -12,6 +12,7 @@
 #include "palpate/idl/types.h"
 #include "palpate/testing/run_program.h"
 #include "running_server.h"
+#include "stood_still.h"
 
 namespace palpate::testing {
 namespace {
@@ -85,15 +86,6 @@ TEST(PlayedSession, OfAnotherStiffnessAnswersARecordedSessionOtherwise) {
   EXPECT_NE(result.err.find("forces differ by more than 1 % of the largest, or"), std::string::npos)
       << result.err;
   EXPECT_FALSE(json::parse(result.out)["holds"]);
-}
-
-// The machine let no run be judged, or none end; a program that fails otherwise fails the test.
-bool stoodStill(const ProgramResult& result) {
-  if (result.exit_code != 1) return false;
-  EXPECT_TRUE(result.err.find("stood still too often") != std::string::npos ||
-              result.err.find("has not answered for a second") != std::string::npos)
-      << result.err;
-  return true;
 }
 
 // Of delays in a file palpate-feel makes a server's configuration; palpate-device, with the same delays, is stable with it and with a

@@ -106,10 +106,11 @@ class Exchange {
     for (dds::ToolForce answer{}; arrived_.pop(answer);) {
       recording.flags |= answer.flags;
       recording.server_left = recording.server_left || (answer.flags & dds::flag::kShuttingDown) != 0;
+      const bool disturbed = disturbance_.on();
       disturbance_.add(answer);
       if (const auto& f = answer.force; !std::isfinite(f[0] + f[1] + f[2]))
         throw client::ClientError("the server sent a force that is not finite");
-      line_.add(answer.pose_seq, answer);
+      line_.add(answer.pose_seq, answer, disturbed);
     }
   }
 

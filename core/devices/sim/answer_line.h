@@ -22,11 +22,12 @@ class AnswerLine {
 
   /// @param[in] pose_seq  of the pose that is answered, or of one that was sent again in its step. The first answer to a step
   /// counts; one to a step that is forgotten does not
-  void add(std::uint64_t pose_seq, const Answer& answer) noexcept {
+  /// @param[in] instead  this one takes the place of the one before: that was of a server that blended
+  void add(std::uint64_t pose_seq, const Answer& answer, bool instead = false) noexcept {
     for (std::size_t back = 1; back <= kept(); ++back) {
       Slot& slot = newest(back);
       if (slot.first_seq > pose_seq) continue;
-      if (!slot.answered) slot.answer = answer;
+      if (!slot.answered || instead) slot.answer = answer;
       slot.answered = true;
       return;
     }

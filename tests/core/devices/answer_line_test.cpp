@@ -22,6 +22,15 @@ TEST(AnswerLine, GivesTheAnswerToThePoseOfTheStep) {
   }
 }
 
+TEST(AnswerLine, TheFirstAnswerToAStepCountsUnlessALaterOneIsInItsPlace) {
+  AnswerLine<int> line = tenSteps();
+  line.add(109, 1);
+  line.add(109, 2);
+  EXPECT_EQ(*line.at(9), 1);
+  line.add(109, 3, true);
+  EXPECT_EQ(*line.at(9), 3);
+}
+
 TEST(AnswerLine, WaitsForALateAnswerAndForNoOlderOne) {
   AnswerLine<int> line = tenSteps();
   EXPECT_FALSE(line.has(8));

@@ -46,14 +46,6 @@ class KilledSolve : public SolveProgram {
     return false;
   }
   [[nodiscard]] fs::path partial() const { return folder_ / "out.h5.partial"; }
-
-  [[nodiscard]] std::string digest(const std::string& model) const {
-    const ProgramResult result = runProgram("palpate-inspect", {path(model), "--json"});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return result.exit_code == 0
-               ? nlohmann::json::parse(result.out).at("digest").at("sha256").get<std::string>()
-               : model;
-  }
 };
 
 TEST_F(KilledSolve, GoesOnToTheSameBits) {

@@ -47,14 +47,6 @@ class SolvedByRanks : public SolveProgram {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  [[nodiscard]] std::string digest(const std::string& model) const {
-    const ProgramResult result = runProgram("palpate-inspect", {path(model), "--json"});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return result.exit_code == 0
-               ? nlohmann::json::parse(result.out).at("digest").at("sha256").get<std::string>()
-               : model;
-  }
-
   /// Of a rank that makes out.h5.
   [[nodiscard]] fs::path folderOf(int rank) const {
     return folder_ / ("out.h5.partial" + (rank > 0 ? '.' + std::to_string(rank) : std::string()));

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,15 @@ class SolveProgram : public ::testing::Test {
   }
   [[nodiscard]] ProgramResult solve(std::vector<std::string> arguments) const {
     return runProgram("palpate-solve", std::move(arguments));
+  }
+
+  /// Of a model's content.
+  [[nodiscard]] std::string digest(const std::string& model) const {
+    const ProgramResult result = runProgram("palpate-inspect", {path(model), "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.exit_code == 0
+               ? nlohmann::json::parse(result.out).at("digest").at("sha256").get<std::string>()
+               : model;
   }
 
   void expectRefusal(const ProgramResult& result, const std::string& part) const {
