@@ -21,6 +21,15 @@ constexpr std::uint32_t kPortsPerDomain = 250;
 // Share of the time that a busy receive thread runs at least, 1 / kBusy.
 constexpr std::int64_t kBusy = 10;
 
+/// What a folder of /proc holds. @return false: it could not be read to the end
+template <class Function>
+bool forEachIn(const fs::path& folder, const Function& function) {
+  std::error_code gone;
+  for (fs::directory_iterator at(folder, gone), end; !gone && at != end; at.increment(gone))
+    function(at->path());
+  return !gone;
+}
+
 // "socket:[123]"
 std::uint64_t inodeOf(const fs::path& descriptor) {
   std::error_code gone;
@@ -45,9 +54,9 @@ bool isReceiveThread(std::string_view name) {
 
 ReceiveWatch::ReceiveWatch(std::uint32_t domain, fs::path process)
     : process_(std::move(process)), first_port_(kFirstPort + kPortsPerDomain * domain) {
-  std::error_code gone;
-  for (const auto& descriptor : fs::directory_iterator(process_ / "fd", gone))
-    if (const std::uint64_t inode = inodeOf(descriptor.path()); inode != 0) sockets_.insert(inode);
+  (void)forEachIn(process_ / "fd", [&](const fs::path& descriptor) {
+    if (const std::uint64_t inode = inodeOf(descriptor); inode != 0) sockets_.insert(inode);
+  });
 }
 
 bool ReceiveWatch::isOurs(std::uint32_t port, std::uint64_t inode) const {
@@ -67,37 +76,41 @@ void ReceiveWatch::readQueues(const fs::path& file, Queues& queues) const {
   }
 }
 
-std::optional<std::int64_t> ReceiveWatch::receiveThreadsRan() const {
-  std::int64_t ran_ns = 0;
-  bool receives = false;
-  std::error_code gone;
-  for (const auto& task : fs::directory_iterator(process_ / "task", gone)) {
+std::optional<ReceiveWatch::Threads> ReceiveWatch::readThreads() const {
+  Threads threads;
+  bool all = true;
+  const bool read = forEachIn(process_ / "task", [&](const fs::path& task) {
     std::string name;
     std::int64_t ns = 0, queued_ns = 0;
-    if (!std::getline(std::ifstream(task.path() / "comm"), name)) continue;
-    if (!isReceiveThread(name) && !isDiscoveryThread(name)) continue;
-    receives = receives || isReceiveThread(name);
-    std::ifstream(task.path() / "schedstat") >> ns >> queued_ns;
-    ran_ns += ns + queued_ns;  // who waits for a processor is not stuck
-  }
-  return receives ? std::optional(ran_ns) : std::nullopt;
+    if (!std::getline(std::ifstream(task / "comm"), name)) return;  // it ended
+    if (!isReceiveThread(name) && !isDiscoveryThread(name)) return;
+    threads.receive = threads.receive || isReceiveThread(name);
+    all = all && (std::ifstream(task / "schedstat") >> ns >> queued_ns);
+    threads.ran_ns += ns + queued_ns;  // who waits for a processor is not stuck
+  });
+  return read && all ? std::optional(threads) : std::nullopt;
 }
 
 bool ReceiveWatch::takes(std::int64_t now_ns) {
   Queues queues;
   readQueues(process_ / "net/udp", queues);
   readQueues(process_ / "net/udp6", queues);
-  const std::optional<std::int64_t> ran_ns = receiveThreadsRan();
+  const std::optional<Threads> threads = readThreads();
+  if (!threads) {  // nothing is known of this look, and the next one has none before it
+    before_.clear();
+    return true;
+  }
   bool untouched = false;
   for (const auto& [inode, waiting] : queues) {
     const auto before = before_.find(inode);
     untouched = untouched || (before != before_.end() && waiting >= before->second);
   }
-  const bool idle = ran_ns.value_or(0) - ran_before_ns_ < (now_ns - looked_ns_) / kBusy;
+  const std::int64_t ran_ns = threads->ran_ns - ran_before_ns_;  // negative: a thread ended
+  const bool idle = ran_ns >= 0 && ran_ns < (now_ns - looked_ns_) / kBusy;
   before_ = std::move(queues);
-  ran_before_ns_ = ran_ns.value_or(0);
+  ran_before_ns_ = threads->ran_ns;
   looked_ns_ = now_ns;
-  return ran_ns && !(untouched && idle);
+  return threads->receive && !(untouched && idle);
 }
 
 }  // namespace palpate::server

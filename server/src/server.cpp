@@ -183,8 +183,8 @@ void Server::startThreads(const ServerConfig& config) {
 
 void Server::tellServiceManager(const ServerConfig& config) {
   std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), "READY=1\nSTATUS=%.120s on DDS domain %d at %g Hz",
-                config.model.filename().c_str(), static_cast<int>(config.domain), config.rate);
+  std::snprintf(text.data(), text.size(), "READY=1\nSTATUS=serving on DDS domain %d at %g Hz",
+                static_cast<int>(config.domain), config.rate);
   service_.tell(text.data());
   if (service_.patience().count() == 0) return;
   watchdog_.emplace(service_, *tick_thread_, static_cast<std::uint32_t>(config.domain));

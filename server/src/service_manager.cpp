@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,9 @@ std::int64_t numberOf(const char* name) {
   return error == std::errc() && end == text.data() + text.size() && value > 0 ? value : 0;
 }
 
+// What is shorter cannot be kept; what is longer needs no more.
+constexpr std::int64_t kLeastPatience = 10'000, kMostPatience = 86'400'000'000;  // us
+
 }  // namespace
 
 ServiceManager::ServiceManager() {
@@ -35,8 +39,10 @@ ServiceManager::ServiceManager() {
   if (path[0] == '@') address_.sun_path[0] = '\0';  // a name without a file
   size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + path.size());
   socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  const std::int64_t watched = numberOf("WATCHDOG_PID");  // 0: whoever reads it
-  if (watched == 0 || watched == getpid()) patience_ = std::chrono::microseconds(numberOf("WATCHDOG_USEC"));
+  const std::int64_t watched = numberOf("WATCHDOG_PID");  // 0: any process that reads it
+  const std::int64_t patience = numberOf("WATCHDOG_USEC");
+  if (socket_ >= 0 && patience > 0 && (watched == 0 || watched == getpid()))
+    patience_ = std::chrono::microseconds(std::clamp(patience, kLeastPatience, kMostPatience));
 }
 
 ServiceManager::~ServiceManager() {

@@ -103,6 +103,21 @@ TEST_F(ReceiveWatchTest, WhatComesToAnotherPortOrAnotherProcessDoesNotCount) {
   EXPECT_TRUE(look());
 }
 
+TEST_F(ReceiveWatchTest, WhatCannotBeReadIsNoFault) {
+  wait("1FE0", 9000, 100);
+  EXPECT_TRUE(look());
+  for (const char* const text : {"x", "5 y 1\n", "99999999999999999999 0 1\n", ""}) {
+    (void)folder_.write("task/8/schedstat", text);
+    EXPECT_TRUE(look()) << text;
+    EXPECT_TRUE(look()) << text;
+  }
+  ran(0);
+  EXPECT_TRUE(look()) << "there is no look before it";
+  EXPECT_FALSE(look());
+  std::filesystem::remove_all(folder_ / "task");
+  EXPECT_TRUE(look());
+}
+
 TEST_F(ReceiveWatchTest, NeedsAReceiveThread) {
   (void)folder_.write("task/8/comm", "recvUC-low\n");
   EXPECT_TRUE(look()) << "one that was lowered";

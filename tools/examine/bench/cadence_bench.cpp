@@ -59,7 +59,7 @@ struct LastStep {
   StepInput input;
   StepResult result;
 
-  static void rehearse(void* context) noexcept {
+  static void rehearse(void* context) noexcept PALPATE_NONBLOCKING {
     auto& last = *static_cast<LastStep*>(context);
     benchmark::DoNotOptimize(step(last.model, last.work, last.input, last.result));
   }

@@ -3,9 +3,12 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <initializer_list>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "tools/make/solve/start_ranks.h"
 #include "tools/program/exit_code.h"
@@ -22,6 +25,8 @@ class MpiRanks : public solver::Ranks {
   MpiRanks() {
     int given = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);
+    if (given < MPI_THREAD_FUNNELED)
+      throw std::runtime_error("this MPI allows no threads beside the one that calls it");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
     MPI_Comm machine = MPI_COMM_NULL;
@@ -59,26 +64,35 @@ bool isLaunched() {
   return false;
 }
 
+/// A number of processes from the environment; 1 where there is none.
+/// @throw program::UsageError  naming the variable and what it says
+int processesBy(const char* name) {
+  const char* const said = std::getenv(name);
+  if (said == nullptr) return 1;
+  const std::string_view text(said);
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 1)
+    throw program::UsageError(std::string(name) + " is '" + said + "', expected a number of processes");
+  return number;
+}
+
 /// A launcher of another MPI starts processes of which each believes that it is alone.
 /// @throw program::UsageError
-void requireKnown(int size) {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
-    const char* const said = std::getenv(name);
-    const int started = said == nullptr ? 1 : std::atoi(said);
-    if (size > 1 || started <= 1) continue;
-    MPI_Finalize();
-    throw program::UsageError(
-        "the launcher says that there are " + std::to_string(started) +
-        " processes, MPI knows of one: mpirun has to be Open MPI's, as this program is");
-  }
+void requireKnown(int size, int started) {
+  if (size > 1 || started <= 1) return;
+  MPI_Finalize();
+  throw program::UsageError("the launcher says that there are " + std::to_string(started) +
+                            " processes, MPI knows of one: mpirun has to be Open MPI's, as this program is");
 }
 
 }  // namespace
 
 const solver::Ranks& startRanks() {
   if (!isLaunched()) return solver::Ranks::one();
+  const int started = std::max(processesBy("OMPI_COMM_WORLD_SIZE"), processesBy("PMI_SIZE"));
   static const MpiRanks ranks;
-  requireKnown(ranks.size());
+  requireKnown(ranks.size(), started);
   return ranks;
 }
 

@@ -25,7 +25,12 @@ class ReceiveWatch {
   using Queues = std::map<std::uint64_t, std::uint64_t>;  // socket's inode: bytes that wait
   [[nodiscard]] bool isOurs(std::uint32_t port, std::uint64_t inode) const;
   void readQueues(const std::filesystem::path& file, Queues& queues) const;
-  [[nodiscard]] std::optional<std::int64_t> receiveThreadsRan() const;
+  // Nothing: they could not be read.
+  struct Threads {
+    std::int64_t ran_ns{0};  // or waited for a processor, all together
+    bool receive{false};     // one is there that receives
+  };
+  [[nodiscard]] std::optional<Threads> readThreads() const;
 
   std::filesystem::path process_;
   std::uint32_t first_port_;

@@ -20,9 +20,8 @@ class ServiceManager {
   ServiceManager(const ServiceManager&) = delete;
   ServiceManager& operator=(const ServiceManager&) = delete;
 
-  [[nodiscard]] bool listens() const noexcept { return socket_ >= 0; }
-
-  /// After how long without WATCHDOG=1 it ends this process; 0: it does not watch.
+  /// After how long without WATCHDOG=1 it ends this process; 0: it does not watch, or
+  /// WATCHDOG_USEC is no number. Between 10 ms and a day.
   [[nodiscard]] std::chrono::microseconds patience() const noexcept { return patience_; }
 
   /// @param[in] lines  e.g. "READY=1\nSTATUS=serving". What cannot be sent is lost.

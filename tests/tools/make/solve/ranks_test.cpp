@@ -174,5 +174,15 @@ TEST_F(SolvedByRanks, RefuseTheLauncherOfAnotherMpi) {
   expectOneLine(result, 2, "the launcher says that there are 2 processes, MPI knows of one");
 }
 
+TEST_F(SolvedByRanks, RefuseANumberOfProcessesThatIsNone) {
+  (void)writeCase("");
+  for (const char* const said : {"x", "2x", "0", "-1", "", "99999999999"}) {
+    setenv("PMI_SIZE", said, 1);
+    const ProgramResult result = solve(solved("out.h5"));
+    unsetenv("PMI_SIZE");
+    expectOneLine(result, 2, std::string("PMI_SIZE is '") + said + "'");
+  }
+}
+
 }  // namespace
 }  // namespace palpate

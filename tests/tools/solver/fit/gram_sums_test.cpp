@@ -13,9 +13,13 @@
 namespace palpate::solver {
 namespace {
 
-TEST(GramSums, EqualTheSumsOfTheMatrices) {
-  constexpr Eigen::Index kN = 17, kWidth = 5, kCount = 600;
-  const Eigen::MatrixXf columns = Eigen::MatrixXf::Random(kN, kWidth * kCount);
+class GramSumsOf : public ::testing::TestWithParam<Eigen::Index> {};  // columns of a matrix
+INSTANTIATE_TEST_SUITE_P(FewAndMany, GramSumsOf, ::testing::Values(3, 5));
+
+TEST_P(GramSumsOf, EqualTheSumsOfTheMatrices) {
+  constexpr Eigen::Index kN = 17, kCount = 600;
+  const Eigen::Index width = GetParam();
+  const Eigen::MatrixXf columns = Eigen::MatrixXf::Random(kN, width * kCount);
   const auto factor = [](std::int32_t i, std::int32_t r) {
     if (r == 9 || (i - r) % (1 + 7 * r) != 0) return 0.0F;
     return static_cast<float>(std::sin(3.0 * i + r));
@@ -24,13 +28,13 @@ TEST(GramSums, EqualTheSumsOfTheMatrices) {
   std::iota(inputs.begin(), inputs.end(), 0);
   std::iota(receivers.begin(), receivers.end(), 0);
   GramSums::Work work;
-  GramSums(columns, kWidth).sum(inputs, receivers, factor, work);
+  GramSums(columns, width).sum(inputs, receivers, factor, work);
   ASSERT_EQ(work.sums.cols(), 10);
   for (const std::int32_t r : receivers) {
     Eigen::MatrixXd direct = Eigen::MatrixXd::Zero(kN, kN), sum;
     double size = 0.0;
     for (const std::int32_t i : inputs) {
-      const Eigen::MatrixXd B = columns.middleCols(i * kWidth, kWidth).cast<double>();
+      const Eigen::MatrixXd B = columns.middleCols(i * width, width).cast<double>();
       direct += double{factor(i, r)} * B * B.transpose();
       size += std::abs(double{factor(i, r)}) * B.squaredNorm();
     }
