@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -163,6 +164,25 @@ TEST(Device, StopsWhenTheServerLeaves) {
   const json report = json::parse(result.out);
   EXPECT_TRUE(report["server_left"]);
   EXPECT_FALSE(report["stable"]) << "what was not seen to the end is not called stable";
+  EXPECT_FALSE(report["judged"]) << "nor unstable";
+}
+
+TEST(Device, RefusesWhatIsNotFinite) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const FakeServerOptions& wrong :
+       {FakeServerOptions{.wrong_force = kNan}, {.wrong_penetration = kNan}}) {
+    const FakeServer server(exclusiveDomain(), wrong);
+    const auto result = runProgram("palpate-device", onDomain({"--seconds", "2"}));
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_NE(result.err.find("a force or a penetration that is not finite"), std::string::npos)
+        << result.err;
+  }
+}
+
+TEST(Device, OutlivesWildStamps) {
+  const FakeServer server(exclusiveDomain(), {.wild_stamps = true});
+  const auto result = runProgram("palpate-device", onDomain({"--seconds", "2", "--json"}));
+  EXPECT_TRUE(result.exit_code == 0 || stoodStill(result)) << result.exit_code << result.err;
 }
 
 }  // namespace

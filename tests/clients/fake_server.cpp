@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "palpate/rt/pacer.h"
 
@@ -86,7 +87,10 @@ void FakeServer::answer(const dds::ToolPose& pose, std::uint64_t seq) {
   force.pose_stamp_ns = pose.stamp_ns;
   force.stamp_ns = rt::monotonicNow();
   force.force[2] = damped(options_.stiffness * depth, force.stamp_ns);
-  force.penetration = depth;
+  force.force[2] += options_.wrong_force;
+  force.penetration = depth + options_.wrong_penetration;
+  using Stamps = std::numeric_limits<std::int64_t>;
+  if (options_.wild_stamps) force.stamp_ns = seq % 2 == 0 ? Stamps::min() : Stamps::max();
   force.wakeup_ns = 50'000;
   force.tick_ns = 70'000;
   if (options_.overrun_every > 0) force.overruns = seq / options_.overrun_every;

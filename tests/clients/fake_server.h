@@ -25,6 +25,9 @@ struct FakeServerOptions {
   std::uint64_t overrun_every{0};  ///< counts an overrun with every n-th ToolForce; 0: none
   std::uint64_t stall_every{0};    ///< stands still for 40 ms after every n-th ToolForce; 0: never
   std::uint64_t leave_after{0};    ///< flags kShuttingDown from this ToolForce on; 0: never
+  double wrong_force{0.0};         ///< added to each force, N
+  double wrong_penetration{0.0};   ///< added to each penetration, m
+  bool wild_stamps{false};         ///< of the forces: the least and the largest number in turn
 };
 
 /// Speaks the server's side of the wire, with a spring for an organ: the client programs can be judged

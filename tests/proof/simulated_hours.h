@@ -11,7 +11,7 @@
 
 namespace palpate::proof {
 
-/// A session: all tools come from above, press and slide in turn, two and more at once, and lift off; friction and E change.
+/// A session: all tools come from above, press and slide in turn, two at once, and lift off; friction changes.
 inline constexpr std::uint64_t kSessionTicks = 8000;
 
 struct SimulatedOptions {

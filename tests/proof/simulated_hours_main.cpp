@@ -63,7 +63,7 @@ int body(int argc, char** argv) {
   SimulatedOptions asked;
   asked.sessions = std::max<std::uint64_t>(3, static_cast<std::uint64_t>(std::llround(hours * an_hour)));
   asked.sessions_a_row =
-      hours < 1.0 ? std::max<std::uint64_t>(2, asked.sessions / 4) : static_cast<std::uint64_t>(an_hour);
+      hours < 2.0 ? std::max<std::uint64_t>(2, asked.sessions / 4) : static_cast<std::uint64_t>(an_hour);
   std::ostream& out = json ? std::cerr : std::cout;
   out << "  row     ticks  time/s   contact   max/N not    beyond differing difference out of\n"
          "                                          finite limit   answers         N   step  fault  lost  "

@@ -33,7 +33,7 @@ class SecuredEvents : public ::testing::Test {
   [[nodiscard]] dds::Identity ending() const {
     const auto folder = std::filesystem::path(authority_.of("server"));
     const std::string subject = dds::subjectOf(*dds::readCertificate(folder / "identity.pem"));
-    const std::time_t end = std::time(nullptr) + 2;
+    const std::time_t end = std::time(nullptr) + 6;
     security::writeSigned(
         security::permissionsSigner(authority_.folder()),
         security::permissions(dds::Role::kServer, subject, dds::utcOf(end - 60), dds::utcOf(end)),

@@ -56,6 +56,7 @@ std::string energyText(const EnergyVerdict& energy) {
 }
 
 const char* verdictText(const Session& s) {
+  if (!s.complete()) return "ended early, so not judged";
   if (!s.touched()) return "no contact, so not judged";
   if (!s.judged()) return "stalls left too little of the hold, so not judged";
   return s.stable() ? "stable" : "UNSTABLE";

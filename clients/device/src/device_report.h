@@ -31,8 +31,8 @@ struct Session {
   [[nodiscard]] bool complete() const { return !recording.server_left && !recording.interrupted; }
   /// Whether there was a contact: without one nothing is known of the loop.
   [[nodiscard]] bool touched() const { return (recording.flags & dds::flag::kInContact) != 0; }
-  /// Whether there was, and enough of the hold was without stalls, or a contact without one gained energy.
-  [[nodiscard]] bool judged() const { return touched() && (verdict.judged || !energy.holds()); }
+  /// Whether the run was seen to its end with one, and enough of the hold was without stalls, or a contact without one gained energy.
+  [[nodiscard]] bool judged() const { return complete() && touched() && (verdict.judged || !energy.holds()); }
   /// By its motion in the hold, and by the energy of each contact.
   [[nodiscard]] bool stable() const { return touched() && verdict.stable && energy.holds(); }
 };

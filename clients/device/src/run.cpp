@@ -23,6 +23,8 @@ constexpr double kPeriod = 1e-3;  // s
 constexpr std::int64_t kPeriodNs = 1'000'000;
 constexpr std::int64_t kStallNs = static_cast<std::int64_t>(kStall) * kPeriodNs;
 constexpr std::int64_t kPatienceNs = 1000 * kPeriodNs;
+constexpr std::int64_t kFurthestNs = std::int64_t{1}
+                                     << 60;       // 36 years: differences of stamps stay in 64 bits
 constexpr std::int64_t kLookNs = kPeriodNs / 10;  // between two looks for a late answer
 constexpr std::int64_t kAgainNs =
     5 * kPeriodNs;  // until a pose goes out again: far below a server's stale timeout
@@ -31,8 +33,9 @@ constexpr std::int64_t kAgainNs =
 class Disturbance {
  public:
   void add(const dds::ToolForce& answer) noexcept {
-    const bool gap = last_ns_ != 0 && answer.stamp_ns - last_ns_ > kStallNs;
-    last_ns_ = answer.stamp_ns;
+    const std::int64_t stamp_ns = std::clamp(answer.stamp_ns, std::int64_t{0}, kFurthestNs);
+    const bool gap = last_ns_ != 0 && stamp_ns - last_ns_ > kStallNs;
+    last_ns_ = stamp_ns;
     blends_ = gap || (blends_ && (answer.flags & dds::flag::kRamping) != 0);
     on_ = letting_go_.add(answer.flags) || blends_;
     came_ = came_ || on_;
@@ -108,8 +111,8 @@ class Exchange {
       recording.server_left = recording.server_left || (answer.flags & dds::flag::kShuttingDown) != 0;
       const bool disturbed = disturbance_.on();
       disturbance_.add(answer);
-      if (const auto& f = answer.force; !std::isfinite(f[0] + f[1] + f[2]))
-        throw client::ClientError("the server sent a force that is not finite");
+      if (const auto& f = answer.force; !std::isfinite(f[0] + f[1] + f[2] + answer.penetration))
+        throw client::ClientError("the server sent a force or a penetration that is not finite");
       line_.add(answer.pose_seq, answer, disturbed);
     }
   }

@@ -37,7 +37,7 @@ inline constexpr std::uint64_t kStall = 10;
 /// @param[in] delays  measured ones, from where they are worst for as long as the run is: in each step the answer
 ///   to the pose acts that acted in that period of the measurement, and where no pose went out then, none does.
 ///   Nothing: as above
-/// @throw client::ClientError  no server takes poses, or none answers for a second
+/// @throw client::ClientError  no server takes poses, none answers for a second, or one sends what is not finite
 [[nodiscard]] Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDevice& device,
                             const client::ServerRun& server, const Delays* delays = nullptr);
 

@@ -14,7 +14,7 @@ _NAMES = {"memory": "rss", "descriptors": "descriptors", "threads": "threads"}
 
 
 def verdicts(run):
-    """@param[in] run  {"seconds", "samples", "plays", "codes" {process: code or None}}"""
+    """@param[in] run  {"seconds", "samples", "plays", "scenes", "failed", "codes" {process: code or None}}"""
     quiet = [sample for sample in run["samples"] if sample["quiet"]]
     times = [sample["t"] for sample in quiet]
     found = [judge.growth(f"{who} {what}", times, [sample[who][key] for sample in quiet], run["seconds"])
@@ -22,6 +22,7 @@ def verdicts(run):
     found += [judge.lives(who, run["codes"][who]) for who in WATCHED]
     found.append(judge.beats([sample["t"] for sample in run["samples"]], [sample["ticks"] for sample in run["samples"]]))
     found.append(judge.nothing_lost(run["plays"]))
+    found.append(judge.Verdict("scenes", not run["failed"], run["failed"] or f"{run['scenes']} played"))
     return found
 
 

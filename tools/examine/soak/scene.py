@@ -221,8 +221,8 @@ class Scene:
 
 
 def played(who, code, text, last_line):
-    """One play of a tool, from what it said: {"who", "lost", "failed", ..}. A device that another organ made unstable (3) has
-    played all the same."""
+    """One play of a tool, from what it said: {"who", "lost", "failed", ..}. A device that another organ made unstable (3), or
+    that stalls let nobody judge (1), has played all the same."""
     play = {"who": who, "lost": 0, "failed": ""}
     try:
         said = json.loads(text)
@@ -237,6 +237,7 @@ def played(who, code, text, last_line):
             play[key] = {q: said[key][q] for q in ("p50", "p99", "max")}
     if "stable" in said:
         play["stable"], play["waited_periods"] = said["stable"], said["waited_periods"]
-    if code not in (0, 3):
+    not_judged = said.get("judged") is False and not said["server_left"] and not said["interrupted"]
+    if code not in (0, 3) and not (code == 1 and not_judged):
         play["failed"] = f"code {code}, {last_line}"
     return play

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The server and the viewer that are soaked, and where on the organ tools play."""
+import atexit
 import json
 import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
 import time
 
 from latency_report import processes
@@ -14,6 +16,7 @@ from . import samples
 
 PROGRAMS = ("palpate-server", "palpate-viewer", "palpate-latency", "palpate-tool", "palpate-device", "palpate-watch",
             "palpate-parameters", "palpate-list")
+LOGS = ("server", "viewer", "tools", "hostile", "visitors", "questions", "asked")
 
 
 class Stage:
@@ -26,12 +29,14 @@ class Stage:
             if not file.exists():
                 raise Failure(f"{file} is not there: tools/demo makes the default model, a build the programs")
         self.out.mkdir(parents=True, exist_ok=True)
-        for old in self.out.glob("*.log"):
-            old.unlink()
+        for name in LOGS:
+            self.log(name).unlink(missing_ok=True)
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="models-", dir=self.out))
+        atexit.register(shutil.rmtree, self.folder, ignore_errors=True)
         self.env = dict(os.environ, CYCLONEDDS_URI=_shell(tools, 'use_loopback; printf %s "$CYCLONEDDS_URI"'))
         self.domain = _shell(tools, "free_domain").strip()
         self.models = self._folder_of_models([options.model, *options.swap])
-        self.server = processes.start([self.bin / "palpate-server", "--model", options.model, "--models", self.out / "models",
+        self.server = processes.start([self.bin / "palpate-server", "--model", options.model, "--models", self.folder,
                                        "--domain", self.domain, "--rate", options.rate], self.out / "server.log", self.env)
         try:
             self.top, self.places, self.tip_radius = self._look_at_the_organ()
@@ -47,15 +52,12 @@ class Stage:
 
     def _folder_of_models(self, files):
         """Names within the server's folder of models; a link that leads out of it would be refused."""
-        folder = self.out / "models"
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir()
         names = [f"{i}.h5" for i in range(len(files))]
         for name, file in zip(names, files):
             try:
-                os.link(file, folder / name)
+                os.link(file, self.folder / name)
             except OSError:
-                shutil.copy(file, folder / name)
+                shutil.copy(file, self.folder / name)
         return names
 
     def log(self, name):

@@ -95,6 +95,9 @@ class OtherVerdicts(unittest.TestCase):
         self.assertEqual(scene.played("tool 2", 1, said, "no server")["failed"], "code 1, no server")
         self.assertNotEqual(scene.played("tool 2", 0, "", "")["failed"], "")
         self.assertEqual(scene.played("tool 3", 3, json.dumps({"stable": False, "waited_periods": 2}), "")["failed"], "")
+        stalled = {"stable": False, "waited_periods": 900, "judged": False, "server_left": False, "interrupted": False}
+        self.assertEqual(scene.played("tool 0", 1, json.dumps(stalled), "")["failed"], "")
+        self.assertNotEqual(scene.played("tool 0", 1, json.dumps(dict(stalled, server_left=True)), "")["failed"], "")
 
 
 class Run(unittest.TestCase):
@@ -108,7 +111,7 @@ class Run(unittest.TestCase):
                   "ticks": 60000 * i, "tick_faults": 0} for i in range(120)]
         plays = [{"who": "tool 0", "lost": 0, "failed": "", "t": 60.0 * i, "overruns": 2, "pose_to_force_us": times, "tick_us": times,
                   "wakeup_us": times} for i in range(120)]
-        return {"seconds": 7200.0, "samples": shots, "plays": plays, "codes": {"server": None, "viewer": None}, "scenes": 120,
+        return {"seconds": 7200.0, "samples": shots, "plays": plays, "codes": {"server": None, "viewer": None}, "scenes": 120, "failed": "",
                 "counts": dict.fromkeys(("visitors", "pages", "frames", "asked", "swaps", "accepted", "wrong"), 1)}
 
     def test_a_row_an_hour(self):
@@ -120,6 +123,10 @@ class Run(unittest.TestCase):
     def test_of_a_server_that_leaks_only_its_memory_does_not_hold(self):
         self.assertTrue(all(one.holds for one in report.verdicts(self.made())))
         self.assertEqual([one.what for one in report.verdicts(self.made(leak=3.0)) if not one.holds], ["server memory"])
+
+    def test_a_scene_that_failed_is_a_verdict_beside_the_others(self):
+        verdicts = report.verdicts(dict(self.made(), failed="not all tools play"))
+        self.assertEqual([(one.what, one.said) for one in verdicts if not one.holds], [("scenes", "not all tools play")])
 
 
 class Samples(unittest.TestCase):

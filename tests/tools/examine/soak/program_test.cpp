@@ -29,7 +29,7 @@ TEST(Soak, JudgesAServerAmongToolsVisitorsChangesAndAHostileClient) {
                          other.path().string(), "--output", out.path().string(), "--json"});
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err << contentOf(out.path() / "soak.txt");
   const auto json = nlohmann::json::parse(made.out);
-  EXPECT_EQ(json["verdicts"].size(), 10U);
+  EXPECT_EQ(json["verdicts"].size(), 11U);
   EXPECT_GE(json["scenes"], 2);
   for (const char* key : {"visitors", "pages", "frames", "asked", "accepted", "swaps", "wrong"})
     EXPECT_GT(json["counts"][key], 0) << key;
