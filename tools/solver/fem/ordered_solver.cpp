@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/solver/fem/ordered_solver.h"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <cstddef>
 
@@ -10,90 +8,50 @@ namespace palpate::solver {
 
 namespace {
 
-/// One supernode s: its block of L, and the rows below its own.
-struct Block {
-  Block(const Supernodes& f, std::size_t s)
-      : first(f.first[s]),
-        columns(f.first[s + 1] - first),
-        stride(f.row_begin[s + 1] - f.row_begin[s]),
-        below(f.rows.subspan(static_cast<std::size_t>(f.row_begin[s] + columns),
-                             static_cast<std::size_t>(stride - columns))),
-        L(f.values + f.value_begin[s]) {}
-  int first, columns, stride;
-  std::span<const int> below;
-  const double* L;
-};
+std::vector<BlockOfL> blocksOf(const Supernodes& f) {
+  std::vector<BlockOfL> blocks;
+  for (std::size_t s = 0; s + 1 < f.first.size(); ++s) {
+    const int columns = f.first[s + 1] - f.first[s], stride = f.row_begin[s + 1] - f.row_begin[s];
+    blocks.push_back({f.values + f.value_begin[s], f.first[s], columns, stride,
+                      f.rows.subspan(static_cast<std::size_t>(f.row_begin[s] + columns),
+                                     static_cast<std::size_t>(stride - columns))});
+  }
+  return blocks;
+}
 
-double* rowOf(double* b, int row, int columns) {
-  return b + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
+bool isZero(const Lanes& x) {
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (x[lane] != 0.0) return false;
+  return true;
 }
 
 }  // namespace
 
 OrderedSolver::OrderedSolver(const Cholesky& factor)
-    : factor_(factor.supernodes()), parent_(factor_.first.size() - 1), working_(parent_.size()) {
-  std::vector<int> owner(static_cast<std::size_t>(factor_.first.back()));
-  for (std::size_t s = 0; s < parent_.size(); ++s)
-    std::fill(owner.begin() + factor_.first[s], owner.begin() + factor_.first[s + 1], static_cast<int>(s));
-  for (std::size_t s = 0; s < parent_.size(); ++s) {
-    const Block block(factor_, s);
-    most_below_ = std::max(most_below_, block.below.size());
-    parent_[s] =
-        block.below.empty() ? static_cast<int>(s) : owner[static_cast<std::size_t>(block.below.front())];
-  }
+    : blocks_(blocksOf(factor.supernodes())), parent_(blocks_.size()), working_(blocks_.size()) {
+  std::vector<std::size_t> owner(factor.order().size());  // of each row
+  for (std::size_t s = 0; s < blocks_.size(); ++s)
+    std::fill_n(owner.begin() + blocks_[s].first, blocks_[s].columns, s);
+  for (std::size_t s = 0; s < blocks_.size(); ++s)
+    parent_[s] = blocks_[s].below.empty() ? s : owner[static_cast<std::size_t>(blocks_[s].below.front())];
 }
 
-void OrderedSolver::solve(std::span<double> b, int columns) {
-  below_.resize(most_below_ * static_cast<std::size_t>(columns));
-  findWork(b, columns);
-  forward(b.data(), columns);
-  backward(b.data(), columns);
+/// L y = b, then L^T x = y.
+void OrderedSolver::solve(std::span<Lanes> b, int lanes) {
+  findWork(b, lanes);
+  for (std::size_t s = 0; s < blocks_.size(); ++s)
+    if (working_[s] != 0) solveForward(blocks_[s], b.data(), lanes);
+  for (std::size_t s = blocks_.size(); s-- > 0;) solveBackward(blocks_[s], b.data(), lanes);
 }
 
-void OrderedSolver::findWork(std::span<const double> b, int columns) {
+void OrderedSolver::findWork(std::span<const Lanes> b, int lanes) {
   std::fill(working_.begin(), working_.end(), 0);
-  for (std::size_t s = 0; s < working_.size(); ++s) {
-    const auto begin = b.begin() + static_cast<std::ptrdiff_t>(factor_.first[s]) * columns;
-    const auto end = b.begin() + static_cast<std::ptrdiff_t>(factor_.first[s + 1]) * columns;
-    if (working_[s] == 0 && std::any_of(begin, end, [](double x) { return x != 0.0; })) working_[s] = 1;
-    if (working_[s] != 0) working_[static_cast<std::size_t>(parent_[s])] = 1;
-  }
-}
-
-/// L y = b. A row is a column of BLAS: it works on the transposed system.
-void OrderedSolver::forward(double* b, int columns) {
-  for (std::size_t s = 0; s < working_.size(); ++s) {
-    if (working_[s] == 0) continue;
-    const Block block(factor_, s);
-    double* own = rowOf(b, block.first, columns);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, columns, block.columns, 1.0,
-                block.L, block.stride, own, columns);
-    if (block.below.empty()) continue;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, columns, static_cast<int>(block.below.size()),
-                block.columns, 1.0, own, columns, block.L + block.columns, block.stride, 0.0, below_.data(),
-                columns);
-    const double* change = below_.data();
-    for (const int row : block.below) {
-      double* to = rowOf(b, row, columns);
-      for (int c = 0; c < columns; ++c) to[c] -= *change++;
-    }
-  }
-}
-
-/// L^T x = y.
-void OrderedSolver::backward(double* b, int columns) {
-  for (std::size_t s = working_.size(); s-- > 0;) {
-    const Block block(factor_, s);
-    double* own = rowOf(b, block.first, columns);
-    if (!block.below.empty()) {
-      double* gathered = below_.data();
-      for (const int row : block.below) gathered = std::copy_n(rowOf(b, row, columns), columns, gathered);
-      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, columns, block.columns,
-                  static_cast<int>(block.below.size()), -1.0, below_.data(), columns, block.L + block.columns,
-                  block.stride, 1.0, own, columns);
-    }
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, columns, block.columns,
-                1.0, block.L, block.stride, own, columns);
+  const auto of = static_cast<std::size_t>(lanes);
+  for (std::size_t s = 0; s < blocks_.size(); ++s) {
+    const auto own = b.subspan(static_cast<std::size_t>(blocks_[s].first) * of,
+                               static_cast<std::size_t>(blocks_[s].columns) * of);
+    if (working_[s] == 0 && !std::all_of(own.begin(), own.end(), isZero)) working_[s] = 1;
+    if (working_[s] != 0) working_[parent_[s]] = 1;
   }
 }
 

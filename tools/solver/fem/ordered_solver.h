@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "tools/solver/base/lanes.h"
+#include "tools/solver/fem/block_kernel.h"
 #include "tools/solver/fem/cholesky.h"
 
 namespace palpate::solver {
@@ -15,19 +17,15 @@ class OrderedSolver {
  public:
   /// @throw std::invalid_argument when the matrix is not positive definite
   explicit OrderedSolver(const Cholesky& factor);
-  /// In place. @param b  rows x columns, row by row
-  void solve(std::span<double> b, int columns);
+  /// In place. @param b  rows of `lanes` Lanes, row by row
+  void solve(std::span<Lanes> b, int lanes);
 
  private:
-  void forward(double* b, int columns);
-  void backward(double* b, int columns);
-  void findWork(std::span<const double> b, int columns);
+  void findWork(std::span<const Lanes> b, int lanes);
 
-  Supernodes factor_;
-  std::vector<int> parent_;    // of a supernode, its own number for a root
-  std::vector<char> working_;  // whether the forward solve has something to do there
-  std::vector<double> below_;  // rows below a supernode, x columns
-  std::size_t most_below_{0};
+  std::vector<BlockOfL> blocks_;
+  std::vector<std::size_t> parent_;  // of a block, its own number for a root
+  std::vector<char> working_;        // whether the forward solve has something to do there
 };
 
 }  // namespace palpate::solver

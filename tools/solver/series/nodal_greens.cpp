@@ -14,13 +14,13 @@ NodalGreens::NodalGreens(const FeModel& model, const Cholesky& factor, const Pat
 }
 
 void NodalGreens::solve(std::span<const std::int32_t> nodes) {
-  columns_ = 3 * nodes.size();
-  solution_.assign(row_of_.size() * columns_, 0.0);
+  lanes_ = (3 * nodes.size() + kLanes - 1) / kLanes;
+  solution_.assign(row_of_.size() * lanes_, Lanes{});
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const int dof = model_.dof(surface_.nodes[static_cast<std::size_t>(nodes[i])]);
     for (int c = 0; c < 3 && dof >= 0; ++c) rowOf(dof + c)[3 * i + static_cast<std::size_t>(c)] = 1.0;
   }
-  solver_.solve(solution_, static_cast<int>(columns_));
+  solver_.solve(solution_, static_cast<int>(lanes_));
 }
 
 const Eigen::MatrixXd& NodalGreens::of(std::size_t which) {

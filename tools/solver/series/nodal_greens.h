@@ -30,17 +30,18 @@ class NodalGreens {
   [[nodiscard]] const Eigen::MatrixXd& of(std::size_t which);
 
  private:
+  /// Three columns for each node.
   [[nodiscard]] double* rowOf(int dof) {
-    return solution_.data() + row_of_[static_cast<std::size_t>(dof)] * columns_;
+    return reinterpret_cast<double*>(solution_.data() + row_of_[static_cast<std::size_t>(dof)] * lanes_);
   }
 
   const FeModel& model_;
   const PatchSurface& surface_;
   OrderedSolver solver_;
   std::vector<std::size_t> row_of_;  // of the factor, by unknown
-  std::vector<double> solution_;     // row by row, 3 columns for each node
-  std::size_t columns_{0};
-  Eigen::MatrixXd field_;  // 3 Ns x 3
+  LaneVector solution_;              // row by row
+  std::size_t lanes_{0};             // of a row
+  Eigen::MatrixXd field_;            // 3 Ns x 3
 };
 
 }  // namespace palpate::solver

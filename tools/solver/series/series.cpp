@@ -108,8 +108,7 @@ void SeriesSolver::State::store(int lane, int k, const Vec3& value) {
 
 /// Solves for all `count` coefficients of a degree.
 void SeriesSolver::State::solveSides(int count) {
-  const std::span<Lanes> all(sides);
-  solver.solve({reinterpret_cast<double*>(all.data()), all.size() * kLanes}, count * kLanes);
+  solver.solve(sides, count);
 }
 
 /// U_k from the solution, first <= k < last of one degree. @param mix  [k - first][3], see fieldsFromRows

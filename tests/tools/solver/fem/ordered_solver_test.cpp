@@ -8,43 +8,49 @@
 namespace palpate::solver {
 namespace {
 
-constexpr int kColumns = 5;
-
-class OrderedSolution : public ::testing::Test {
+class OrderedSolution : public ::testing::TestWithParam<int> {
  protected:
   const FeModel model_ = Box{6, 5, 4, Vec3(0.06, 0.05, 0.04)}.clamped({{160e3, 0.45}});
   Cholesky factor_{model_};
+  const int lanes_ = GetParam(), columns_ = lanes_ * kLanes;
 
   OrderedSolution() { factor_.factorize(Eigen::VectorXd::Zero(3 * model_.nodeCount())); }
 
   /// Largest difference from CHOLMOD's own solution, relative.
   double errorFor(const Eigen::MatrixXd& b) {
     const std::span<const int> order = factor_.order();
-    std::vector<double> rows;
-    for (const int dof : order)
-      for (int c = 0; c < kColumns; ++c) rows.push_back(b(dof, c));
+    LaneVector rows(order.size() * static_cast<std::size_t>(lanes_));
+    const auto at = [&](std::size_t row, int c) -> Lanes& {
+      return rows[row * static_cast<std::size_t>(lanes_) + static_cast<std::size_t>(c / kLanes)];
+    };
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (int c = 0; c < columns_; ++c) at(i, c)[c % kLanes] = b(order[i], c);
     OrderedSolver solver(factor_);
-    solver.solve(rows, kColumns);
+    solver.solve(rows, lanes_);
     const Eigen::MatrixXd x = factor_.solve(b);
     double worst = 0.0;
     for (std::size_t i = 0; i < order.size(); ++i)
-      for (int c = 0; c < kColumns; ++c)
-        worst = std::max(worst, std::abs(rows[i * kColumns + static_cast<std::size_t>(c)] - x(order[i], c)));
+      for (int c = 0; c < columns_; ++c)
+        worst = std::max(worst, std::abs(at(i, c)[c % kLanes] - x(order[i], c)));
     return worst / x.cwiseAbs().maxCoeff();
   }
 };
 
-TEST_F(OrderedSolution, IsThatOfCholmod) {
-  EXPECT_LT(errorFor(Eigen::MatrixXd::Random(model_.dofCount(), kColumns)), 1e-12);
+TEST_P(OrderedSolution, IsThatOfCholmod) {
+  EXPECT_LT(errorFor(Eigen::MatrixXd::Random(model_.dofCount(), columns_)), 1e-12);
 }
 
-TEST_F(OrderedSolution, LeavesOutOnlyWhatIsZero) {
+TEST_P(OrderedSolution, LeavesOutOnlyWhatIsZero) {
   for (int dof = 0; dof < model_.dofCount(); dof += 17) {
-    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(model_.dofCount(), kColumns);
-    b(dof, dof % kColumns) = 1.0;
+    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(model_.dofCount(), columns_);
+    b(dof, dof % columns_) = 1.0;
     EXPECT_LT(errorFor(b), 1e-12) << dof;
   }
 }
+
+// Panels of three vectors, and what is left of them on every processor.
+INSTANTIATE_TEST_SUITE_P(Lanes, OrderedSolution, ::testing::Values(1, 2, 3, 5),
+                         [](const auto& of) { return std::to_string(of.param); });
 
 TEST(Cholesky, NamesTheUnknownWhereAMatrixIsNotPositiveDefinite) {
   SparseMatrix K(4, 4);
