@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 
+#include "tools/solver/base/file_lock.h"
 #include "tools/solver/base/journal.h"
 
 namespace palpate::solver {
@@ -17,13 +19,22 @@ class CheckpointError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Another program is at work in it.
+class CheckpointInUse : public CheckpointError {
+ public:
+  using CheckpointError::CheckpointError;
+};
+
+/// What differs between two solves of which each has one "name = value" a line: the first, as "NAME is now VALUE, was VALUE".
+[[nodiscard]] std::string differenceOf(std::span<const std::string> now, std::span<const std::string> before);
+
 /// What a solve has done so far, in a folder of its own: scratch files and a journal of each stage. The same solve, started again,
 /// goes on where it was killed.                                                          docs/decisions/checkpoints.md
 class Checkpoint {
  public:
   /// @param solve  all that decides the results, one "name = value" each
   /// @param fresh  what is in the folder is thrown away
-  /// @throw CheckpointError  another solve is in it, or another program at work
+  /// @throw CheckpointError  another solve is in it; CheckpointInUse
   Checkpoint(std::filesystem::path folder, std::span<const std::string> solve, bool fresh);
   /// An empty folder is removed.
   ~Checkpoint();
@@ -47,7 +58,7 @@ class Checkpoint {
   void removeParts() noexcept;
 
   std::filesystem::path folder_;
-  int lock_;  ///< -1: the folder is gone
+  std::optional<FileLock> lock_;  ///< none: the folder is gone
   bool goes_on_{false};
   std::map<std::string, Journal> journals_;
 };
