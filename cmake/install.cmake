@@ -66,6 +66,8 @@ palpate_install_programs(programs palpate-server palpate-tool palpate-latency pa
   palpate-list palpate-security palpate-viewer palpate-inspect palpate-fit palpate-feel palpate-replay)
 # What links Gmsh or CHOLMOD: README.md, Licence.
 palpate_install_programs(solver palpate-organ palpate-solve palpate-query palpate-certify palpate-reproduce)
+install(PROGRAMS tools/make/solve/slurm/solve.sbatch tools/make/solve/slurm/batch.sbatch
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${PALPATE_PACKAGE_solver}/examples COMPONENT solver)
 # What parses model files for all of them: core/data/ask_reader.cpp looks for it there.
 install(TARGETS palpate-read-model RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/palpate COMPONENT programs)
 

@@ -76,6 +76,11 @@ class Components(unittest.TestCase):
             for subcommand in subcommands_of(text):
                 yield program, [subcommand], run(program, subcommand, "--help")
 
+    def test_scripts_for_slurm_are_installed(self):
+        for name in ("solve.sbatch", "batch.sbatch"):
+            installed = self.file("palpate-solver", f"/share/doc/palpate-solver/examples/{name}")
+            self.assertEqual((self.stage / "palpate-solver" / installed[1:]).read_text(), (ROOT / "tools/make/solve/slurm" / name).read_text())
+
     def test_programs_of_the_readme_are_installed(self):
         table = (ROOT / "README.md").read_text().split("## The programs")[1].split("<!-- samples")[0]
         named = set(re.findall(r"`(palpate-[a-z]+)`", table)) - {"palpate-bench"}  # built for developers only

@@ -72,6 +72,10 @@ WRONG = [
     (["palpate-solve", "a.msh", "--template", "-o", "a.msh"], "would replace the input"),
     (["palpate-solve", "--template", "-o", "none/case.toml"], "--output"),
     (["palpate-solve", "a.msh", "--scratch", "none"], "--scratch"),
+    (["palpate-solve", "--batch", ".", "--worker", "3/2"], "--worker 3/2"),
+    (["palpate-solve", "a.msh", "--worker", "1/2"], "--worker"),
+    (["palpate-solve", "--batch", ".", "-o", "a.msh"], "--output"),
+    (["palpate-solve", "--batch", ".", "--travel", "0.004", "--order", "3"], "--travel"),
     (["palpate-query", "none.h5", "--node", "1"], "--displacement"),
     (["palpate-query", "none.h5", "--node", "1", "--displacement", "1,2"], "--displacement"),
     (["palpate-query", "none.h5", "--node", "1", "--force", "up"], "--force"),
@@ -163,7 +167,7 @@ class ExitCodes(unittest.TestCase):
                     self.refuses([*words, option, "many"], option)
 
     def test_a_file_that_is_not_there_ends_with_1(self):
-        for words in (["palpate-solve", "none.msh"], ["palpate-inspect", "none.h5"], [*IMPORT, "none.stl"],
+        for words in (["palpate-solve", "none.msh"], ["palpate-solve", "--batch", "none"], ["palpate-inspect", "none.h5"], [*IMPORT, "none.stl"],
                       ["palpate-query", "none.h5", "--node", "1", "--displacement", "0,0,0"]):
             with self.subTest(" ".join(words)):
                 self.assertEqual(run(words, self.folder).returncode, 1)

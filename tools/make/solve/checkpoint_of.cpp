@@ -13,7 +13,6 @@
 
 #include "tools/make/solve/provenance.h"
 #include "tools/solver/base/parallel.h"
-#include "tools/solver/build/case_lines.h"
 
 namespace palpate::solve_program {
 
@@ -76,11 +75,13 @@ bool keepsItsWork(const solver::Case& c) {
   return c.method == solver::Method::kSeriesDisplacement || c.method == solver::Method::kSeriesForce;
 }
 
+std::filesystem::path partialFolder(const Options& options) {
+  return folderOf(options, 0);
+}
+
 std::unique_ptr<solver::Checkpoint> checkpointOf(const Options& options, const solver::Case& c,
-                                                 const solver::Ranks& ranks) {
+                                                 std::vector<std::string> solve, const solver::Ranks& ranks) {
   if (!keepsItsWork(c)) return nullptr;
-  std::vector<std::string> solve = solver::linesOf(c);
-  solve.push_back("mesh = SHA-256 " + fileHash(c.mesh));
   solve.push_back("program = SHA-256 " + fileHash("/proc/self/exe"));
   solve.push_back("BLAS = " + solver::blasVersion());
   solve.push_back("processes = " + std::to_string(ranks.size()));
@@ -89,17 +90,20 @@ std::unique_ptr<solver::Checkpoint> checkpointOf(const Options& options, const s
   // The first one, then the others: what is refused leaves no new folder at any rank.
   for (const bool first : {true, false}) {
     std::string wrong;
+    bool in_use = false;
     try {
       if (ranks.isFirst() == first) checkpoint = openedBy(options, solve, ranks);
     } catch (const solver::CheckpointError& error) {
       wrong = error.what();
+      in_use = dynamic_cast<const solver::CheckpointInUse*>(&error) != nullptr;
     }
     if (ranks.all(wrong.empty())) continue;
     checkpoint.reset();
     std::string first_wrong;
     for (int from = 0; from < ranks.size() && first_wrong.empty(); ++from)
       first_wrong = told(ranks, wrong, from);
-    (void)ranks.all(true);  // until all have removed theirs
+    // Also waits until all have removed theirs.
+    if (!ranks.all(!in_use)) throw solver::CheckpointInUse(first_wrong);
     throw solver::CheckpointError(first_wrong);
   }
   if (checkpoint->goesOn() && !options.quiet)

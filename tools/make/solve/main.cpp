@@ -5,84 +5,31 @@
 //               palpate-solve case.toml -o liver.h5 --json
 //               mpirun -n 2 palpate-solve case.toml -o liver.h5
 //               palpate-solve case.toml -o liver.h5 --dry-run
+//               palpate-solve --batch cases -o models
 //               palpate-solve liver.msh --template -o case.toml
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
 #include <chrono>
 #include <cstddef>
 #include <iostream>
-#include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
-#include "tools/make/solve/checkpoint_of.h"
+#include "tools/make/solve/batch.h"
 #include "tools/make/solve/dry_run.h"
 #include "tools/make/solve/options.h"
-#include "tools/make/solve/provenance.h"
-#include "tools/make/solve/size_warnings.h"
+#include "tools/make/solve/solve_case.h"
 #include "tools/make/solve/start_ranks.h"
 #include "tools/make/solve/summary.h"
-#include "tools/mesh/checks.h"
-#include "tools/mesh/mesh_error.h"
-#include "tools/mesh/midsides.h"
 #include "tools/mesh/read_mesh.h"
-#include "tools/modelfile/write_model.h"
-#include "tools/modelfile/write_xdmf.h"
 #include "tools/program/run.h"
 #include "tools/program/write_file.h"
-#include "tools/solver/build/build_model.h"
 #include "tools/solver/build/case_keys.h"
 
 namespace {
 
 using namespace palpate;
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// A bare mesh that names its accessible group means it.
-void adoptGroups(solver::Case& c, const mesh::TetMesh& organ) {
-  if (c.text.empty() && organ.groups.count("accessible") != 0) c.accessible = "accessible";
-}
-
-/// What can be said of the output before minutes are spent on it.
-void checkOutput(const std::filesystem::path& output) {
-  if (output.extension() == ".xdmf")
-    throw program::UsageError("--output " + output.string() +
-                              ": an .xdmf is written beside the model; name the model .h5");
-  program::checkOutput("--output", output);
-}
-
-mesh::TetMesh readOrgan(const std::filesystem::path& path, const std::string& fixed) {
-  mesh::TetMesh organ = mesh::readMesh(path);
-  try {
-    mesh::checkMesh(organ);
-    (void)mesh::straighten(organ);  // what rounding of the file has moved
-    if (organ.groups.count(fixed) != 0) mesh::checkHeld(organ, fixed);
-  } catch (const mesh::MeshError& error) {
-    throw mesh::MeshError(path.string() + ": " + error.what());
-  }
-  return organ;
-}
-
-/// What a solve takes; nothing is written.
-void tell(const solve_program::Options& options, const solver::Case& c, const mesh::TetMesh& organ,
-          const solver::BuildOptions& build) {
-  solver::BuildReport report;
-  const solver::Estimate estimate = solver::estimateDisplacementSeries(c, organ, build, report);
-  const program::Json found = solve_program::estimateOf(estimate, c, report);
-  if (options.json)
-    std::cout << found.dump(2) << '\n';
-  else
-    solve_program::printEstimate(found);
-  solver::Case chosen = c;
-  if (report.travel) {
-    chosen.order = report.travel->orders.fields;
-    chosen.force_order = report.travel->orders.answer;
-  }
-  solver::requireRoom(estimate, chosen, build, build.output);
-}
 
 /// A case file to begin with.
 /// @throw program::UsageError
@@ -105,63 +52,45 @@ void writeTemplate(const solve_program::Options& options) {
     program::writeFile(options.output, text);
 }
 
-/// All ranks know that the file is there.
-void waitForFile(const solver::Ranks& ranks) {
-  std::byte written{1};
-  ranks.broadcast({&written, 1}, 0);
+/// One case.
+void solve(const solve_program::Options& options, const solver::Ranks& ranks) {
+  const program::Json found = solve_program::solveCase(options, ranks);
+  if (!ranks.isFirst()) return;
+  if (!options.dry_run)
+    solve_program::print(found);
+  else if (!options.json)
+    solve_program::printEstimate(found);
+  if (options.json) std::cout << found.dump(2) << '\n';
+  if (const program::Json* const refused = found.find("refused")) throw std::runtime_error(refused->text());
 }
 
-void run(solve_program::Options options, const solver::Ranks& ranks) {
-  if (ranks.size() > 1 && (options.case_template || options.dry_run))
-    throw program::UsageError(std::string(options.dry_run ? "--dry-run" : "--template") +
-                              " is for one process, not for " + std::to_string(ranks.size()));
+/// What options do not go together. @throw program::UsageError
+void checkTogether(const solve_program::Options& options, const solver::Ranks& ranks) {
+  const bool batch = !options.batch.empty();
+  const std::pair<const char*, bool> for_one[] = {
+      {"--batch", batch}, {"--dry-run", options.dry_run}, {"--template", options.case_template}};
+  for (const auto& [option, given] : for_one)
+    if (given && ranks.size() > 1)
+      throw program::UsageError(std::string(option) + " is for one process, not for " +
+                                std::to_string(ranks.size()));
+  if (batch && options.case_template) throw program::UsageError("--batch does not go with --template");
+  if (batch && !options.input.empty())
+    throw program::UsageError("--batch does not go with the input " + options.input.string() +
+                              ": the folder has the cases");
+  if (options.worker && !batch) throw program::UsageError("--worker is of a --batch");
+  if (options.input.empty() && !batch && !options.case_template)
+    throw program::UsageError("input is required: a case file or a mesh");
+}
+
+int run(solve_program::Options options, const solver::Ranks& ranks) {
+  checkTogether(options, ranks);
   options.quiet = options.quiet || !ranks.isFirst();
-  if (options.case_template) return writeTemplate(options);
-  if (options.input.empty()) throw program::UsageError("input is required: a case file or a mesh");
-  if (options.output.empty()) options.output = "model.h5";
-  const auto start = Clock::now();
-  // 1. What to solve, and where to.
-  checkOutput(options.output);
-  solver::Case c = solve_program::readCase(options);
-  if (options.dry_run && c.method != solver::Method::kSeriesDisplacement)
-    throw program::UsageError("--dry-run is for method series-displacement, not " + toString(c.method));
-  if (options.fresh && !solve_program::keepsItsWork(c))
-    throw program::UsageError("--fresh is for the series methods, not " + toString(c.method));
-  if (!options.scratch.empty()) program::checkOutput("--scratch", options.scratch / "series");
-  // 2. The organ.
-  const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
-  adoptGroups(c, organ);
-  const std::filesystem::path folder = std::filesystem::absolute(options.output).parent_path();
-  if (options.scratch.empty()) options.scratch = folder;
-  solver::BuildOptions build{options.threads, options.scratch, options.quiet, folder};
-  build.ranks = &ranks;
-  for (const std::string& warning : solve_program::sizeWarnings(c, organ))
-    if (ranks.isFirst()) std::cerr << "warning: " << warning << '\n';
-  if (options.dry_run) return tell(options, c, organ, build);
-  // 3. The model, by the method of the case.
-  solver::BuildReport report;
-  const std::unique_ptr<solver::Checkpoint> checkpoint = solve_program::checkpointOf(options, c, ranks);
-  build.checkpoint = checkpoint.get();
-  modelfile::ModelData data = solver::buildModel(c, organ, build, report);
-  if (checkpoint) report.kept_seconds = checkpoint->found();
-  // 4. Where it came from, and the file, by the first rank.
-  if (!ranks.isFirst()) {
-    waitForFile(ranks);
-    if (checkpoint) checkpoint->remove();
-    return;
-  }
-  solve_program::addProvenance(data, c, report);
-  const auto write_start = Clock::now();
-  modelfile::writeModel(options.output, data);
-  modelfile::writeXdmf(options.output);
-  const double write_seconds = secondsSince(write_start);
-  waitForFile(ranks);
-  if (checkpoint) checkpoint->remove();
-  // 5. What came out.
-  const program::Json s =
-      solve_program::summarize(options.output, c, data, report, write_seconds, secondsSince(start));
-  solve_program::print(s);
-  if (options.json) std::cout << s.dump(2) << '\n';
+  if (!options.batch.empty()) return solve_program::solveBatch(options);
+  if (options.case_template)
+    writeTemplate(options);
+  else
+    solve(options, ranks);
+  return program::kDone;
 }
 
 /// The first rank reads the command line before the others do: what is wrong with it, and --help, is said once.
@@ -182,18 +111,12 @@ int body(int argc, char** argv) {
   if (ranks.size() > 1) options.threads = 1;
   solve_program::describe(line.options(), options);
   try {
-    if (readOnce(line, argc, argv, ranks)) run(options, ranks);
+    return readOnce(line, argc, argv, ranks) ? run(options, ranks) : program::kDone;
   } catch (...) {
     // What is wrong with the case all ranks find, and the first one says it and ends all.
     if (!ranks.isFirst()) std::this_thread::sleep_for(std::chrono::seconds(1));
-    try {
-      throw;
-    } catch (const std::bad_alloc&) {
-      throw std::runtime_error(
-          "out of memory; fewer modes, a smaller near_radius or a lower order need less");
-    }
+    throw;
   }
-  return program::kDone;
 }
 
 }  // namespace

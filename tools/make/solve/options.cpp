@@ -88,7 +88,15 @@ bool holds(const solver::Case& c) {
 
 void describe(program::Options line, Options& options) {
   line.add("input", &options.input, "case file (.toml), or a mesh in metres to be solved with the defaults");
-  line.add("-o,--output", &options.output, "file to write (default: model.h5)");
+  line.add(
+      "-o,--output", &options.output,
+      "file to write (default: model.h5); of a batch the folder of its models (default: that of its cases)");
+  line.add(
+      "--batch", &options.batch,
+      "solve all case files (*.toml) of a folder that have no model yet, or one of another case; what one "
+      "fails of does not end the others");
+  line.add("--worker", &options.worker,
+           "of a batch: the I-th of N programs that share it (I/N), each with every N-th case");
   line.flag("--template", &options.case_template,
             "write a case file (.toml) with every key, its default, unit and range, on standard output or to "
             "-o, and "
@@ -148,6 +156,11 @@ void describe(program::Options line, Options& options) {
   line.flag("--json", &options.json, "print one JSON object on standard output");
   line.flag("-q,--quiet", &options.quiet, "no progress");
   line.example("palpate-solve liver.msh -o liver.h5");
+}
+
+void checkOptions(const Options& options) {
+  solver::Case usual;
+  override(options, usual);
 }
 
 solver::Case readCase(const Options& options) {

@@ -14,7 +14,9 @@ namespace palpate::solve_program {
 /// The command line. What it gives of the case overrides the case file.
 struct Options {
   std::filesystem::path input;
-  std::filesystem::path output;  ///< empty: model.h5, or standard output for a template
+  std::filesystem::path output;       ///< empty: model.h5, or standard output for a template
+  std::filesystem::path batch;        ///< folder of cases, in the place of an input; output is a folder then
+  std::optional<std::string> worker;  ///< "I/N", of a batch
   bool case_template{false};
   bool fresh{false};
   std::filesystem::path scratch;
@@ -37,6 +39,9 @@ struct Options {
 
 /// Adds every option to the command line.
 void describe(program::Options line, Options& options);
+
+/// What an option says that no case makes right. @throw program::UsageError
+void checkOptions(const Options& options);
 
 /// The case of a case file, or the defaults for a bare mesh, with the command line's say.
 /// @throw program::UsageError when an option does not read, or does not fit a case that holds without it; CaseError when the

@@ -5,9 +5,11 @@
 #include <ctime>
 #include <fstream>
 #include <span>
+#include <stdexcept>
 
 #include "core/data/sha256.h"
 #include "tools/make/solve/summary.h"
+#include "tools/solver/build/case_lines.h"
 
 namespace palpate::solve_program {
 
@@ -26,6 +28,7 @@ std::string utcNow() {
 
 std::string fileHash(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error(path.string() + ": cannot be opened for reading");
   Sha256 hash;
   char block[1 << 16];
   while (in.read(block, sizeof block) || in.gcount() > 0)
@@ -33,12 +36,20 @@ std::string fileHash(const std::filesystem::path& path) {
   return hash.finish().hex();
 }
 
-void addProvenance(modelfile::ModelData& data, const solver::Case& c, const solver::BuildReport& report) {
+std::vector<std::string> linesOf(const solver::Case& c, const std::string& mesh_hash) {
+  std::vector<std::string> lines = solver::linesOf(c);
+  lines.push_back("mesh = SHA-256 " + mesh_hash);
+  return lines;
+}
+
+void addProvenance(modelfile::ModelData& data, const solver::Case& c, const std::string& mesh_hash,
+                   const solver::BuildReport& report) {
   program::Json provenance{{"program", "palpate-solve"},
                            {"version", PALPATE_VERSION},
                            {"created", utcNow()},
                            {"mesh", c.mesh.filename().string()},
-                           {"mesh_hash", fileHash(c.mesh)},
+                           {"mesh_hash", mesh_hash},
+                           {"solve", linesOf(c, mesh_hash)},
                            {"case", c.text},
                            {"fixed", c.fixed},
                            {"accessible", c.accessible.value_or("")},

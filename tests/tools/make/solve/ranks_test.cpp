@@ -151,6 +151,8 @@ TEST_F(SolvedByRanks, RefuseWhatIsForOneProcess) {
   (void)writeCase("");
   expectOneLine(byRanks(2, solved("out.h5", {"--dry-run"})), 2,
                 "palpate-solve: --dry-run is for one process, not for 2\n");
+  expectOneLine(byRanks(2, {"--batch", folder_.path().string()}), 2,
+                "palpate-solve: --batch is for one process, not for 2\n");
   expectOneLine(byRanks(2, {path("case.toml"), "-o", path("out.h5"), "--method", "pgd-linear",
                             "--load-direction", "any"}),
                 1, "method pgd-linear is solved by one process, not by 2\n");
