@@ -15,10 +15,10 @@ if(PALPATE_PRECOMPILE)
   target_precompile_headers(palpate_headers PRIVATE <Eigen/Core> <Eigen/Geometry> ${PALPATE_STANDARD_HEADERS})
 endif()
 
-# palpate_precompiled(library...): static libraries whose sources mostly include Eigen or the standard library. Not under AddressSanitizer:
-# that build keeps the warnings, and shows which sources lack an include.
+# palpate_precompiled(library...): static libraries whose sources mostly include Eigen or the standard library. Not under
+# gcc's sanitizers: those builds keep the warnings, and show which sources lack an include.
 function(palpate_precompiled)
-  if(PALPATE_PRECOMPILE AND NOT PALPATE_SANITIZE MATCHES "address")
+  if(PALPATE_PRECOMPILE AND (NOT PALPATE_SANITIZE OR PALPATE_SANITIZE STREQUAL "realtime"))
     foreach(library IN LISTS ARGN)
       target_precompile_headers(${library} REUSE_FROM palpate_headers)
       target_compile_options(${library} PRIVATE ${PALPATE_PRECOMPILED_OPTIONS})
