@@ -31,8 +31,10 @@ set(PALPATE_CORE_SOURCES
   model/fields.cpp
   model/linear_field.cpp
   model/meta_model.cpp
+  model/node_sum.cpp
   model/patch_stiffness.cpp
   model/smooth_mixing.cpp
+  model/touch_field.cpp
   model/touch_patch.cpp
   response/force_search.cpp
   response/largest_stiffness.cpp

@@ -113,6 +113,139 @@ void AddRows(const ScaledRows& rows, const float* weight, float* y) {
                [&](std::size_t r) { return weight[r] * rows.scale[r]; }, rows.count, rows.length, y);
 }
 
+/// y[c] += sum over four rows of w[row][c] * row.
+HWY_INLINE void addFourTogether(const std::int16_t* const (&a)[4], const float (&w)[4][kTogether],
+                                std::size_t length, float* y) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + lanes <= length; i += lanes) {
+    const auto a0 = load(d, a[0] + i), a1 = load(d, a[1] + i), a2 = load(d, a[2] + i), a3 = load(d, a[3] + i);
+    for (std::size_t c = 0; c < kTogether; ++c) {
+      float* const to = y + c * length + i;
+      const auto even = hn::MulAdd(hn::Set(d, w[0][c]), a0, hn::Mul(hn::Set(d, w[2][c]), a2));
+      const auto odd =
+          hn::MulAdd(hn::Set(d, w[1][c]), a1, hn::MulAdd(hn::Set(d, w[3][c]), a3, hn::LoadU(d, to)));
+      hn::StoreU(hn::Add(even, odd), d, to);
+    }
+  }
+  for (; i < length; ++i)
+    for (std::size_t c = 0; c < kTogether; ++c)
+      for (std::size_t k = 0; k < 4; ++k) y[c * length + i] += w[k][c] * static_cast<float>(a[k][i]);
+}
+
+void AddRowsTogether(const ScaledRows& rows, const float* weight, float factor, float* y) {
+  for (std::size_t r = 0; r < rows.count; r += 4) {
+    const std::int16_t* a[4];
+    float w[4][kTogether];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t row = std::min(r + k, rows.count - 1);
+      a[k] = rows.A + row * rows.length;
+      const float scale = r + k < rows.count ? factor * rows.scale[row] : 0.0F;
+      for (std::size_t c = 0; c < kTogether; ++c) w[k][c] = scale * weight[kTogether * row + c];
+    }
+    addFourTogether(a, w, rows.length, y);
+  }
+}
+
+void AddGroups(const PlacedGroups& groups, const double* weight, float* y) {
+  for (std::size_t r = 0; r < groups.rows; ++r) {
+    const auto rowOf = [&](std::size_t i) {
+      return groups.rows * static_cast<std::size_t>(groups.number[i]) + r;
+    };
+    mixAll<true>([&](std::size_t i) { return groups.A + rowOf(i) * groups.length; },
+                 [&](std::size_t i) { return static_cast<float>(weight[i]) * groups.scale[rowOf(i)]; }, groups.count,
+                 groups.length, y + r * groups.length);
+  }
+}
+
+void AddWholeVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
+                     const std::array<float, 3>& weight, float* u) {
+  const auto toOf = [&](std::size_t i, std::size_t r) {
+    return u + kNodeFloats * static_cast<std::size_t>(node[i]) + 4 * r;
+  };
+  std::size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  const hn::FixedTag<float, 4> d;  // a vector and a number behind it, which the last has not
+  const auto w0 = hn::Set(d, weight[0]), w1 = hn::Set(d, weight[1]), w2 = hn::Set(d, weight[2]);
+  const std::int16_t *const a = field, *const b = field + 3 * count, *const c = field + 6 * count;
+  for (; i + 1 < count; ++i) {
+    float* const to = toOf(i, 0);
+    hn::StoreU(hn::MulAdd(w0, load(d, a + 3 * i), hn::LoadU(d, to)), d, to);
+    hn::StoreU(hn::MulAdd(w1, load(d, b + 3 * i), hn::LoadU(d, to + 4)), d, to + 4);
+    hn::StoreU(hn::MulAdd(w2, load(d, c + 3 * i), hn::LoadU(d, to + 8)), d, to + 8);
+  }
+#endif
+  for (; i < count; ++i)
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        toOf(i, r)[axis] += weight[r] * static_cast<float>(field[3 * (r * count + i) + axis]);
+}
+
+void AddVectors(const float* y, const std::int32_t* node, std::size_t count, float* u) {
+  for (std::size_t i = 0; i < count; ++i) {
+    float* const to = u + kNodeFloats * static_cast<std::size_t>(node[i]);
+    for (std::size_t c = 0; c < kTogether; ++c) {
+      const float* const from = y + 3 * (c * count + i);
+#if HWY_TARGET != HWY_SCALAR
+      const hn::FixedTag<float, 4> d;
+      hn::StoreU(hn::Add(hn::LoadU(d, to + 4 * c), hn::LoadU(d, from)), d, to + 4 * c);
+#else
+      for (std::size_t axis = 0; axis < 3; ++axis) to[4 * c + axis] += from[axis];
+#endif
+    }
+  }
+}
+
+template <class D>
+HWY_INLINE void mixTogetherAt(D d, const PlacedFloats& rows, const float* weight, std::size_t i, float* y) {
+  auto s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
+  for (std::size_t r = 0; r < rows.count; ++r, weight += kTogether) {
+    const auto a = hn::LoadU(d, rows.A + rows.length * static_cast<std::size_t>(rows.row[r]) + i);
+    s0 = hn::MulAdd(hn::Set(d, weight[0]), a, s0);
+    s1 = hn::MulAdd(hn::Set(d, weight[1]), a, s1);
+    s2 = hn::MulAdd(hn::Set(d, weight[2]), a, s2);
+    s3 = hn::MulAdd(hn::Set(d, weight[3]), a, s3);
+  }
+  hn::StoreU(s0, d, y + i);
+  hn::StoreU(s1, d, y + rows.length + i);
+  hn::StoreU(s2, d, y + 2 * rows.length + i);
+  hn::StoreU(s3, d, y + 3 * rows.length + i);
+}
+
+/// Two vectors of each sum side by side, so that the additions need not wait for each other.
+template <class D>
+HWY_INLINE void mixTwoTogetherAt(D d, const PlacedFloats& rows, const float* weight, std::size_t i,
+                                 float* y) {
+  const std::size_t lanes = hn::Lanes(d);
+  auto s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
+  auto t0 = hn::Zero(d), t1 = hn::Zero(d), t2 = hn::Zero(d), t3 = hn::Zero(d);
+  for (std::size_t r = 0; r < rows.count; ++r, weight += kTogether) {
+    const float* const from = rows.A + rows.length * static_cast<std::size_t>(rows.row[r]) + i;
+    const auto a = hn::LoadU(d, from), b = hn::LoadU(d, from + lanes);
+    const auto w0 = hn::Set(d, weight[0]), w1 = hn::Set(d, weight[1]), w2 = hn::Set(d, weight[2]),
+               w3 = hn::Set(d, weight[3]);
+    s0 = hn::MulAdd(w0, a, s0), t0 = hn::MulAdd(w0, b, t0);
+    s1 = hn::MulAdd(w1, a, s1), t1 = hn::MulAdd(w1, b, t1);
+    s2 = hn::MulAdd(w2, a, s2), t2 = hn::MulAdd(w2, b, t2);
+    s3 = hn::MulAdd(w3, a, s3), t3 = hn::MulAdd(w3, b, t3);
+  }
+  const auto store = [&](std::size_t c, hn::Vec<D> one, hn::Vec<D> other) {
+    hn::StoreU(one, d, y + c * rows.length + i);
+    hn::StoreU(other, d, y + c * rows.length + i + lanes);
+  };
+  store(0, s0, t0), store(1, s1, t1), store(2, s2, t2), store(3, s3, t3);
+}
+
+void MixRowsTogether(const PlacedFloats& rows, const float* weight, float* y) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= rows.length; i += 2 * lanes) mixTwoTogetherAt(d, rows, weight, i, y);
+  for (; i + lanes <= rows.length; i += lanes) mixTogetherAt(d, rows, weight, i, y);
+  for (; i < rows.length; ++i) mixTogetherAt(hn::CappedTag<float, 1>(), rows, weight, i, y);
+}
+
 bool AllFinite(const float* x, std::size_t length) {
   const hn::ScalableTag<float> d;
   const hn::RebindToUnsigned<decltype(d)> du;
@@ -176,6 +309,11 @@ namespace palpate {
 PALPATE_TRUSTED_BEGIN  // the table of instruction sets begins with a function that asks the processor, before the loop
 
     HWY_EXPORT(AddRows);
+HWY_EXPORT(AddRowsTogether);
+HWY_EXPORT(AddGroups);
+HWY_EXPORT(AddWholeVectors);
+HWY_EXPORT(AddVectors);
+HWY_EXPORT(MixRowsTogether);
 HWY_EXPORT(DotRows);
 HWY_EXPORT(AllFinite);
 HWY_EXPORT(MixInto);
@@ -190,6 +328,29 @@ void chooseKernels() noexcept {
 
 void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING {
   HWY_DYNAMIC_DISPATCH(AddRows)(rows, weight, y);
+}
+
+void addRowsTogether(const ScaledRows& rows, const float* weight, float factor,
+                     float* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddRowsTogether)(rows, weight, factor, y);
+}
+
+void addGroups(const PlacedGroups& groups, const double* weight, float* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddGroups)(groups, weight, y);
+}
+
+void addVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
+                const std::array<float, 3>& weight, float* u) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddWholeVectors)(field, node, count, weight, u);
+}
+
+void addVectors(const float* y, const std::int32_t* node, std::size_t count,
+                float* u) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddVectors)(y, node, count, u);
+}
+
+void mixRowsTogether(const PlacedFloats& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(MixRowsTogether)(rows, weight, y);
 }
 
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,

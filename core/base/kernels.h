@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,6 +26,49 @@ struct ScaledRows {
 
 /// y += sum_r weight[r] * row r. y stays in the first-level cache while A streams past once. Real-time: yes.
 void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING;
+
+/// Sums that are taken at once: a row is read for all of them.
+inline constexpr std::size_t kTogether = 4;
+
+/// y[c] += factor * sum_r weight[r][c] * row r. @param weight  [count][kTogether]  @param y  [kTogether][length]. Real-time: yes.
+void addRowsTogether(const ScaledRows& rows, const float* weight, float factor,
+                     float* y) noexcept PALPATE_NONBLOCKING;
+
+/// Groups of rows of whole numbers, as many in each, here and there: `rows` rows of group number[i], i < count.
+struct PlacedGroups {
+  const std::int16_t* A;
+  const float* scale;
+  std::size_t rows;
+  std::size_t length;
+  const std::int32_t* number;
+  std::size_t count;
+};
+
+/// y[r] += sum_i weight[i] * row r of group i. @param y  [rows][length]. Real-time: yes.
+void addGroups(const PlacedGroups& groups, const double* weight, float* y) noexcept PALPATE_NONBLOCKING;
+
+/// Vectors of nodes lie kNodeFloats apart: kTogether of them, of which the fourth numbers have no meaning.
+inline constexpr std::size_t kNodeFloats = 4 * kTogether;
+
+/// u[node[i]][r] += weight[r] * row r [i], for three rows of vectors. @param field  [3][count][3]  @param u  [Ns][kNodeFloats].
+/// Real-time: yes.
+void addVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
+                const std::array<float, 3>& weight, float* u) noexcept PALPATE_NONBLOCKING;
+
+/// u[node[i]][c] += y[c][i]. @param y  [kTogether][count][3], and a number behind  @param u  [Ns][kNodeFloats]. Real-time: yes.
+void addVectors(const float* y, const std::int32_t* node, std::size_t count,
+                float* u) noexcept PALPATE_NONBLOCKING;
+
+/// Rows that lie here and there: number r is at A + length * row[r], r < count.
+struct PlacedFloats {
+  const float* A;
+  std::size_t length;
+  const std::int32_t* row;
+  std::size_t count;
+};
+
+/// y[c] = sum_r weight[r][c] * row r. @param weight  [count][kTogether]  @param y  [kTogether][length]. Real-time: yes.
+void mixRowsTogether(const PlacedFloats& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING;
 
 /// out[r] = sum over i < length of A[r * stride + i] * y[i]. Real-time: yes.
 void dotRows(const float* A, std::size_t stride, const float* y, std::size_t rows, std::size_t length,

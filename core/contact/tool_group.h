@@ -36,7 +36,6 @@ class ToolGroup {
 
  private:
   void approach() noexcept PALPATE_NONBLOCKING;
-  void feelSlopes() noexcept PALPATE_NONBLOCKING;
 
   const MetaModel& model_;
   Contacts contacts_;
@@ -45,7 +44,7 @@ class ToolGroup {
   std::array<std::size_t, kMaxTools> pressing_{};  // their numbers, rising,
   std::array<ContactPoint, kMaxTools> s_;          // where they are
   std::array<Vec3, kMaxTools> d_, own_;            // and what they prescribe, m
-  InfluenceTable influence_;
+  Influence influence_;
 };
 
 }  // namespace palpate

@@ -13,8 +13,8 @@ namespace palpate {
 namespace {
 
 template <std::size_t... I>
-std::array<TouchPatch, sizeof...(I)> touchPatches(const MetaModel& model, std::index_sequence<I...> /*all*/) {
-  return {((void)I, TouchPatch(model))...};
+std::array<Touch, sizeof...(I)> touches(const MetaModel& model, std::index_sequence<I...> /*all*/) {
+  return {((void)I, Touch(model))...};
 }
 
 using Functions = std::array<double, MonomialBasis::kMaxCoefficients>;
@@ -46,42 +46,34 @@ Vec3 loadOf(const MetaModel& model, const ContactPoint& s, const Vec3& d) noexce
   return stiffness.K * d;
 }
 
-/// What the others add at a point: the modes, and near fields where they reach.
-Vec3 othersAt(const MetaModel& model, std::span<const FieldSource> sources, const ContactPoint& point,
-              FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  const bool displaced = model.isDisplacementDriven();
-  const NodeMix at_point = model.surface().nodesAt(point);
+/// The field of a load-driven model where tools are: the modes of all sources, and near fields where they reach.
+void sumAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
+           std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
   std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
-  Vec3 u = Vec3::Zero();
   for (const FieldSource& source : sources) {
     Functions values;
     Answered at;
-    if ((displaced && source.s == point) || !answer(model, source, values, at)) continue;
+    if (!answer(model, source, values, at)) continue;
     const Stencil stencil = fieldStencil(model, source.s);
     for (std::size_t b = 0; b < stencil.count; ++b)
       model.amplitudes().add(stencil.position[b], at.modes, source.gain * stencil.weight[b],
                              scratch.amplitudes);
-    forEachNear(model, source.s, stencil, at.modes, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
-      for (std::size_t k = 0; k < 3; ++k)
-        u += source.gain * part.weight * at_point.weight[k] *
-             part.field.at(part.source, part.phi, at_point.node[k]);
+    forEachNear(model, source.s, stencil, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].triangle < 0) continue;
+        const NodeMix nodes = model.surface().nodesAt(points[i]);
+        for (std::size_t k = 0; k < 3; ++k)
+          u[i] += source.gain * part.weight * nodes.weight[k] *
+                  part.field.at(part.source, at.modes.first(part.rows), nodes.node[k]);
+      }
     });
-    if (!displaced) continue;
-    const Vec3 f = source.gain * loadOf(model, source.s, at.parameter);
-    const TouchPatch& from = scratch.touchAt(model, source.s);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const std::span<const float> load = from.load(static_cast<std::size_t>(axis));
-      for (std::size_t k = 0; k < load.size(); ++k)
-        scratch.amplitudes[k] += static_cast<float>(f[axis]) * load[k];
-    }
-    const double apart = model.surface().distanceToNodes(point.triangle, model.surface().position(source.s));
-    if (apart > model.reachOfPatches() + model.linearField().reach()) continue;
-    for (std::size_t k = 0; k < 3; ++k)
-      u += at_point.weight[k] * (model.linearField().nearAt(from.sources(), at_point.node[k]) * f);
   }
-  for (std::size_t k = 0; k < 3; ++k)
-    u += at_point.weight[k] * model.farField().at(scratch.amplitudes, at_point.node[k]);
-  return u;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].triangle < 0) continue;
+    const NodeMix nodes = model.surface().nodesAt(points[i]);
+    for (std::size_t k = 0; k < 3; ++k)
+      u[i] += nodes.weight[k] * model.farField().at(scratch.amplitudes, nodes.node[k]);
+  }
 }
 
 }  // namespace
@@ -92,16 +84,14 @@ FieldScratch::FieldScratch(const MetaModel& model)
           {model.nearField().blockSize(), model.edgeField().blockSize(), model.linearField().blockSize()})),
       patch(model.patches().room()),
       loads(model.linearField().room(patch.node.size())),
-      weight(index(model.surface().nodes()), Eigen::Vector4f::Zero()),
-      touches(touchPatches(model, std::make_index_sequence<kMaxTools + 1>{})) {}
+      touches(palpate::touches(model, std::make_index_sequence<kMaxTools + 1>{})) {}
 
-const TouchPatch& FieldScratch::touchAt(const MetaModel& model,
-                                        const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
+Touch& FieldScratch::touchAt(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
   std::size_t place = 0;  // of the patch itself, else of the one to give up
-  for (std::size_t i = 0; i < touches.size() && !(touches[place].s() == s); ++i)
-    if (touches[i].s() == s || asked[i] < asked[place]) place = i;
+  for (std::size_t i = 0; i < touches.size() && !(touches[place].patch.s() == s); ++i)
+    if (touches[i].patch.s() == s || asked[i] < asked[place]) place = i;
   asked[place] = ++questions;
-  touches[place].moveTo(model, s);  // nothing to do where it is there
+  touches[place].patch.moveTo(model, s);  // nothing to do where it is there
   return touches[place];
 }
 
@@ -137,11 +127,6 @@ void fieldGradients(const MetaModel& model, const Vec3& d, double limit,
   }
 }
 
-Stencil fieldStencil(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
-  return model.isDisplacementDriven() ? model.mixing().at(model.surface(), s)
-                                      : linearStencil(model.surface().mix(s));
-}
-
 void evaluateField(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
                    std::span<float> u) noexcept PALPATE_NONBLOCKING {
   Functions values;
@@ -163,8 +148,8 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
   for (const FieldSource& source : sources) {
     if (!answer(model, source, values, at)) continue;
     const Stencil stencil = fieldStencil(model, source.s);
-    forEachNear(model, source.s, stencil, at.modes, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
-      part.field.add(part.source, part.phi, source.gain * part.weight, scratch.near_block, u);
+    forEachNear(model, source.s, stencil, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
+      part.field.add(part.source, at.modes.first(part.rows), source.gain * part.weight, scratch.near_block, u);
     });
     if (!model.isDisplacementDriven()) continue;
     model.patches().at(source.s, false, scratch.patch);
@@ -176,38 +161,18 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
 
 void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, FieldScratch& scratch,
              std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
-  const bool displaced = model.isDisplacementDriven();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    u[i] = Vec3::Zero();
-    if (points[i].triangle < 0) continue;
-    bool others = !displaced;
+  std::fill(u.begin(), u.end(), Vec3::Zero());
+  if (!model.isDisplacementDriven()) {
+    sumAt(model, sources, scratch, points, u);
+    return;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
     for (const FieldSource& source : sources) {
       Functions values;
       Answered at;
-      if (displaced && !(source.s == points[i])) others = true;
-      if (!displaced || !(source.s == points[i]) || !answer(model, source, values, at)) continue;
+      if (points[i].triangle < 0 || !(source.s == points[i]) || !answer(model, source, values, at)) continue;
       u[i] += source.gain * model.dimple().at(model.places(), source.s, at.mix, at.all);
     }
-    if (others) u[i] += othersAt(model, sources, points[i], scratch);
-  }
-}
-
-std::array<Mat3, 4> complianceBetween(const MetaModel& model, const TouchPatch& from, const TouchPatch& to,
-                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  std::array<Mat3, 4> out;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const TouchPatch::Averages moved = to.ofModes(from.load(axis));
-    for (std::size_t k = 0; k < out.size(); ++k) out[k].col(Eigen::Index(axis)) = moved[k];
-  }
-  const double apart = (model.surface().position(from.s()) - model.surface().position(to.s())).norm();
-  if (apart > 2.0 * model.reachOfPatches() + model.linearField().reach()) return out;
-  const PatchNodes& nodes = to.nodes();
-  for (std::size_t j = 0; j < nodes.count; ++j)
-    scratch.weight[index(nodes.node[j])] << static_cast<float>(nodes.weight[j]), nodes.slope[j].cast<float>();
-  const std::array<Mat3, 4> near = model.linearField().nearBetween(from.sources(), scratch.weight);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] += near[k];
-  for (std::size_t j = 0; j < nodes.count; ++j) scratch.weight[index(nodes.node[j])].setZero();
-  return out;
 }
 
 }  // namespace palpate

@@ -47,8 +47,16 @@ void Amplitudes::addRow(std::int32_t source, std::size_t row, double factor,
   for (std::size_t k = 0; k < modes_; ++k) y[k] += weight * static_cast<float>(from[k]);
 }
 
-void Amplitudes::addRows(std::int32_t source, double factor, std::span<float> y) const noexcept {
-  for (std::size_t r = 0; r < rows_; ++r) addRow(source, r, factor, y.subspan(r * modes_, modes_));
+void Amplitudes::addRows(std::span<const std::int32_t> source, const double* weight,
+                         std::span<float> y) const noexcept PALPATE_NONBLOCKING {
+  addGroups({Y_.data(), scale_.data(), rows_, modes_, source.data(), source.size()}, weight, y.data());
+}
+
+void Amplitudes::addTogether(std::int32_t source, std::span<const float> weight, double factor,
+                             std::span<float> y) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t first = index(source) * rows_;
+  addRowsTogether({Y_.data() + first * modes_, scale_.data() + first, rows_, modes_}, weight.data(),
+                  static_cast<float>(factor), y.data());
 }
 
 SeparatedField::SeparatedField(const ModelView& view)
@@ -74,9 +82,14 @@ Vec3 SeparatedField::at(std::span<const float> y, int node) const noexcept PALPA
   return {u[0], u[1], u[2]};
 }
 
-void SeparatedField::addNode(int node, float weight, std::span<float> x) const noexcept PALPATE_NONBLOCKING {
+void SeparatedField::addNode(int node, float weight, std::span<float> x) const noexcept {
   const float* const from = by_node_.data() + index(node) * x.size();
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += weight * from[i];
+}
+
+void SeparatedField::average(std::span<const std::int32_t> node, std::span<const float> weight,
+                             std::span<float> x) const noexcept PALPATE_NONBLOCKING {
+  mixRowsTogether({by_node_.data(), 3 * index(modes_), node.data(), node.size()}, weight.data(), x.data());
 }
 
 NearField::NearField(const Arrays& arrays, std::size_t rows) : arrays_(arrays), rows_(rows) {
@@ -149,27 +162,25 @@ void NearField::add(std::int32_t source, std::span<const double> weight, double 
     for (std::size_t axis = 0; axis < 3; ++axis) u[3 * index(near.nodes[i]) + axis] += near.u[3 * i + axis];
 }
 
-std::array<Mat3, 4> NearField::weighted(
-    std::int32_t source, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING {
+void NearField::addUnits(std::int32_t source, double factor, NodeSum& u) const noexcept PALPATE_NONBLOCKING {
   const std::size_t m = index(source);
   const std::span<const std::int32_t> list = nodes(source);
-  const std::int16_t* const field = arrays_.field.data() + 9 * index(arrays_.offset[m]);
-  std::array<Eigen::Vector4f, 9> sum;  // [load][axis]
-  sum.fill(Eigen::Vector4f::Zero());
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Eigen::Vector4f& w = weight[index(list[i])];
-    if (w[0] == 0.0F) continue;
-    for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        sum[3 * r + axis] += float(field[3 * (r * list.size() + i) + axis]) * w;
-  }
-  std::array<Mat3, 4> out;
-  for (std::size_t k = 0; k < out.size(); ++k)
-    for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        out[k](Eigen::Index(axis), Eigen::Index(r)) =
-            double(arrays_.scale[3 * m + r]) * double(sum[3 * r + axis][Eigen::Index(k)]);
-  return out;
+  std::array<float, 3> weight{};
+  for (std::size_t r = 0; r < 3; ++r)
+    weight[r] = static_cast<float>(factor) * arrays_.scale[3 * m + r];
+  addVectors(arrays_.field.data() + 9 * index(arrays_.offset[m]), list.data(), list.size(), weight, u.data());
+}
+
+void NearField::addTogether(std::int32_t source, std::span<const float> weight, double factor,
+                            std::span<float> scratch, NodeSum& u) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t m = index(source);
+  const std::span<const std::int32_t> list = nodes(source);
+  std::fill_n(scratch.begin(), kTogether * 3 * list.size() + 1, 0.0F);
+  addRowsTogether({arrays_.field.data() + 3 * rows_ * index(arrays_.offset[m]), arrays_.scale.data() + m * rows_,
+                   weight.size() / kTogether, 3 * list.size()},
+                  weight.data(), static_cast<float>(factor), scratch.data());
+  u.reach(list);
+  addVectors(scratch.data(), list.data(), list.size(), u.data());
 }
 
 std::vector<Vec3> pointsOf(std::span<const double> positions, std::span<const std::int32_t> nodes) {

@@ -10,6 +10,7 @@
 #include "core/base/contact_point.h"
 #include "core/base/types.h"
 #include "core/data/model_view.h"
+#include "core/model/node_sum.h"
 
 namespace palpate {
 
@@ -26,8 +27,12 @@ class Amplitudes {
            std::span<float> y) const noexcept PALPATE_NONBLOCKING;
   /// y += factor * one row. @param y  [n], at least `modes`
   void addRow(std::int32_t source, std::size_t row, double factor, std::span<float> y) const noexcept;
-  /// Each row by itself: y += factor * the source's rows. @param y  [rows][modes]
-  void addRows(std::int32_t source, double factor, std::span<float> y) const noexcept;
+  /// Each row by itself: y += sum_i weight[i] * the rows of source[i]. @param y  [rows][n]. Real-time: yes.
+  void addRows(std::span<const std::int32_t> source, const double* weight,
+               std::span<float> y) const noexcept PALPATE_NONBLOCKING;
+  /// kTogether of add() at once. @param weight  [rows][kTogether]  @param y  [kTogether][n]. Real-time: yes.
+  void addTogether(std::int32_t source, std::span<const float> weight, double factor,
+                   std::span<float> y) const noexcept PALPATE_NONBLOCKING;
 
  private:
   std::span<const std::int16_t> Y_;
@@ -46,8 +51,11 @@ class SeparatedField {
   void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   /// u of one surface node, m, as expand() gives it but for rounding. Cost O(n). Real-time: yes.
   [[nodiscard]] Vec3 at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING;
-  /// x += weight X(node). @param x  [3][n]. Cost O(n). Real-time: yes.
-  void addNode(int node, float weight, std::span<float> x) const noexcept PALPATE_NONBLOCKING;
+  /// x += weight X(node). @param x  [3][n]. Cost O(n).
+  void addNode(int node, float weight, std::span<float> x) const noexcept;
+  /// kTogether sums over nodes at once: x[c] = sum_j weight[j][c] X(node[j]). @param x  [kTogether][3][n]. Real-time: yes.
+  void average(std::span<const std::int32_t> node, std::span<const float> weight,
+               std::span<float> x) const noexcept PALPATE_NONBLOCKING;
 
  private:
   std::span<const std::int16_t> X_;
@@ -97,9 +105,12 @@ class NearField {
   /// u += a block. @param scratch  blockSize(), @param u  [Ns][3]. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;
-  /// Of three rows, column r: the sum over the block's nodes, weighted four times. @param weight  [Ns]. Real-time: yes.
-  [[nodiscard]] std::array<Mat3, 4> weighted(
-      std::int32_t source, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING;
+  /// Of three rows, vector r: u += factor * row r. @param u  reached by the source's nodes(). Real-time: yes.
+  void addUnits(std::int32_t source, double factor, NodeSum& u) const noexcept PALPATE_NONBLOCKING;
+  /// kTogether of add() at once, vector c: u += factor * sum_r weight[r][c] * row r. @param weight  [rows][kTogether], or of the
+  /// first rows  @param scratch  kTogether blockSize() + 1. Real-time: yes.
+  void addTogether(std::int32_t source, std::span<const float> weight, double factor,
+                   std::span<float> scratch, NodeSum& u) const noexcept PALPATE_NONBLOCKING;
   /// The farthest of a block's nodes from its source, over all blocks, m. @param source  [sources] m  @param positions  [Ns][3]
   [[nodiscard]] double reach(std::span<const Vec3> source, std::span<const double> positions) const;
 

@@ -76,8 +76,9 @@ void LinearField::addAmplitudes(const PatchSources& from, const Vec3& f,
   for (std::size_t i = 0; i < from.count; ++i) amplitudes_.add(from.source[i], loadOf(from, i, f), 1.0, y);
 }
 
-void LinearField::addUnitAmplitudes(const PatchSources& from, std::span<float> y) const noexcept {
-  for (std::size_t i = 0; i < from.count; ++i) amplitudes_.addRows(from.source[i], from.weight[i], y);
+void LinearField::addUnitAmplitudes(const PatchSources& from,
+                                    std::span<float> y) const noexcept PALPATE_NONBLOCKING {
+  amplitudes_.addRows(std::span(from.source).first(from.count), from.weight.data(), y);
 }
 
 void LinearField::addNear(const PatchSources& from, const Vec3& f, std::span<float> scratch,
@@ -91,15 +92,17 @@ Mat3 LinearField::nearAt(const PatchSources& from, std::int32_t node) const noex
   return u;
 }
 
-std::array<Mat3, 4> LinearField::nearBetween(
-    const PatchSources& from, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING {
-  std::array<Mat3, 4> out;
-  for (Mat3& part : out) part.setZero();
-  for (std::size_t i = 0; i < from.count; ++i) {
-    const std::array<Mat3, 4> one = near_.weighted(from.source[i], weight);
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] += from.weight[i] * one[k];
+void LinearField::findUnitNear(const PatchSources& from, std::vector<std::int32_t>& reached,
+                               NodeSum& u) const noexcept PALPATE_NONBLOCKING {
+  const std::span<const std::int32_t> sources = std::span(from.source).first(from.count);
+  if (std::equal(sources.begin(), sources.end(), reached.begin(), reached.end())) {
+    u.zero();
+  } else {
+    u.clear();
+    for (const std::int32_t source : sources) u.reach(near_.nodes(source));
+    reached.assign(sources.begin(), sources.end());
   }
-  return out;
+  for (std::size_t i = 0; i < from.count; ++i) near_.addUnits(from.source[i], from.weight[i], u);
 }
 
 }  // namespace palpate

@@ -44,16 +44,16 @@ class LinearField {
   /// y += sum_i w_i Z_i f. @param y  [n]. Cost O(k n) for k sources. Real-time: yes.
   void addAmplitudes(const PatchSources& from, const Vec3& f,
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
-  /// Of unit loads: y += sum_i w_i Z_i. @param y  [3 loads][n]. Cost O(k n), the third of three single loads'.
-  void addUnitAmplitudes(const PatchSources& from, std::span<float> y) const noexcept;
+  /// Of unit loads: y += sum_i w_i Z_i. @param y  [3 loads][n]. Cost O(k n). Real-time: yes.
+  void addUnitAmplitudes(const PatchSources& from, std::span<float> y) const noexcept PALPATE_NONBLOCKING;
   /// u += sum_i w_i N_i f. @param scratch  blockSize()  @param u  [Ns][3]. Real-time: yes.
   void addNear(const PatchSources& from, const Vec3& f, std::span<float> scratch,
                std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] std::size_t blockSize() const noexcept { return near_.blockSize(); }
-  /// What the near fields of unit loads on a patch move other nodes by, weighted: sum_ij w_i w_j N_i(X_j) and the same for the
-  /// other weights, column by load. @param weight  [Ns], four for each node, 0 for most. Real-time: yes.
-  [[nodiscard]] std::array<Mat3, 4> nearBetween(
-      const PatchSources& from, std::span<const Eigen::Vector4f> weight) const noexcept PALPATE_NONBLOCKING;
+  /// Of unit loads: u = sum_i w_i N_i, vector by load. @param reached  the sources whose nodes u reaches; with room for those of
+  /// any patch. Cost O(k K). Real-time: yes.
+  void findUnitNear(const PatchSources& from, std::vector<std::int32_t>& reached,
+                    NodeSum& u) const noexcept PALPATE_NONBLOCKING;
   /// What the near fields of unit loads on a patch move one node by, column by load, m/N. Cost O(k log K). Real-time: yes.
   [[nodiscard]] Mat3 nearAt(const PatchSources& from, std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   /// The farthest that a near field reaches from its node, m.

@@ -4,45 +4,43 @@
 #include <algorithm>
 
 #include "core/base/index.h"
-#include "core/base/kernels.h"
 
 namespace palpate {
 
 TouchPatch::TouchPatch(const MetaModel& model)
     : nodes_(model.patches().room()),
+      weight_(kWeights * nodes_.node.size()),
       sources_(model.linearField().room(nodes_.node.size())),
       modes_(index(model.farField().modes())),
-      X_(12 * modes_),
-      Z_(3 * modes_) {}
+      X_(3 * kWeights * modes_),
+      Z_(3 * modes_),
+      near_(index(model.surface().nodes())) {
+  reached_.reserve(sources_.source.size());
+}
 
 void TouchPatch::moveTo(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
   if (s == s_) return;
   s_ = s;
+  near_found_ = false;
   model.patches().at(s, true, nodes_);
-  std::fill(X_.begin(), X_.end(), 0.0F);
-  std::fill(Z_.begin(), Z_.end(), 0.0F);
-  const std::span<float> all = X_;
-  for (std::size_t j = 0; j < nodes_.count; ++j) {
-    const Vec3& slope = nodes_.slope[j];
-    model.farField().addNode(nodes_.node[j], static_cast<float>(nodes_.weight[j]), all.first(3 * modes_));
-    for (std::size_t k = 0; k < 3; ++k)
-      model.farField().addNode(nodes_.node[j], static_cast<float>(slope[Eigen::Index(k)]),
-                               all.subspan(3 * (k + 1) * modes_, 3 * modes_));
-  }
+  for (std::size_t j = 0; j < nodes_.count; ++j)
+    Eigen::Map<Eigen::Vector4f>(weight_.data() + kWeights * j)
+        << static_cast<float>(nodes_.weight[j]), nodes_.slope[j].cast<float>();
+  model.farField().average(std::span(nodes_.node).first(nodes_.count), weight_, X_);
   if (!model.isDisplacementDriven()) return;
   model.linearField().find(nodes_, sources_);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    model.linearField().addAmplitudes(sources_, Vec3::Unit(Eigen::Index(axis)),
-                                      std::span(Z_).subspan(axis * modes_, modes_));
+  std::fill(Z_.begin(), Z_.end(), 0.0F);
+  model.linearField().addUnitAmplitudes(sources_, Z_);
 }
 
-TouchPatch::Averages TouchPatch::ofModes(std::span<const float> y) const noexcept PALPATE_NONBLOCKING {
-  std::array<float, 12> dots{};
-  dotRows(X_.data(), modes_, y.data(), dots.size(), modes_, dots.data());
-  Averages out;
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] = Eigen::Map<const Eigen::Vector3f>(dots.data() + 3 * k).cast<double>();
-  return out;
+void TouchPatch::findNear(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
+  if (near_found_) return;
+  near_found_ = true;
+  model.linearField().findUnitNear(sources_, reached_, near_);
+}
+
+void TouchPatch::average(const NodeSum& u, float* out) const noexcept PALPATE_NONBLOCKING {
+  mixRowsTogether({u.data(), kNodeFloats, nodes_.node.data(), nodes_.count}, weight_.data(), out);
 }
 
 }  // namespace palpate

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/base/index.h"
+#include "core/model/clamp_to_length.h"
 #include "core/response/small_square.h"
 #include "core/surface/surface_mesh.h"
 
@@ -13,152 +14,65 @@ namespace palpate {
 
 namespace {
 
-/// Whether a near field may reach a patch.
-bool meets(const MetaModel& model, const NearPart& part, const TouchPatch& to) noexcept PALPATE_NONBLOCKING {
-  return model.surface().distanceToNodes(to.s().triangle, part.centre) <= model.reachOfPatches() + part.reach;
+/// Where polynomials end at s: r_max, f_max or t_max.
+double limitAt(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
+  return model.response().limit(model.surface().mix(s));
 }
 
-/// What modes and near fields of positions move a patch by, orders of two and more of a "displacement" model, everything of the
-/// others: its average, and that by the weights' slopes. @param phi  functions of these
-TouchPatch::Averages averaged(const MetaModel& model, const ContactPoint& s, std::span<const double> phi,
-                              const TouchPatch& to, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  const Stencil from = fieldStencil(model, s);
-  std::fill(scratch.amplitudes.begin(), scratch.amplitudes.end(), 0.0F);
-  for (std::size_t b = 0; b < from.count; ++b)
-    model.amplitudes().add(from.position[b], phi, from.weight[b], scratch.amplitudes);
-  TouchPatch::Averages sum = to.ofModes(scratch.amplitudes);
-  if (phi.empty()) return sum;
-  const PatchNodes& nodes = to.nodes();
-  for (std::size_t j = 0; j < nodes.count; ++j)
-    scratch.weight[index(nodes.node[j])] << static_cast<float>(nodes.weight[j]), nodes.slope[j].cast<float>();
-  const auto weighs = [&](std::int32_t node) noexcept PALPATE_NONBLOCKING {
-    return scratch.weight[index(node)][0] > 0.0F;
-  };
-  const auto addBlock = [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
-    if (!meets(model, part, to)) return;
-    const std::span<const std::int32_t> list = part.field.nodes(part.source);
-    if (std::none_of(list.begin(), list.end(), weighs)) return;
-    const NearField::Block block = part.field.block(part.source, part.phi, part.weight, scratch.near_block);
-    Eigen::Matrix<float, 3, 4> near = Eigen::Matrix<float, 3, 4>::Zero();
-    for (std::size_t i = 0; i < list.size(); ++i)
-      near += Eigen::Map<const Eigen::Vector3f>(block.u.data() + 3 * i) *
-              scratch.weight[index(list[i])].transpose();
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += near.col(Eigen::Index(k)).cast<double>();
-  };
-  forEachNear(model, s, from, phi, addBlock);
-  for (std::size_t j = 0; j < nodes.count; ++j) scratch.weight[index(nodes.node[j])].setZero();
-  return sum;
-}
-
-using Compliance = std::array<Mat3, 4>;
-
-/// What a source of a field does to a patch elsewhere, and how that changes as the patch moves: by lambda.
-/// @param compliance  complianceBetween() the two of a "displacement" model, else unused
-TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, const TouchPatch& to,
-                             const Compliance& compliance,
-                             FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  TouchPatch::Averages moved;
-  for (Vec3& part : moved) part.setZero();
-  const PositionMix from = model.surface().mix(source.s);
-  if (from.count == 0 || to.nodes().count == 0) return moved;
-  std::array<double, MonomialBasis::kMaxCoefficients> all;
+/// Of u at d, and of du/dd there; of a load-driven model by differences of length `step`.
+void findFunctions(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
+                   TouchFunctions& out) noexcept PALPATE_NONBLOCKING {
   const auto size = index(model.functions().size());
-  const Vec3 p =
-      fieldFunctions(model, source.parameter, model.response().limit(from), std::span(all).first(size));
-  moved = averaged(model, source.s,
-                   std::span(all).first(size).last(modeCoefficients(model.attributes(), size)), to, scratch);
+  if (model.surface().mix(s).count == 0) {
+    for (auto& functions : out) std::fill_n(functions.begin(), size, 0.0);
+    return;
+  }
+  const double limit = limitAt(model, s);
+  const auto evaluate = [&](const Vec3& at, std::span<double> values) noexcept PALPATE_NONBLOCKING {
+    const FieldSource own = ownPart(model, s, at);
+    (void)fieldFunctions(model, own.parameter, limit, values);
+    for (double& value : values) value *= own.gain;
+  };
+  evaluate(d, std::span(out[0]).first(size));
   if (model.isDisplacementDriven()) {
-    PatchStiffness::Value stiffness;
-    model.stiffness().at(model.surface(), source.s, stiffness);
-    for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += compliance[k] * (stiffness.K * p);
+    std::array<Vec3, MonomialBasis::kMaxCoefficients> gradient;
+    fieldGradients(model, d, limit, std::span(gradient).first(size));
+    for (std::size_t k = 0; k < size; ++k)
+      for (std::size_t i = 0; i < 3; ++i) out[i + 1][k] = gradient[k][Eigen::Index(i)];
+    return;
   }
-  for (Vec3& part : moved) part *= source.gain;
-  return moved;
+  for (std::size_t i = 0; i < 3; ++i) {
+    evaluate(d + step * Vec3::Unit(Eigen::Index(i)), std::span(out[i + 1]).first(size));
+    for (std::size_t k = 0; k < size; ++k) out[i + 1][k] = (out[i + 1][k] - out[0][k]) / step;
+  }
 }
 
-/// Of a source that is asked for this patch alone.
-TouchPatch::Averages movedBy(const MetaModel& model, const FieldSource& source, const TouchPatch& to,
-                             FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  Compliance compliance;
-  if (model.isDisplacementDriven())
-    compliance = complianceBetween(model, scratch.touchAt(model, source.s), to, scratch);
-  return movedBy(model, source, to, compliance, scratch);
+/// The touch at s with the field of a tool that imposes d.
+Touch& touchOf(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
+               FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  Touch& touch = scratch.touchAt(model, s);
+  if (touch.field.isAt(s) && touch.d == d && touch.step == step) return touch;
+  TouchFunctions functions;
+  findFunctions(model, s, d, step, functions);
+  touch.field.set(model, touch.patch, functions);
+  touch.d = d;
+  touch.step = step;
+  return touch;
 }
-
-/// What one tool moves the others' patches by, and its derivative. The organ is asked once, however many others there are.
-class Influence {
- public:
-  Influence(const MetaModel& model, const ContactPoint& s, const Vec3& d,
-            double h) noexcept PALPATE_NONBLOCKING : model_(model),
-                                                     s_(s),
-                                                     h_(h),
-                                                     own_(ownPart(model, s, d)) {
-    if (model.isDisplacementDriven()) differentiate(d);
-    for (std::size_t i = 0; !model.isDisplacementDriven() && i < 3; ++i)
-      beside_[i] = ownPart(model, s, d + h * Vec3::Unit(static_cast<Eigen::Index>(i)));
-  }
-
-  /// P_at u(s, d), m, and P_at du/dd, 3 x 3; of a load-driven model by differences of length h.
-  void on(const TouchPatch& at, FieldScratch& scratch, Vec3& moved,
-          Mat3& slope) const noexcept PALPATE_NONBLOCKING {
-    moved.setZero();
-    slope.setZero();
-    if (model_.surface().mix(s_).count == 0 || at.nodes().count == 0) return;
-    Compliance compliance;
-    if (model_.isDisplacementDriven())
-      compliance = complianceBetween(model_, scratch.touchAt(model_, s_), at, scratch);
-    moved = movedBy(model_, own_, at, compliance, scratch)[0];
-    if (!model_.isDisplacementDriven()) {
-      for (std::size_t i = 0; i < 3; ++i)
-        slope.col(Eigen::Index(i)) = (movedBy(model_, beside_[i], at, scratch)[0] - moved) / h_;
-      return;
-    }
-    slope = compliance[0] * stiffness_.K;
-    for (std::size_t i = 0; i < 3; ++i)
-      slope.col(Eigen::Index(i)) += averaged(model_, s_, std::span(slope_[i]).first(bends_), at, scratch)[0];
-  }
-
- private:
-  void differentiate(const Vec3& d) noexcept PALPATE_NONBLOCKING {
-    std::array<Vec3, MonomialBasis::kMaxCoefficients> all;
-    const std::span<Vec3> gradient(all.data(), index(model_.functions().size()));
-    fieldGradients(model_, d, model_.response().limit(model_.surface().mix(s_)), gradient);
-    bends_ = gradient.size() - kLinearCoefficients;
-    for (std::size_t k = 0; k < bends_; ++k)
-      for (std::size_t i = 0; i < 3; ++i)
-        slope_[i][k] = gradient[k + kLinearCoefficients][static_cast<Eigen::Index>(i)];
-    model_.stiffness().at(model_.surface(), s_, stiffness_);
-  }
-
-  const MetaModel& model_;
-  const ContactPoint& s_;
-  double h_;
-  FieldSource own_;
-  std::array<FieldSource, 3> beside_;  // at d + h e_i, of a load-driven model
-  PatchStiffness::Value stiffness_;
-  std::array<std::array<double, MonomialBasis::kMaxCoefficients>, 3>
-      slope_;             // dphi/dd_i of orders two and more
-  std::size_t bends_{0};  // how many
-};
 
 }  // namespace
 
-Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source, const ContactPoint& at,
-                       FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  if (model.surface().mix(at).count == 0) return Vec3::Zero();
-  return movedBy(model, source, scratch.touchAt(model, at), scratch)[0];
+double tangentStep(std::span<const Vec3> d) noexcept PALPATE_NONBLOCKING {
+  constexpr double kShare = 0.01, kLeast = 1e-9;  // of the longest d; m
+  double length = 0.0;
+  for (const Vec3& prescribed : d) length = std::max(length, prescribed.norm());
+  return std::max(kShare * length, kLeast);
 }
 
-Mat3 patchDisplacementSlope(const MetaModel& model, std::span<const FieldSource> sources,
-                            const ContactPoint& at, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  if (model.surface().mix(at).count == 0) return Mat3::Zero();
-  const TouchPatch& to = scratch.touchAt(model, at);
-  Mat3 by_lambda = Mat3::Zero();
-  for (const FieldSource& source : sources) {
-    const TouchPatch::Averages moved = movedBy(model, source, to, scratch);
-    for (std::size_t k = 0; k < 3; ++k) by_lambda.col(Eigen::Index(k)) += moved[k + 1];
-  }
-  return by_lambda * model.surface().slopes(at.triangle);
+PatchMotion patchMotion(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
+                        const ContactPoint& at, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
+  Touch& from = touchOf(model, s, d, model.isDisplacementDriven() ? 0.0 : step, scratch);
+  return from.field.on(model, from.patch, scratch.touchAt(model, at).patch);
 }
 
 FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
@@ -175,36 +89,41 @@ FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
 
 void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
                       FieldScratch& scratch, std::span<Vec3> own,
-                      InfluenceTable* influence) noexcept PALPATE_NONBLOCKING {
+                      Influence* influence) noexcept PALPATE_NONBLOCKING {
   const std::size_t tools = std::min<std::size_t>(s.size(), kMaxTools);
   std::copy(d.begin(), d.end(), own.begin());
-  if (influence != nullptr)
-    for (auto& row : *influence) row.fill(Mat3::Zero());
-  double length = 0.0;
-  for (const Vec3& prescribed : d) length = std::max(length, prescribed.norm());
-  if (tools < 2 || length == 0.0) return;
+  if (influence != nullptr) {
+    for (auto& row : influence->by_d) row.fill(Mat3::Zero());
+    influence->along.fill(Mat3::Zero());
+  }
+  const auto moves = [](const Vec3& prescribed) { return prescribed != Vec3::Zero(); };
+  if (tools < 2 || std::none_of(d.begin(), d.end(), moves)) return;
+  const double step = tangentStep(d);
+  std::array<std::array<PatchMotion, kMaxTools>, kMaxTools> motion;
   SmallSquare slope(tools);
   std::array<Vec3, kMaxTools> moved;
-  for (std::size_t a = 0; a < tools; ++a) moved[a].setZero();
-  for (std::size_t b = 0; b < tools; ++b) {
-    const Influence of(model, s[b], d[b], 0.01 * length);
+  moved.fill(Vec3::Zero());
+  for (std::size_t b = 0; b < tools; ++b)
     for (std::size_t a = 0; a < tools; ++a) {
       if (a == b) continue;
-      Vec3 u;
-      Mat3 change;
-      of.on(scratch.touchAt(model, s[a]), scratch, u, change);
-      moved[a] += u;
-      slope.setPart(a, b, change);
+      motion[a][b] = patchMotion(model, s[b], d[b], step, s[a], scratch);
+      moved[a] += motion[a][b].at(Vec3::Zero());
+      slope.setPart(a, b, motion[a][b].slope());
     }
-  }
   const SmallSquare inverse = dampedInverse(slope);
   for (std::size_t a = 0; a < tools; ++a)
     for (std::size_t b = 0; b < tools; ++b) own[a] -= inverse.part(a, b) * moved[b];
   if (influence == nullptr) return;
   slope.subtractUnit();
   const SmallSquare carried = product(inverse, slope);  // e = inverse moved
-  for (std::size_t a = 0; a < tools; ++a)
-    for (std::size_t b = 0; b < tools; ++b) (*influence)[a][b] = carried.part(a, b);
+  for (std::size_t a = 0; a < tools; ++a) {
+    Mat3 by_lambda = Mat3::Zero();
+    for (std::size_t b = 0; b < tools; ++b) {
+      influence->by_d[a][b] = carried.part(a, b);
+      if (a != b) by_lambda += motion[a][b].along(own[b] - d[b]);
+    }
+    influence->along[a] = by_lambda * model.surface().slopes(s[a].triangle);
+  }
 }
 
 std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s, const Vec3& d,
@@ -219,6 +138,16 @@ std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& 
   part[0].gain *= 1.0 - 1.0 / share;
   part[1].gain /= share;
   return part;
+}
+
+void addOthersAt(const MetaModel& model, std::span<const ToolPart> tools, FieldScratch& scratch,
+                 std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
+  for (const ToolPart& tool : tools)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].triangle < 0 || points[i] == tool.s) continue;
+      Touch& from = touchOf(model, tool.s, tool.d, 0.0, scratch);
+      u[i] += tool.gain * from.field.at(model, from.patch, tool.own - tool.d, points[i], scratch.amplitudes);
+    }
 }
 
 }  // namespace palpate

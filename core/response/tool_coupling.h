@@ -13,28 +13,30 @@
 
 namespace palpate {
 
-/// Displacement of the contact patch at `at` by a tool elsewhere: P_at u, far plus near field.   docs/design.md, Symbols, Parts
-/// @param source  the other tool's own part; as far as evaluateField() goes
-/// @return m, W; zero where the model has no answer at `at` or at source.s
-/// Cost O(C n); docs/decisions/several_tools.md. Real-time: yes. Threads: one per scratch.
-[[nodiscard]] Vec3 patchDisplacement(const MetaModel& model, const FieldSource& source,
-                                     const ContactPoint& at,
-                                     FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
-
-/// How the sum of patchDisplacement() changes as the patch moves over the rest surface: de/dX, 3 x 3, zero along its
-/// triangle's normal. Cost of a patchDisplacement() for each source. Real-time: yes. Threads: one per scratch.
-[[nodiscard]] Mat3 patchDisplacementSlope(const MetaModel& model, std::span<const FieldSource> sources,
-                                          const ContactPoint& at,
-                                          FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
-
-/// What a tool that imposes d by itself adds to the field: of evaluateField() and patchDisplacement(). Beyond
+/// What a tool that imposes d by itself adds to the field: of evaluateField(). Beyond
 /// Response::shown_radius its gain is |d| over the |d| that the model answers, so that the field goes on in proportion (not of a
 /// model driven by level, which ends where its load does). @param d  m, finite. Cost respond(). Real-time: yes.
 [[nodiscard]] FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
                                   const Vec3& d) noexcept PALPATE_NONBLOCKING;
 
-/// How the displacement of each patch that the others cause changes with what is prescribed: [A][B] de_A/dd_B, 1.
-using InfluenceTable = std::array<std::array<Mat3, kMaxTools>, kMaxTools>;
+/// How long the differences are that derivatives by d of a load-driven model are taken by, m. @param d  of all tools, m
+[[nodiscard]] double tangentStep(std::span<const Vec3> d) noexcept PALPATE_NONBLOCKING;
+
+/// What a tool that imposes d by itself moves the contact patch at `at` by: P_at u, far plus near field, and its derivatives by d
+/// and by the place of that patch. Zero where the model has no answer at one of the two.      docs/design.md, Symbols, Parts
+/// @param step  tangentStep()
+/// Cost once for each s and each `at` O(k n), for each d O(C n), for each pair O(n + k): docs/decisions/several_tools.md.
+/// Real-time: yes. Threads: one per scratch.
+[[nodiscard]] PatchMotion patchMotion(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
+                                      const ContactPoint& at,
+                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
+
+/// How e_A = d_A - d_own,A, the displacement of each patch that the others cause, changes, the tangents held fixed.
+struct Influence {
+  std::array<std::array<Mat3, kMaxTools>, kMaxTools> by_d;  ///< [A][B] de_A/dd_B, 1
+  /// [A] de_A/dX as the patch moves over the rest surface and the others' own parts stay, 1; zero along its triangle's normal
+  std::array<Mat3, kMaxTools> along;
+};
 
 /// Tools that press together: what each imposes by itself, so that all patches move as prescribed.  docs/design.md, Contact
 ///   d_own,A + sum_{B != A} P_A [u(s_B, d_B) + u'(s_B, d_B) (d_own,B - d_B)] = d_A
@@ -45,16 +47,28 @@ using InfluenceTable = std::array<std::array<Mat3, kMaxTools>, kMaxTools>;
 /// answer at a small price for its length: tools at one place that ask for different d would need any force.
 /// @param s  contact points, at most kMaxTools, all in contact  @param d  prescribed, m, finite, one for each
 /// @param[out] own  d_own, m; d itself for one tool
-/// @param[out] influence  if given, of e_A = d_A - d_own,A, the tangents held fixed; zero for one tool
-/// Cost tools * (tools - 1) * 4 patchDisplacement(), no iteration: docs/decisions/several_tools.md. Real-time: yes.
+/// @param[out] influence  if given; zero for one tool
+/// Cost tools * (tools - 1) patchMotion(), no iteration: docs/decisions/several_tools.md. Real-time: yes.
 void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
                       FieldScratch& scratch, std::span<Vec3> own,
-                      InfluenceTable* influence = nullptr) noexcept PALPATE_NONBLOCKING;
+                      Influence* influence = nullptr) noexcept PALPATE_NONBLOCKING;
 
 /// One tool's part in the field of several, u(s, d) + u'(s, d) (own - d), as two sources of evaluateField() whose
 /// sum it is: a difference over a step much shorter than the domain. Real-time: yes.
 [[nodiscard]] std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s,
                                                   const Vec3& d,
                                                   const Vec3& own) noexcept PALPATE_NONBLOCKING;
+
+/// The same, and the gain that its force has.
+struct ToolPart {
+  ContactPoint s;
+  Vec3 d, own;  ///< m
+  double gain{1.0};
+};
+
+/// What tools add to fieldAt() at points that are not their own, of a "displacement" model. @param points  triangle -1: nothing
+/// @param[in,out] u  [points] m. Cost as patchMotion(). Real-time: yes. Threads: one per scratch.
+void addOthersAt(const MetaModel& model, std::span<const ToolPart> tools, FieldScratch& scratch,
+                 std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

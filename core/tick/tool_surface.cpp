@@ -28,6 +28,26 @@ void findSources(const MetaModel& model, std::span<const ToolMemory, kMaxTools> 
   }
 }
 
+namespace {
+
+/// What each tool in contact does elsewhere, as findSources() has it.
+std::span<const ToolPart> findParts(std::span<const ToolMemory, kMaxTools> tools,
+                                    std::span<ToolPart, kMaxTools> parts) noexcept PALPATE_NONBLOCKING {
+  std::size_t count = 0;
+  for (const ToolMemory& tool : tools) {
+    const Contact& contact = tool.contact;
+    if (contact.isFree()) continue;
+    const Vec3& d = contact.coupled.displacement;
+    const Vec3 carried = contact.carried.at(d);
+    const bool alone = carried == Vec3::Zero();
+    const Vec3& moved = alone ? contact.coupled.response.parameter : d;
+    parts[count++] = {contact.s, moved, moved - carried, tool.rendering.gain};
+  }
+  return parts.first(count);
+}
+
+}  // namespace
+
 bool fieldAtAnchors(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools,
                     std::span<const FieldSource> sources, FieldScratch& scratch,
                     std::span<Vec3, kMaxTools> u) noexcept PALPATE_NONBLOCKING {
@@ -36,6 +56,8 @@ bool fieldAtAnchors(const MetaModel& model, std::span<const ToolMemory, kMaxTool
   std::array<ContactPoint, kMaxTools> anchors;
   for (std::size_t i = 0; i < tools.size(); ++i) anchors[i] = tools[i].contact.s;
   fieldAt(model, sources, scratch, anchors, u);
+  std::array<ToolPart, kMaxTools> parts;
+  if (model.isDisplacementDriven()) addOthersAt(model, findParts(tools, parts), scratch, anchors, u);
   bool finite = true;
   for (Vec3& shown : u) {
     if (shown.allFinite()) continue;

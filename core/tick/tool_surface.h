@@ -13,7 +13,7 @@ namespace palpate {
 void findSources(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools,
                  FieldSources& sources) noexcept PALPATE_NONBLOCKING;
 
-/// The field at the tools' anchors, m; zero where a tool has none. Cost O(C n + tools n + tools sources (C + K_m)).
+/// The field at the tools' anchors, m; zero where a tool has none. Cost that of fieldAt() and addOthersAt().
 /// @return false when the model overflows: u is zero there. Real-time: yes.
 [[nodiscard]] bool fieldAtAnchors(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools,
                                   std::span<const FieldSource> sources, FieldScratch& scratch,

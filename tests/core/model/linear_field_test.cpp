@@ -12,6 +12,7 @@
 #include "../response/random_touch.h"
 #include "core/base/index.h"
 #include "core/model/field_evaluation.h"
+#include "core/response/tool_coupling.h"
 
 namespace palpate::testing {
 
@@ -163,29 +164,39 @@ TEST(ContactDimple, IsContinuousOverTheEdgesOfItsTriangles) {
   }
 }
 
-TEST(FieldAt, AnotherTouchGivesTheFieldOfTheWholeSurface) {
+TEST(AddOthersAt, AddsTheFieldOfTheWholeSurface) {
   Random random;
   FieldScratch scratch(organ());
   for (int trial = 0; trial < 100; ++trial) {
-    const FieldSource source{random.contactPoint(), random.vector(0.004), 0.7};
-    const ContactPoint at = random.contactPoint();
+    const ContactPoint s = random.contactPoint();
+    const Vec3 d = random.vector(0.004);
+    const ToolPart part{s, d, d + random.vector(0.004), 0.7};
+    std::array<FieldSource, 2> sources = ownField(organ(), s, d, part.own);
+    for (FieldSource& source : sources) source.gain *= part.gain;
+    const std::array<ContactPoint, 3> at{random.contactPoint(), s, ContactPoint{}};
     std::vector<float> u(organ().view().surface_positions.size());
-    evaluateField(organ(), std::span(&source, 1), scratch, u);
-    Vec3 found;
-    fieldAt(organ(), std::span(&source, 1), scratch, std::span(&at, 1), std::span(&found, 1));
-    const Vec3 expected = interpolated(u, at);
-    EXPECT_LT((found - expected).norm(), 1e-6 * source.parameter.norm()) << trial;
+    evaluateField(organ(), sources, scratch, u);
+    const Vec3 before = random.vector(0.001);
+    std::array<Vec3, 3> found{before, before, before};
+    addOthersAt(organ(), std::span(&part, 1), scratch, at, found);
+    EXPECT_LT((found[0] - before - interpolated(u, at[0])).norm(), 1e-5 * (d.norm() + part.own.norm())) << trial;
+    EXPECT_EQ(found[1], before) << "its own anchor";
+    EXPECT_EQ(found[2], before) << "no place";
   }
 }
 
-TEST(ComplianceBetween, IsTheLinearFieldOfOnePatchAveragedOverTheOther) {
+/// What unit forces on one patch do to another at rest.
+Mat3 complianceBetween(const ContactPoint& from, const ContactPoint& to, FieldScratch& scratch) {
+  return patchMotion(organ(), from, Vec3::Zero(), 1e-5, to, scratch).slope() * stiffnessAt(from).inverse();
+}
+
+TEST(PatchMotion, AtRestIsTheLinearFieldOfOnePatchAveragedOverTheOther) {
   Random random;
   FieldScratch scratch(organ());
   for (int trial = 0; trial < 100; ++trial) {
     const ContactPoint a = random.contactPoint(), b = trial == 0 ? a : random.contactPoint();
-    const Mat3 C =
-        complianceBetween(organ(), scratch.touchAt(organ(), a), scratch.touchAt(organ(), b), scratch)[0];
-    const PatchNodes& patch = scratch.touchAt(organ(), b).nodes();
+    const Mat3 C = complianceBetween(a, b, scratch);
+    const PatchNodes& patch = scratch.touchAt(organ(), b).patch.nodes();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double f = 1e-7;  // N, so small that the rest of the field vanishes
       const std::vector<float> u = field(a, f * stiffnessAt(a).inverse().col(axis));
@@ -198,38 +209,16 @@ TEST(ComplianceBetween, IsTheLinearFieldOfOnePatchAveragedOverTheOther) {
   }
 }
 
-TEST(ComplianceBetween, ItsSlopesAreItsDerivativesAsTheOtherPatchMoves) {
-  constexpr double kStep = 1e-3;  // single precision is at 1e-7
-  Random random;
-  for (int trial = 0; trial < 30; ++trial) {
-    FieldScratch scratch(organ());
-    const ContactPoint a = random.contactPoint();
-    ContactPoint b = random.contactPoint();
-    for (double& l : b.barycentric) l = 0.1 + 0.7 * l;  // far from the edges
-    const auto to = [&](const ContactPoint& s) {
-      return complianceBetween(organ(), scratch.touchAt(organ(), a), scratch.touchAt(organ(), s), scratch);
-    };
-    const std::array<Mat3, 4> here = to(b);
-    for (std::size_t k = 0; k < 2; ++k) {
-      ContactPoint ahead = b, behind = b;
-      ahead.barycentric[k] += kStep, ahead.barycentric[2] -= kStep;
-      behind.barycentric[k] -= kStep, behind.barycentric[2] += kStep;
-      const Mat3 slope = (to(ahead)[0] - to(behind)[0]) / (2.0 * kStep);
-      EXPECT_LE((here[k + 1] - here[3] - slope).norm(), 1e-3 * here[0].norm() + 1e-2 * slope.norm()) << trial;
-    }
-  }
-}
-
 TEST(FieldScratch, APatchStaysWhileOthersMove) {
   FieldScratch scratch(organ());
   Random random;
   const ContactPoint still = random.contactPoint();
-  const TouchPatch& patch = scratch.touchAt(organ(), still);
+  const TouchPatch& patch = scratch.touchAt(organ(), still).patch;
   for (int tick = 0; tick < 20; ++tick) {
-    ASSERT_EQ(&scratch.touchAt(organ(), still), &patch) << tick;
+    ASSERT_EQ(&scratch.touchAt(organ(), still).patch, &patch) << tick;
     for (int tool = 1; tool < kMaxTools; ++tool) {
       const ContactPoint moved = random.contactPoint();
-      ASSERT_EQ(scratch.touchAt(organ(), moved).s(), moved);
+      ASSERT_EQ(scratch.touchAt(organ(), moved).patch.s(), moved);
       ASSERT_EQ(patch.s(), still) << tick << ", tool " << tool;
     }
   }

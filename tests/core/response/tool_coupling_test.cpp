@@ -135,7 +135,9 @@ TEST(ContactPatchesOfAModel, RefusesPatchesThatWouldFillTheMemory) {
   }
 }
 
-TEST(PatchDisplacement, IsTheFieldAveragedOverThePatch) {
+constexpr double kStep = 1e-5;  // m
+
+TEST(PatchMotion, IsTheFieldAveragedOverThePatch) {
   for (const Parameters parameters : {Parameters::kDisplacement, Parameters::kForce, Parameters::kLevel}) {
     SyntheticOptions options = kSmall;
     options.parameters = parameters;
@@ -144,22 +146,44 @@ TEST(PatchDisplacement, IsTheFieldAveragedOverThePatch) {
     std::mt19937 random(3);
     double near = 0.0;
     for (int trial = 0; trial < 200; ++trial) {
-      const Vec3 p =
-          parameters == Parameters::kDisplacement ? anyVector(random, 0.006) : anyVector(random, 0.8);
-      const FieldSource source{anyPoint(model, random), p, 0.001 * (random() % 1000U)};
-      const ContactPoint at = anyPoint(model, random);
-      const Vec3 expected = plainAverage(model, at, fieldOf(model, source));
-      const Vec3 found = patchDisplacement(model, source, at, scratch);
+      const ContactPoint s = anyPoint(model, random), at = anyPoint(model, random);
+      const Vec3 d = anyVector(random, 0.006);
+      const Vec3 expected = plainAverage(model, at, fieldOf(model, ownPart(model, s, d)));
+      const Vec3 found = patchMotion(model, s, d, kStep, at, scratch).at(Vec3::Zero());
       EXPECT_LT((found - expected).norm(), 2e-6 * expected.norm() + 1e-9) << found << "\n\n" << expected;
-      const double gap = (model.surface().position(at) - model.surface().position(source.s)).norm();
+      const double gap = (model.surface().position(at) - model.surface().position(s)).norm();
       near = std::max(near, gap < 0.03 ? expected.norm() : 0.0);
     }
     EXPECT_GT(near, 1e-4) << "no pair was near";
   }
 }
 
-TEST(PatchDisplacement, ItsSlopeIsItsDerivativeAsThePatchMoves) {
-  constexpr double kStep = 2e-3;       // of the weights
+TEST(PatchMotion, ItsSlopeIsItsDerivativeByWhatTheToolImposes) {
+  for (const Parameters parameters : {Parameters::kDisplacement, Parameters::kForce}) {
+    SyntheticOptions options = kSmall;
+    options.parameters = parameters;
+    const MetaModel model = loadSynthetic(options);
+    FieldScratch scratch(model);
+    std::mt19937 random(5);
+    double largest = 0.0;
+    for (int trial = 0; trial < 60; ++trial) {
+      const ContactPoint s = anyPoint(model, random), at = anyPoint(model, random);
+      const Vec3 d = anyVector(random, 0.004), y = anyVector(random, 2e-4);
+      const auto moved = [&](const Vec3& by) {
+        return patchMotion(model, s, by, kStep, at, scratch).at(Vec3::Zero());
+      };
+      const PatchMotion motion = patchMotion(model, s, d, kStep, at, scratch);
+      const Vec3 change = 0.5 * (moved(d + y) - moved(d - y));
+      EXPECT_LT((motion.slope() * y - change).norm(), 0.02 * motion.slope().norm() * y.norm() + 1e-9) << trial;
+      EXPECT_EQ(motion.at(y), Vec3(motion.at(Vec3::Zero()) + motion.slope() * y));
+      largest = std::max(largest, change.norm() / y.norm());
+    }
+    EXPECT_GT(largest, 0.05);
+  }
+}
+
+TEST(PatchMotion, ItsSlopeAlongTheSurfaceIsItsDerivativeAsThePatchMoves) {
+  constexpr double kOfWeights = 2e-3;
   constexpr double kRounding = 4e-11;  // m; modes of some 0.1 mm in single precision, which may cancel
   for (const Parameters parameters : {Parameters::kDisplacement, Parameters::kForce}) {
     SyntheticOptions options = kSmall;
@@ -169,50 +193,60 @@ TEST(PatchDisplacement, ItsSlopeIsItsDerivativeAsThePatchMoves) {
     std::mt19937 random(8);
     double largest = 0.0;
     for (int trial = 0; trial < 60; ++trial) {
-      const double size = parameters == Parameters::kDisplacement ? 0.004 : 0.5;
-      const std::array<FieldSource, 2> sources{
-          FieldSource{anyPoint(model, random), anyVector(random, size), 1.0},
-          FieldSource{anyPoint(model, random), anyVector(random, size), -0.4}};
+      const ContactPoint s = anyPoint(model, random);
+      const Vec3 d = anyVector(random, 0.004), y = anyVector(random, 0.002);
       ContactPoint at = anyPoint(model, random);
       if (!model.surface().complete(at.triangle)) continue;
       for (double& l : at.barycentric) l = 0.1 + 0.7 * l;  // far from the edges
-      const auto moved = [&](const ContactPoint& s) {
-        Vec3 sum = Vec3::Zero();
-        for (const FieldSource& source : sources) sum += patchDisplacement(model, source, s, scratch);
-        return sum;
+      const auto moved = [&](const ContactPoint& to) {
+        return patchMotion(model, s, d, kStep, to, scratch).at(y);
       };
-      const Mat3 slope = patchDisplacementSlope(model, sources, at, scratch);
+      const Mat3 by_lambda = patchMotion(model, s, d, kStep, at, scratch).along(y);
+      const Mat3 slope = by_lambda * model.surface().slopes(at.triangle);
       const double size_of_slope = slope.norm();
       for (std::size_t k = 0; k < 2; ++k) {
         ContactPoint ahead = at, behind = at;
-        ahead.barycentric[k] += kStep, ahead.barycentric[2] -= kStep;
-        behind.barycentric[k] -= kStep, behind.barycentric[2] += kStep;
+        ahead.barycentric[k] += kOfWeights, ahead.barycentric[2] -= kOfWeights;
+        behind.barycentric[k] -= kOfWeights, behind.barycentric[2] += kOfWeights;
         const Vec3 way = model.surface().position(ahead) - model.surface().position(behind);
         EXPECT_LT((moved(ahead) - moved(behind) - slope * way).norm(),
                   2e-3 * size_of_slope * way.norm() + kRounding)
             << trial;
       }
       largest = std::max(largest, size_of_slope);
-      const auto* const corner = model.view().surface_triangles.data() + 3 * at.triangle;
-      const Vec3 n = (nodePosition(model, corner[1]) - nodePosition(model, corner[0]))
-                         .cross(nodePosition(model, corner[2]) - nodePosition(model, corner[0]))
-                         .normalized();
-      EXPECT_LT((slope * n).norm(), 1e-9 * size_of_slope) << "the patch does not leave the surface";
     }
     EXPECT_GT(largest, 1e-3);
   }
 }
 
-TEST(PatchDisplacement, IsZeroWhereThereIsNoAnswer) {
+TEST(PatchMotion, IsZeroWhereThereIsNoAnswer) {
   const MetaModel model = loadSynthetic(kSmall);
   FieldScratch scratch(model);
   const ContactPoint top = fromPole(model, 0.0), bottom = fromPole(model, 180.0);
-  EXPECT_EQ(patchDisplacement(model, {top, Vec3(0.0, 0.0, -0.003), 1.0}, bottom, scratch),
-            Vec3(Vec3::Zero()));
-  EXPECT_EQ(patchDisplacement(model, {bottom, Vec3(0.0, 0.0, 0.003), 1.0}, top, scratch), Vec3(Vec3::Zero()));
-  EXPECT_GT(
-      patchDisplacement(model, {top, Vec3(0.0, 0.0, -0.003), 1.0}, fromPole(model, 30.0), scratch).norm(),
-      1e-5);
+  const auto moved = [&](const ContactPoint& s, const ContactPoint& at) {
+    return patchMotion(model, s, Vec3(0.0, 0.0, -0.003), kStep, at, scratch).at(Vec3::Zero());
+  };
+  EXPECT_EQ(moved(top, bottom), Vec3(Vec3::Zero()));
+  EXPECT_EQ(moved(bottom, top), Vec3(Vec3::Zero()));
+  EXPECT_GT(moved(top, fromPole(model, 30.0)).norm(), 1e-5);
+}
+
+/// A touch is found once, whoever asks, and what was found for one d or place is not taken for another.
+TEST(PatchMotion, DoesNotDependOnWhatWasAskedBefore) {
+  const MetaModel model = loadSynthetic(kSmall);
+  FieldScratch used(model);
+  std::mt19937 random(13);
+  const std::array<ContactPoint, 3> places{fromPole(model, 0.0), fromPole(model, 25.0), fromPole(model, 50.0)};
+  const std::array<Vec3, 2> ds{Vec3(0.0, 0.001, -0.003), Vec3(0.001, 0.0, 0.002)};
+  for (int trial = 0; trial < 200; ++trial) {
+    const ContactPoint s = random() % 4U == 0 ? anyPoint(model, random) : places[random() % 3U];
+    const ContactPoint at = random() % 4U == 0 ? anyPoint(model, random) : places[random() % 3U];
+    const Vec3& d = ds[random() % 2U];
+    FieldScratch fresh(model);
+    const PatchMotion found = patchMotion(model, s, d, kStep, at, used);
+    const PatchMotion expected = patchMotion(model, s, d, kStep, at, fresh);
+    for (std::size_t k = 0; k < found.by.size(); ++k) ASSERT_EQ(found.by[k], expected.by[k]) << trial;
+  }
 }
 
 /// P_s of what all tools add, each as ownField() has it.
@@ -277,6 +311,24 @@ TEST(OwnDisplacements, OfOneToolOrAtRestAreThoseGiven) {
   EXPECT_EQ(own[1], rest[1]);
   ownDisplacements(model, s, d, scratch, own);
   EXPECT_GT(own[1].norm(), 1e-5) << "a tool that holds still takes no part";
+}
+
+TEST(Influence, AlongTheSurfaceHasNoPartAlongItsNormal) {
+  const MetaModel model = loadSynthetic(kSmall);
+  FieldScratch scratch(model);
+  const std::array<ContactPoint, 2> s{fromPole(model, 0.0), fromPole(model, 40.0)};
+  const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3(-0.0005, 0.0, -0.001)};
+  std::array<Vec3, 2> own;
+  Influence influence;
+  ownDisplacements(model, s, d, scratch, own, &influence);
+  for (std::size_t a = 0; a < 2; ++a) {
+    const auto* const corner = model.view().surface_triangles.data() + 3 * s[a].triangle;
+    const Vec3 n = (nodePosition(model, corner[1]) - nodePosition(model, corner[0]))
+                       .cross(nodePosition(model, corner[2]) - nodePosition(model, corner[0]))
+                       .normalized();
+    EXPECT_GT(influence.along[a].norm(), 1e-3);
+    EXPECT_LT((influence.along[a] * n).norm(), 1e-9 * influence.along[a].norm()) << "the patch does not leave the surface";
+  }
 }
 
 TEST(OwnField, OfAToolAloneIsItsField) {

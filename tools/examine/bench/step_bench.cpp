@@ -78,6 +78,7 @@ void registerSteps(const MetaModel& model) {
   };
   add("step/default/one_tool", 1);
   add("step/default/two_tools", 2);
+  add("step/default/four_tools", 4);
 }
 
 }  // namespace palpate::bench

@@ -18,7 +18,7 @@ struct StepTimes {
 /// @param[in] tools  1 to 4, each on its own path  @param[in] ways paths to play, of `length` m each
 [[nodiscard]] StepTimes timeSteps(const MetaModel& model, int tools, int ways, double length);
 
-/// Registers step/default/one_tool and step/default/two_tools. `model` must live until the benchmarks have run.
+/// Registers step/default/one_tool, two_tools and four_tools. `model` must live until the benchmarks have run.
 void registerSteps(const MetaModel& model);
 
 }  // namespace palpate::bench
