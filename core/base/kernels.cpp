@@ -134,14 +134,14 @@ HWY_INLINE void addFourTogether(const std::int16_t* const (&a)[4], const float (
       for (std::size_t k = 0; k < 4; ++k) y[c * length + i] += w[k][c] * static_cast<float>(a[k][i]);
 }
 
-void AddRowsTogether(const ScaledRows& rows, const float* weight, float factor, float* y) {
+void AddRowsTogether(const ScaledRows& rows, const float* weight, float* y) {
   for (std::size_t r = 0; r < rows.count; r += 4) {
     const std::int16_t* a[4];
     float w[4][kTogether];
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t row = std::min(r + k, rows.count - 1);
       a[k] = rows.A + row * rows.length;
-      const float scale = r + k < rows.count ? factor * rows.scale[row] : 0.0F;
+      const float scale = r + k < rows.count ? rows.scale[row] : 0.0F;
       for (std::size_t c = 0; c < kTogether; ++c) w[k][c] = scale * weight[kTogether * row + c];
     }
     addFourTogether(a, w, rows.length, y);
@@ -154,47 +154,45 @@ void AddGroups(const PlacedGroups& groups, const double* weight, float* y) {
       return groups.rows * static_cast<std::size_t>(groups.number[i]) + r;
     };
     mixAll<true>([&](std::size_t i) { return groups.A + rowOf(i) * groups.length; },
-                 [&](std::size_t i) { return static_cast<float>(weight[i]) * groups.scale[rowOf(i)]; }, groups.count,
-                 groups.length, y + r * groups.length);
+                 [&](std::size_t i) { return static_cast<float>(weight[i]) * groups.scale[rowOf(i)]; },
+                 groups.count, groups.length, y + r * groups.length);
   }
 }
 
 void AddWholeVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
-                     const std::array<float, 3>& weight, float* u) {
-  const auto toOf = [&](std::size_t i, std::size_t r) {
-    return u + kNodeFloats * static_cast<std::size_t>(node[i]) + 4 * r;
-  };
-  std::size_t i = 0;
-#if HWY_TARGET != HWY_SCALAR
-  const hn::FixedTag<float, 4> d;  // a vector and a number behind it, which the last has not
-  const auto w0 = hn::Set(d, weight[0]), w1 = hn::Set(d, weight[1]), w2 = hn::Set(d, weight[2]);
-  const std::int16_t *const a = field, *const b = field + 3 * count, *const c = field + 6 * count;
-  for (; i + 1 < count; ++i) {
-    float* const to = toOf(i, 0);
-    hn::StoreU(hn::MulAdd(w0, load(d, a + 3 * i), hn::LoadU(d, to)), d, to);
-    hn::StoreU(hn::MulAdd(w1, load(d, b + 3 * i), hn::LoadU(d, to + 4)), d, to + 4);
-    hn::StoreU(hn::MulAdd(w2, load(d, c + 3 * i), hn::LoadU(d, to + 8)), d, to + 8);
+                     const std::array<float, kNodeFloats>& weight, float* u) {
+  const hn::CappedTag<float, kNodeFloats> d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int16_t* const from = field + kThreeVectors * i;
+    float* const to = u + kNodeFloats * static_cast<std::size_t>(node[i]);
+    for (std::size_t k = 0; k < kThreeVectors; k += lanes)
+      hn::StoreU(hn::MulAdd(hn::LoadU(d, weight.data() + k), load(d, from + k), hn::LoadU(d, to + k)), d,
+                 to + k);
   }
-#endif
-  for (; i < count; ++i)
-    for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        toOf(i, r)[axis] += weight[r] * static_cast<float>(field[3 * (r * count + i) + axis]);
 }
 
-void AddVectors(const float* y, const std::int32_t* node, std::size_t count, float* u) {
+void AddVectors(const float* y, const std::int32_t* node, std::size_t count, float factor, float* u) {
+  const hn::CappedTag<float, 4> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto times = hn::Set(d, factor);
   for (std::size_t i = 0; i < count; ++i) {
     float* const to = u + kNodeFloats * static_cast<std::size_t>(node[i]);
-    for (std::size_t c = 0; c < kTogether; ++c) {
-      const float* const from = y + 3 * (c * count + i);
-#if HWY_TARGET != HWY_SCALAR
-      const hn::FixedTag<float, 4> d;
-      hn::StoreU(hn::Add(hn::LoadU(d, to + 4 * c), hn::LoadU(d, from)), d, to + 4 * c);
-#else
-      for (std::size_t axis = 0; axis < 3; ++axis) to[4 * c + axis] += from[axis];
-#endif
-    }
+    for (std::size_t c = 0; c < kTogether; ++c)
+      for (std::size_t k = 0; k < 4; k += lanes)
+        hn::StoreU(hn::MulAdd(times, hn::LoadU(d, y + 3 * (c * count + i) + k), hn::LoadU(d, to + 4 * c + k)),
+                   d, to + 4 * c + k);
   }
+}
+
+void AddScaled(const float* from, float factor, std::size_t length, float* y) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto times = hn::Set(d, factor);
+  std::size_t i = 0;
+  for (; i + lanes <= length; i += lanes)
+    hn::StoreU(hn::MulAdd(times, hn::LoadU(d, from + i), hn::LoadU(d, y + i)), d, y + i);
+  for (; i < length; ++i) y[i] += factor * from[i];
 }
 
 template <class D>
@@ -313,6 +311,7 @@ HWY_EXPORT(AddRowsTogether);
 HWY_EXPORT(AddGroups);
 HWY_EXPORT(AddWholeVectors);
 HWY_EXPORT(AddVectors);
+HWY_EXPORT(AddScaled);
 HWY_EXPORT(MixRowsTogether);
 HWY_EXPORT(DotRows);
 HWY_EXPORT(AllFinite);
@@ -330,9 +329,8 @@ void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PAL
   HWY_DYNAMIC_DISPATCH(AddRows)(rows, weight, y);
 }
 
-void addRowsTogether(const ScaledRows& rows, const float* weight, float factor,
-                     float* y) noexcept PALPATE_NONBLOCKING {
-  HWY_DYNAMIC_DISPATCH(AddRowsTogether)(rows, weight, factor, y);
+void addRowsTogether(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddRowsTogether)(rows, weight, y);
 }
 
 void addGroups(const PlacedGroups& groups, const double* weight, float* y) noexcept PALPATE_NONBLOCKING {
@@ -340,13 +338,17 @@ void addGroups(const PlacedGroups& groups, const double* weight, float* y) noexc
 }
 
 void addVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
-                const std::array<float, 3>& weight, float* u) noexcept PALPATE_NONBLOCKING {
+                const std::array<float, kNodeFloats>& weight, float* u) noexcept PALPATE_NONBLOCKING {
   HWY_DYNAMIC_DISPATCH(AddWholeVectors)(field, node, count, weight, u);
 }
 
-void addVectors(const float* y, const std::int32_t* node, std::size_t count,
+void addVectors(const float* y, const std::int32_t* node, std::size_t count, float factor,
                 float* u) noexcept PALPATE_NONBLOCKING {
-  HWY_DYNAMIC_DISPATCH(AddVectors)(y, node, count, u);
+  HWY_DYNAMIC_DISPATCH(AddVectors)(y, node, count, factor, u);
+}
+
+void addScaled(const float* from, float factor, std::span<float> y) noexcept PALPATE_NONBLOCKING {
+  HWY_DYNAMIC_DISPATCH(AddScaled)(from, factor, y.size(), y.data());
 }
 
 void mixRowsTogether(const PlacedFloats& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING {

@@ -30,9 +30,8 @@ void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PAL
 /// Sums that are taken at once: a row is read for all of them.
 inline constexpr std::size_t kTogether = 4;
 
-/// y[c] += factor * sum_r weight[r][c] * row r. @param weight  [count][kTogether]  @param y  [kTogether][length]. Real-time: yes.
-void addRowsTogether(const ScaledRows& rows, const float* weight, float factor,
-                     float* y) noexcept PALPATE_NONBLOCKING;
+/// y[c] += sum_r weight[r][c] * row r. @param weight  [count][kTogether]  @param y  [kTogether][length]. Real-time: yes.
+void addRowsTogether(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING;
 
 /// Groups of rows of whole numbers, as many in each, here and there: `rows` rows of group number[i], i < count.
 struct PlacedGroups {
@@ -50,14 +49,21 @@ void addGroups(const PlacedGroups& groups, const double* weight, float* y) noexc
 /// Vectors of nodes lie kNodeFloats apart: kTogether of them, of which the fourth numbers have no meaning.
 inline constexpr std::size_t kNodeFloats = 4 * kTogether;
 
-/// u[node[i]][r] += weight[r] * row r [i], for three rows of vectors. @param field  [3][count][3]  @param u  [Ns][kNodeFloats].
-/// Real-time: yes.
-void addVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
-                const std::array<float, 3>& weight, float* u) noexcept PALPATE_NONBLOCKING;
+/// Numbers of three vectors of a node.
+inline constexpr std::size_t kThreeVectors = 12;
 
-/// u[node[i]][c] += y[c][i]. @param y  [kTogether][count][3], and a number behind  @param u  [Ns][kNodeFloats]. Real-time: yes.
-void addVectors(const float* y, const std::int32_t* node, std::size_t count,
+/// u[node[i]] += weight * field[i], number by number, for three vectors of each node. @param field  [count][kThreeVectors], and
+/// four numbers behind  @param weight  of each number, and four zeros behind  @param u  [Ns][kNodeFloats]. Real-time: yes.
+void addVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
+                const std::array<float, kNodeFloats>& weight, float* u) noexcept PALPATE_NONBLOCKING;
+
+/// u[node[i]][c] += factor * y[c][i]. @param y  [kTogether][count][3], and a number behind  @param u  [Ns][kNodeFloats].
+/// Real-time: yes.
+void addVectors(const float* y, const std::int32_t* node, std::size_t count, float factor,
                 float* u) noexcept PALPATE_NONBLOCKING;
+
+/// y += factor * from. @param from  as long as y. Real-time: yes.
+void addScaled(const float* from, float factor, std::span<float> y) noexcept PALPATE_NONBLOCKING;
 
 /// Rows that lie here and there: number r is at A + length * row[r], r < count.
 struct PlacedFloats {

@@ -16,7 +16,7 @@ void ToolGroup::feelEachOther() noexcept PALPATE_NONBLOCKING {
     pressing_[count_++] = i;
   }
   if (count_ == 0) return;
-  ownDisplacements(model_, std::span(s_).first(count_), std::span(d_).first(count_), scratch_, own_,
+  ownDisplacements(model_, std::span(s_).first(count_), std::span(d_).first(count_), touches_, own_,
                    &influence_);
   for (std::size_t i = 0; i < count_; ++i) {
     const Mat3& slope = influence_.by_d[i][i];
@@ -31,12 +31,17 @@ void ToolGroup::feelEachOther() noexcept PALPATE_NONBLOCKING {
 /// What tools in the air would find displaced.
 void ToolGroup::approach() noexcept PALPATE_NONBLOCKING {
   const double step = tangentStep(std::span(d_).first(count_));
-  for (Contact* const place : contacts_) {
-    if (place == nullptr || !place->isFree() || place->s.triangle < 0) continue;
-    Contact& contact = *place;
-    for (std::size_t i = 0; i < count_; ++i)
+  std::size_t place = count_;  // of a touch that no pressing tool has
+  for (Contact* const tool : contacts_) {
+    if (tool == nullptr || !tool->isFree() || tool->s.triangle < 0) continue;
+    Contact& contact = *tool;
+    if (count_ > 0) touches_.all[place].patch.moveTo(model_, contact.s);
+    for (std::size_t i = 0; i < count_; ++i) {
+      touchWith(model_, s_[i], d_[i], step, touches_.all[i]);
       contact.carried.constant +=
-          patchMotion(model_, s_[i], d_[i], step, contact.s, scratch_).at(own_[i] - d_[i]);
+          patchMotion(model_, touches_.all[i], touches_.all[place]).at(own_[i] - d_[i]);
+    }
+    ++place;
     if (!contact.carried.constant.allFinite())
       contact.carried = {};  // otherwise no point would be searched again
   }

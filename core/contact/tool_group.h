@@ -8,8 +8,8 @@
 #include "core/base/max_tools.h"
 #include "core/base/types.h"
 #include "core/contact/contact.h"
-#include "core/model/field_evaluation.h"
 #include "core/model/meta_model.h"
+#include "core/model/touch_field.h"
 #include "core/response/tool_coupling.h"
 
 namespace palpate {
@@ -24,10 +24,10 @@ class ToolGroup {
   /// By tool; none where no pose of the tool was seen.
   using Contacts = std::array<Contact*, kMaxTools>;
 
-  ToolGroup(const MetaModel& model, const Contacts& contacts,
-            FieldScratch& scratch) noexcept PALPATE_NONBLOCKING : model_(model),
-                                                                  contacts_(contacts),
-                                                                  scratch_(scratch) {}
+  ToolGroup(const MetaModel& model, const Contacts& contacts, Touches& touches) noexcept PALPATE_NONBLOCKING
+      : model_(model),
+        contacts_(contacts),
+        touches_(touches) {}
 
   /// Sets each contact's `carried`. Real-time: yes.
   void feelEachOther() noexcept PALPATE_NONBLOCKING;
@@ -39,7 +39,7 @@ class ToolGroup {
 
   const MetaModel& model_;
   Contacts contacts_;
-  FieldScratch& scratch_;
+  Touches& touches_;
   std::size_t count_{0};                           // of tools in contact:
   std::array<std::size_t, kMaxTools> pressing_{};  // their numbers, rising,
   std::array<ContactPoint, kMaxTools> s_;          // where they are

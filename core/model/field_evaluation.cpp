@@ -12,11 +12,6 @@ namespace palpate {
 
 namespace {
 
-template <std::size_t... I>
-std::array<Touch, sizeof...(I)> touches(const MetaModel& model, std::index_sequence<I...> /*all*/) {
-  return {((void)I, Touch(model))...};
-}
-
 using Functions = std::array<double, MonomialBasis::kMaxCoefficients>;
 
 /// One source that the model answers.
@@ -83,17 +78,7 @@ FieldScratch::FieldScratch(const MetaModel& model)
       near_block(std::max(
           {model.nearField().blockSize(), model.edgeField().blockSize(), model.linearField().blockSize()})),
       patch(model.patches().room()),
-      loads(model.linearField().room(patch.node.size())),
-      touches(palpate::touches(model, std::make_index_sequence<kMaxTools + 1>{})) {}
-
-Touch& FieldScratch::touchAt(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
-  std::size_t place = 0;  // of the patch itself, else of the one to give up
-  for (std::size_t i = 0; i < touches.size() && !(touches[place].patch.s() == s); ++i)
-    if (touches[i].patch.s() == s || asked[i] < asked[place]) place = i;
-  asked[place] = ++questions;
-  touches[place].patch.moveTo(model, s);  // nothing to do where it is there
-  return touches[place];
-}
+      loads(model.linearField().room(patch.node.size())) {}
 
 Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
                     std::span<double> values) noexcept PALPATE_NONBLOCKING {
@@ -149,7 +134,8 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
     if (!answer(model, source, values, at)) continue;
     const Stencil stencil = fieldStencil(model, source.s);
     forEachNear(model, source.s, stencil, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
-      part.field.add(part.source, at.modes.first(part.rows), source.gain * part.weight, scratch.near_block, u);
+      part.field.add(part.source, at.modes.first(part.rows), source.gain * part.weight, scratch.near_block,
+                     u);
     });
     if (!model.isDisplacementDriven()) continue;
     model.patches().at(source.s, false, scratch.patch);

@@ -12,8 +12,6 @@
 #include "core/base/types.h"
 #include "core/model/meta_model.h"
 #include "core/model/near_parts.h"
-#include "core/model/touch_field.h"
-#include "core/model/touch_patch.h"
 
 namespace palpate {
 
@@ -31,15 +29,6 @@ Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
 void fieldGradients(const MetaModel& model, const Vec3& d, double limit,
                     std::span<Vec3> gradient) noexcept PALPATE_NONBLOCKING;
 
-/// A touch that others are asked about: its patch, and its field where that is asked for.
-struct Touch {
-  explicit Touch(const MetaModel& model) : patch(model), field(model) {}
-  TouchPatch patch;
-  TouchField field;
-  Vec3 d = Vec3::Zero();  ///< that `field` is for, m,
-  double step{0.0};       ///< and over which differences, m
-};
-
 /// Scratch of the field evaluation; one per thread, allocated before the loop.
 struct FieldScratch {
   explicit FieldScratch(const MetaModel& model);
@@ -47,14 +36,6 @@ struct FieldScratch {
   std::vector<float> near_block;  ///< the largest of the near fields
   PatchNodes patch;               ///< of the tool that is being evaluated
   PatchSources loads;             ///< of its patch
-  /// Of tools, as they were used last: a tool that sticks finds its own again.
-  std::array<Touch, kMaxTools + 1> touches;
-  std::array<std::uint64_t, kMaxTools + 1> asked{};  ///< the how many-th question each answered last
-  std::uint64_t questions{0};
-
-  /// The touch at s, in the place of the one that was not asked for the longest: the reference holds while fewer than
-  /// kMaxTools + 1 others are asked for. Real-time: yes.
-  Touch& touchAt(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING;
 };
 
 /// One tool's part in a field.

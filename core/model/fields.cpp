@@ -52,11 +52,11 @@ void Amplitudes::addRows(std::span<const std::int32_t> source, const double* wei
   addGroups({Y_.data(), scale_.data(), rows_, modes_, source.data(), source.size()}, weight, y.data());
 }
 
-void Amplitudes::addTogether(std::int32_t source, std::span<const float> weight, double factor,
+void Amplitudes::addTogether(std::int32_t source, std::span<const float> weight,
                              std::span<float> y) const noexcept PALPATE_NONBLOCKING {
   const std::size_t first = index(source) * rows_;
   addRowsTogether({Y_.data() + first * modes_, scale_.data() + first, rows_, modes_}, weight.data(),
-                  static_cast<float>(factor), y.data());
+                  y.data());
 }
 
 SeparatedField::SeparatedField(const ModelView& view)
@@ -162,25 +162,13 @@ void NearField::add(std::int32_t source, std::span<const double> weight, double 
     for (std::size_t axis = 0; axis < 3; ++axis) u[3 * index(near.nodes[i]) + axis] += near.u[3 * i + axis];
 }
 
-void NearField::addUnits(std::int32_t source, double factor, NodeSum& u) const noexcept PALPATE_NONBLOCKING {
-  const std::size_t m = index(source);
-  const std::span<const std::int32_t> list = nodes(source);
-  std::array<float, 3> weight{};
-  for (std::size_t r = 0; r < 3; ++r)
-    weight[r] = static_cast<float>(factor) * arrays_.scale[3 * m + r];
-  addVectors(arrays_.field.data() + 9 * index(arrays_.offset[m]), list.data(), list.size(), weight, u.data());
-}
-
-void NearField::addTogether(std::int32_t source, std::span<const float> weight, double factor,
-                            std::span<float> scratch, NodeSum& u) const noexcept PALPATE_NONBLOCKING {
-  const std::size_t m = index(source);
-  const std::span<const std::int32_t> list = nodes(source);
-  std::fill_n(scratch.begin(), kTogether * 3 * list.size() + 1, 0.0F);
-  addRowsTogether({arrays_.field.data() + 3 * rows_ * index(arrays_.offset[m]), arrays_.scale.data() + m * rows_,
-                   weight.size() / kTogether, 3 * list.size()},
-                  weight.data(), static_cast<float>(factor), scratch.data());
-  u.reach(list);
-  addVectors(scratch.data(), list.data(), list.size(), u.data());
+void NearField::findTogether(std::int32_t source, std::span<const float> weight,
+                             std::span<float> u) const noexcept PALPATE_NONBLOCKING {
+  const std::size_t m = index(source), length = 3 * nodes(source).size();
+  std::fill(u.begin(), u.end(), 0.0F);
+  addRowsTogether({arrays_.field.data() + 3 * rows_ * index(arrays_.offset[m]),
+                   arrays_.scale.data() + m * rows_, weight.size() / kTogether, length},
+                  weight.data(), u.data());
 }
 
 std::vector<Vec3> pointsOf(std::span<const double> positions, std::span<const std::int32_t> nodes) {

@@ -10,7 +10,6 @@
 #include "core/base/contact_point.h"
 #include "core/base/types.h"
 #include "core/data/model_view.h"
-#include "core/model/node_sum.h"
 
 namespace palpate {
 
@@ -31,7 +30,7 @@ class Amplitudes {
   void addRows(std::span<const std::int32_t> source, const double* weight,
                std::span<float> y) const noexcept PALPATE_NONBLOCKING;
   /// kTogether of add() at once. @param weight  [rows][kTogether]  @param y  [kTogether][n]. Real-time: yes.
-  void addTogether(std::int32_t source, std::span<const float> weight, double factor,
+  void addTogether(std::int32_t source, std::span<const float> weight,
                    std::span<float> y) const noexcept PALPATE_NONBLOCKING;
 
  private:
@@ -105,12 +104,10 @@ class NearField {
   /// u += a block. @param scratch  blockSize(), @param u  [Ns][3]. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;
-  /// Of three rows, vector r: u += factor * row r. @param u  reached by the source's nodes(). Real-time: yes.
-  void addUnits(std::int32_t source, double factor, NodeSum& u) const noexcept PALPATE_NONBLOCKING;
-  /// kTogether of add() at once, vector c: u += factor * sum_r weight[r][c] * row r. @param weight  [rows][kTogether], or of the
-  /// first rows  @param scratch  kTogether blockSize() + 1. Real-time: yes.
-  void addTogether(std::int32_t source, std::span<const float> weight, double factor,
-                   std::span<float> scratch, NodeSum& u) const noexcept PALPATE_NONBLOCKING;
+  /// kTogether of block() at once: u[c] = sum_r weight[r][c] * row r. @param weight  [rows][kTogether], or of the first rows
+  /// @param u  [kTogether][K][3], and a number behind that is set to zero. Real-time: yes.
+  void findTogether(std::int32_t source, std::span<const float> weight,
+                    std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   /// The farthest of a block's nodes from its source, over all blocks, m. @param source  [sources] m  @param positions  [Ns][3]
   [[nodiscard]] double reach(std::span<const Vec3> source, std::span<const double> positions) const;
 

@@ -22,6 +22,19 @@ Loads loadOf(const PatchSources& from, std::size_t i, const Vec3& f) noexcept PA
 
 constexpr std::array<std::int32_t, 2> kNone{-1, -1};
 
+/// Vectors of four numbers, by node and load in place of load and node; four more numbers, as addVectors() asks for.
+std::vector<std::int16_t> nearByNode(const ModelView& view) {
+  std::vector<std::int16_t> out(kThreeVectors * view.green_near_node.size() + 4);
+  for (std::size_t g = 0; g < view.green_node.size(); ++g) {
+    const std::size_t first = index(view.green_offset[g]), count = index(view.green_offset[g + 1]) - first;
+    for (std::size_t load = 0; load < kLoads; ++load)
+      for (std::size_t i = 0; i < count; ++i)
+        std::copy_n(view.green_near.data() + 9 * first + 3 * (load * count + i), 3,
+                    out.data() + kThreeVectors * (first + i) + 4 * load);
+  }
+  return out;
+}
+
 }  // namespace
 
 LinearField::LinearField(const ModelView& view)
@@ -30,7 +43,10 @@ LinearField::LinearField(const ModelView& view)
       amplitudes_(view.green_Y, view.green_Y_scale, kLoads, view.modes()),
       near_(
           NearField::Arrays{view.green_offset, view.green_near_node, view.green_near, view.green_near_scale},
-          kLoads) {
+          kLoads),
+      near_offset_(view.green_offset),
+      near_scale_(view.green_near_scale),
+      near_by_node_(nearByNode(view)) {
   for (std::size_t g = 0; g < view.green_node.size(); ++g)
     sources_[index(view.green_node[g])][0] = static_cast<std::int32_t>(g);
   for (std::size_t f = 0; view.contactTriangles() < view.triangles() && f < view.contactTriangles(); ++f)
@@ -102,7 +118,16 @@ void LinearField::findUnitNear(const PatchSources& from, std::vector<std::int32_
     for (const std::int32_t source : sources) u.reach(near_.nodes(source));
     reached.assign(sources.begin(), sources.end());
   }
-  for (std::size_t i = 0; i < from.count; ++i) near_.addUnits(from.source[i], from.weight[i], u);
+  for (std::size_t i = 0; i < from.count; ++i) {
+    const std::size_t g = index(from.source[i]);
+    std::array<float, kNodeFloats> weight{};
+    for (std::size_t load = 0; load < kLoads; ++load)
+      std::fill_n(weight.data() + 4 * load, 3,
+                  static_cast<float>(from.weight[i]) * near_scale_[kLoads * g + load]);
+    const std::span<const std::int32_t> nodes = near_.nodes(from.source[i]);
+    addVectors(near_by_node_.data() + kThreeVectors * index(near_offset_[g]), nodes.data(), nodes.size(),
+               weight, u.data());
+  }
 }
 
 }  // namespace palpate

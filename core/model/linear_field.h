@@ -10,6 +10,7 @@
 #include "core/base/types.h"
 #include "core/data/model_view.h"
 #include "core/model/fields.h"
+#include "core/model/node_sum.h"
 #include "core/surface/contact_patches.h"
 
 namespace palpate {
@@ -65,6 +66,9 @@ class LinearField {
   std::size_t greens_;     // G
   Amplitudes amplitudes_;  // [G][3][n] Z, m/N
   NearField near_;         // [G], of 3 loads
+  std::span<const std::int64_t> near_offset_;  // [G + 1]
+  std::span<const float> near_scale_;          // [G][3]
+  std::vector<std::int16_t> near_by_node_;  // [sum K][kThreeVectors], so that one node's numbers lie together
   double reach_{0.0};
   bool shares_loads_{false};
 };

@@ -31,7 +31,8 @@ struct NearPart {
 };
 
 /// Calls add(NearPart) for the near fields that make up the one of a touch at s: of the stencil's positions, and of the edges
-/// round s with the weights 4 lambda_a lambda_b.                                              docs/design.md, Parts
+/// round s with the weights 4 lambda_a lambda_b. The same ones in the same order wherever s is in its triangle.
+///                                                                                            docs/design.md, Parts
 /// Real-time: as add is.
 template <class Add>
 void forEachNear(const MetaModel& model, const ContactPoint& s, const Stencil& stencil,
@@ -50,9 +51,8 @@ void forEachNear(const MetaModel& model, const ContactPoint& s, const Stencil& s
   const std::array<Vec3, 3> X = model.surface().corners(s.triangle);
   for (std::size_t k = 0; k < 3 && place[0] >= 0; ++k) {
     const double weight = 4.0 * s.barycentric[(k + 1) % 3] * s.barycentric[(k + 2) % 3];
-    if (weight > 0.0)
-      add(NearPart{model.edgeField(), place[3 + k] - positions, model.edgeCoefficients(), weight,
-                   0.5 * (X[(k + 1) % 3] + X[(k + 2) % 3]), model.reachOfEdges()});
+    add(NearPart{model.edgeField(), place[3 + k] - positions, model.edgeCoefficients(), weight,
+                 0.5 * (X[(k + 1) % 3] + X[(k + 2) % 3]), model.reachOfEdges()});
   }
 }
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/model/node_sum.h"
 
-#include <algorithm>
-
 namespace palpate {
 
 void NodeSum::zero() noexcept PALPATE_NONBLOCKING {
-  for (std::size_t i = 0; i < count_; ++i)
-    std::fill_n(u_.data() + kNodeFloats * index(reached_[i]), kNodeFloats, 0.0F);
+  for (std::size_t i = 0; i < count_; ++i) u_[index(reached_[i])] = {};
 }
 
 void NodeSum::clear() noexcept PALPATE_NONBLOCKING {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,7 +20,7 @@ class NodeSum {
   using Vectors = Eigen::Matrix<double, 3, kTogether>;
 
   /// @param nodes  Ns
-  explicit NodeSum(std::size_t nodes) : u_(kNodeFloats * nodes), reached_(nodes), is_reached_(nodes) {}
+  explicit NodeSum(std::size_t nodes) : u_(nodes), reached_(nodes), is_reached_(nodes) {}
 
   /// Zero at the nodes that were reached, which stay reached. Real-time: yes.
   void zero() noexcept PALPATE_NONBLOCKING;
@@ -28,10 +29,10 @@ class NodeSum {
   /// Says which nodes are added to. Real-time: yes.
   void reach(std::span<const std::int32_t> nodes) noexcept PALPATE_NONBLOCKING;
   /// [Ns][kNodeFloats], of which nodes that were reached may be changed.
-  [[nodiscard]] float* data() noexcept { return u_.data(); }
-  [[nodiscard]] const float* data() const noexcept { return u_.data(); }
+  [[nodiscard]] float* data() noexcept { return u_.data()->number.data(); }
+  [[nodiscard]] const float* data() const noexcept { return u_.data()->number.data(); }
   [[nodiscard]] Vectors at(std::int32_t node) const noexcept PALPATE_NONBLOCKING {
-    return vectorsOf(u_.data() + kNodeFloats * index(node));
+    return vectorsOf(u_[index(node)].number.data());
   }
   /// @param from  [kNodeFloats]
   [[nodiscard]] static Vectors vectorsOf(const float* from) noexcept PALPATE_NONBLOCKING {
@@ -39,7 +40,10 @@ class NodeSum {
   }
 
  private:
-  std::vector<float> u_;
+  struct alignas(64) Node {  // in one line of the processor's cache
+    std::array<float, kNodeFloats> number{};
+  };
+  std::vector<Node> u_;
   std::vector<std::int32_t> reached_;  // the first count_
   std::size_t count_{0};
   std::vector<std::uint8_t> is_reached_;  // [Ns]

@@ -24,8 +24,8 @@ void TouchPatch::moveTo(const MetaModel& model, const ContactPoint& s) noexcept 
   near_found_ = false;
   model.patches().at(s, true, nodes_);
   for (std::size_t j = 0; j < nodes_.count; ++j)
-    Eigen::Map<Eigen::Vector4f>(weight_.data() + kWeights * j)
-        << static_cast<float>(nodes_.weight[j]), nodes_.slope[j].cast<float>();
+    Eigen::Map<Eigen::Vector4f>(weight_.data() + kWeights * j) << static_cast<float>(nodes_.weight[j]),
+        nodes_.slope[j].cast<float>();
   model.farField().average(std::span(nodes_.node).first(nodes_.count), weight_, X_);
   if (!model.isDisplacementDriven()) return;
   model.linearField().find(nodes_, sources_);

@@ -4,8 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/base/index.h"
+#include "core/base/length.h"
 #include "core/model/clamp_to_length.h"
 #include "core/response/small_square.h"
 #include "core/surface/surface_mesh.h"
@@ -14,20 +16,11 @@ namespace palpate {
 
 namespace {
 
-/// Where polynomials end at s: r_max, f_max or t_max.
-double limitAt(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
-  return model.response().limit(model.surface().mix(s));
-}
-
 /// Of u at d, and of du/dd there; of a load-driven model by differences of length `step`.
 void findFunctions(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
                    TouchFunctions& out) noexcept PALPATE_NONBLOCKING {
   const auto size = index(model.functions().size());
-  if (model.surface().mix(s).count == 0) {
-    for (auto& functions : out) std::fill_n(functions.begin(), size, 0.0);
-    return;
-  }
-  const double limit = limitAt(model, s);
+  const double limit = model.response().limit(model.surface().mix(s));
   const auto evaluate = [&](const Vec3& at, std::span<double> values) noexcept PALPATE_NONBLOCKING {
     const FieldSource own = ownPart(model, s, at);
     (void)fieldFunctions(model, own.parameter, limit, values);
@@ -47,17 +40,12 @@ void findFunctions(const MetaModel& model, const ContactPoint& s, const Vec3& d,
   }
 }
 
-/// The touch at s with the field of a tool that imposes d.
-Touch& touchOf(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
-               FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  Touch& touch = scratch.touchAt(model, s);
-  if (touch.field.isAt(s) && touch.d == d && touch.step == step) return touch;
-  TouchFunctions functions;
-  findFunctions(model, s, d, step, functions);
-  touch.field.set(model, touch.patch, functions);
-  touch.d = d;
-  touch.step = step;
-  return touch;
+/// The point of the lattice that is nearest to d.
+Vec3 latticePoint(const MetaModel& model, const Vec3& d) noexcept PALPATE_NONBLOCKING {
+  const double part = model.functions().reference() / kLatticeParts;
+  Vec3 point;
+  for (Eigen::Index i = 0; i < 3; ++i) point[i] = part * std::round(d[i] / part);
+  return point;
 }
 
 }  // namespace
@@ -69,14 +57,34 @@ double tangentStep(std::span<const Vec3> d) noexcept PALPATE_NONBLOCKING {
   return std::max(kShare * length, kLeast);
 }
 
-PatchMotion patchMotion(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
-                        const ContactPoint& at, FieldScratch& scratch) noexcept PALPATE_NONBLOCKING {
-  Touch& from = touchOf(model, s, d, model.isDisplacementDriven() ? 0.0 : step, scratch);
-  return from.field.on(model, from.patch, scratch.touchAt(model, at).patch);
+void touchWith(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
+               Touch& touch) noexcept PALPATE_NONBLOCKING {
+  touch.patch.moveTo(model, s);
+  const PositionMix mix = model.surface().mix(s);
+  TouchField::Origin origin{s.triangle, index(mix.count), d, 0.0, step};
+  if (model.isDisplacementDriven()) {
+    origin.d = latticePoint(model, d);
+    origin.step = 0.0;
+    const double limit = model.response().limit(mix);
+    if (lengthOf(origin.d) > limit) origin.limit = limit;
+  }
+  if (!(touch.field.origin() == origin)) {
+    TouchFunctions functions;
+    findFunctions(model, s, origin.d, step, functions);
+    touch.field.moveOrigin(model, origin, functions);
+  } else if (touch.field.s() == s && touch.field.d() == d) {
+    return;
+  }
+  touch.field.set(model, touch.patch, d);
 }
 
 FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
                     const Vec3& d) noexcept PALPATE_NONBLOCKING {
+  if (model.isDisplacementDriven()) {
+    const Vec3 shown = clampToLength(d, kShownRadii * model.response().limit(model.surface().mix(s)));
+    const double length = lengthOf(shown);
+    return {s, shown, length > 0.0 ? lengthOf(d) / length : 1.0};
+  }
   Response response;
   const ResponseStatus status = respond(model, s, d, response);
   FieldSource source{s, response.parameter, 1.0};
@@ -88,7 +96,7 @@ FieldSource ownPart(const MetaModel& model, const ContactPoint& s,
 }
 
 void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                      FieldScratch& scratch, std::span<Vec3> own,
+                      Touches& touches, std::span<Vec3> own,
                       Influence* influence) noexcept PALPATE_NONBLOCKING {
   const std::size_t tools = std::min<std::size_t>(s.size(), kMaxTools);
   std::copy(d.begin(), d.end(), own.begin());
@@ -103,10 +111,11 @@ void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, s
   SmallSquare slope(tools);
   std::array<Vec3, kMaxTools> moved;
   moved.fill(Vec3::Zero());
+  for (std::size_t a = 0; a < tools; ++a) touchWith(model, s[a], d[a], step, touches.all[a]);
   for (std::size_t b = 0; b < tools; ++b)
     for (std::size_t a = 0; a < tools; ++a) {
       if (a == b) continue;
-      motion[a][b] = patchMotion(model, s[b], d[b], step, s[a], scratch);
+      motion[a][b] = patchMotion(model, touches.all[b], touches.all[a]);
       moved[a] += motion[a][b].at(Vec3::Zero());
       slope.setPart(a, b, motion[a][b].slope());
     }
@@ -126,13 +135,24 @@ void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, s
   }
 }
 
+namespace {
+
+/// How long d is at which polynomials end, m.
+double seriesRadius(const MetaModel& model, const ContactPoint& s,
+                    const Vec3& d) noexcept PALPATE_NONBLOCKING {
+  if (model.isDisplacementDriven()) return model.response().limit(model.surface().mix(s));
+  Response there;
+  (void)respond(model, s, d, there);
+  return there.series_radius;
+}
+
+}  // namespace
+
 std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& s, const Vec3& d,
                                     const Vec3& own) noexcept PALPATE_NONBLOCKING {
   constexpr double kStep = 0.002;  // of r_max: short against it, long against rounding
   const Vec3 y = own - d;
-  Response there;
-  (void)respond(model, s, d, there);
-  const double share = std::min(1.0, kStep * there.series_radius / std::max(y.norm(), 1e-30));
+  const double share = std::min(1.0, kStep * seriesRadius(model, s, d) / std::max(y.norm(), 1e-30));
   if (!(share > 0.0)) return {ownPart(model, s, d), FieldSource{s, Vec3::Zero(), 0.0}};
   std::array<FieldSource, 2> part{ownPart(model, s, d), ownPart(model, s, d + share * y)};
   part[0].gain *= 1.0 - 1.0 / share;
@@ -140,14 +160,18 @@ std::array<FieldSource, 2> ownField(const MetaModel& model, const ContactPoint& 
   return part;
 }
 
-void addOthersAt(const MetaModel& model, std::span<const ToolPart> tools, FieldScratch& scratch,
+void addOthersAt(const MetaModel& model, std::span<const ToolPart> tools, Touches& touches,
                  std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING {
-  for (const ToolPart& tool : tools)
+  for (std::size_t b = 0; b < tools.size(); ++b) {
+    const ToolPart& tool = tools[b];
+    Touch& touch = touches.all[b];
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (points[i].triangle < 0 || points[i] == tool.s) continue;
-      Touch& from = touchOf(model, tool.s, tool.d, 0.0, scratch);
-      u[i] += tool.gain * from.field.at(model, from.patch, tool.own - tool.d, points[i], scratch.amplitudes);
+      touchWith(model, tool.s, tool.d, 0.0, touch);  // nothing to do for the other points
+      u[i] +=
+          tool.gain * touch.field.at(model, touch.patch, tool.own - tool.d, points[i], touches.amplitudes);
     }
+  }
 }
 
 }  // namespace palpate

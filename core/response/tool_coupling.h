@@ -9,6 +9,7 @@
 #include "core/base/types.h"
 #include "core/model/field_evaluation.h"
 #include "core/model/meta_model.h"
+#include "core/model/touch_field.h"
 #include "core/response/patch_response.h"
 
 namespace palpate {
@@ -22,14 +23,20 @@ namespace palpate {
 /// How long the differences are that derivatives by d of a load-driven model are taken by, m. @param d  of all tools, m
 [[nodiscard]] double tangentStep(std::span<const Vec3> d) noexcept PALPATE_NONBLOCKING;
 
-/// What a tool that imposes d by itself moves the contact patch at `at` by: P_at u, far plus near field, and its derivatives by d
-/// and by the place of that patch. Zero where the model has no answer at one of the two.      docs/design.md, Symbols, Parts
-/// @param step  tangentStep()
-/// Cost once for each s and each `at` O(k n), for each d O(C n), for each pair O(n + k): docs/decisions/several_tools.md.
-/// Real-time: yes. Threads: one per scratch.
-[[nodiscard]] PatchMotion patchMotion(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
-                                      const ContactPoint& at,
-                                      FieldScratch& scratch) noexcept PALPATE_NONBLOCKING;
+/// Makes `touch` that of a tool that imposes d at s by itself. Orders of two and more of a "displacement" model are found at the
+/// point d_0 of a lattice that is nearest to d, kLatticeParts points a d_ref, and go on along their slopes there.
+/// @param step  tangentStep(). Cost O(k n) for another s, O(C n) for another d_0 or triangle. Real-time: yes.
+void touchWith(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
+               Touch& touch) noexcept PALPATE_NONBLOCKING;
+inline constexpr double kLatticeParts = 64.0;
+
+/// What a touch moves the contact patch of another by: P_to u, far plus near field, and its derivatives by d and by the place of
+/// that patch. Zero where the model has no answer at one of the two.                          docs/design.md, Symbols, Parts
+/// @param from  touchWith()  @param to  its patch. Cost docs/decisions/several_tools.md. Real-time: yes.
+[[nodiscard]] inline PatchMotion patchMotion(const MetaModel& model, Touch& from,
+                                             const Touch& to) noexcept PALPATE_NONBLOCKING {
+  return from.field.on(model, from.patch, to.patch);
+}
 
 /// How e_A = d_A - d_own,A, the displacement of each patch that the others cause, changes, the tangents held fixed.
 struct Influence {
@@ -47,10 +54,10 @@ struct Influence {
 /// answer at a small price for its length: tools at one place that ask for different d would need any force.
 /// @param s  contact points, at most kMaxTools, all in contact  @param d  prescribed, m, finite, one for each
 /// @param[out] own  d_own, m; d itself for one tool
-/// @param[out] influence  if given; zero for one tool
+/// @param[out] touches  those of the tools, in their order, where there are two or more  @param[out] influence  if given; zero for one tool
 /// Cost tools * (tools - 1) patchMotion(), no iteration: docs/decisions/several_tools.md. Real-time: yes.
 void ownDisplacements(const MetaModel& model, std::span<const ContactPoint> s, std::span<const Vec3> d,
-                      FieldScratch& scratch, std::span<Vec3> own,
+                      Touches& touches, std::span<Vec3> own,
                       Influence* influence = nullptr) noexcept PALPATE_NONBLOCKING;
 
 /// One tool's part in the field of several, u(s, d) + u'(s, d) (own - d), as two sources of evaluateField() whose
@@ -67,8 +74,8 @@ struct ToolPart {
 };
 
 /// What tools add to fieldAt() at points that are not their own, of a "displacement" model. @param points  triangle -1: nothing
-/// @param[in,out] u  [points] m. Cost as patchMotion(). Real-time: yes. Threads: one per scratch.
-void addOthersAt(const MetaModel& model, std::span<const ToolPart> tools, FieldScratch& scratch,
+/// @param[out] touches  those of the tools, in their order  @param[in,out] u  [points] m. Real-time: yes.
+void addOthersAt(const MetaModel& model, std::span<const ToolPart> tools, Touches& touches,
                  std::span<const ContactPoint> points, std::span<Vec3> u) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

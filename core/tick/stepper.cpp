@@ -132,7 +132,7 @@ StepStatus Stepper::run(StepResult& result) noexcept PALPATE_NONBLOCKING {
   ToolGroup::Contacts contacts{};
   for (std::size_t i = 0; i < kMaxTools; ++i)
     if (work_.tools_[i].continuity.known()) contacts[i] = &work_.tools_[i].contact;
-  ToolGroup group(model_, contacts, work_.scratch_);
+  ToolGroup group(model_, contacts, work_.touches_);
   group.feelEachOther();
   for (std::size_t i = 0; i < kMaxTools; ++i) {
     advance(input_.tools[i], work_.tools_[i], result.tools[i]);

@@ -22,7 +22,8 @@ void Stepper::deform(StepResult& result) noexcept PALPATE_NONBLOCKING {
   surface.blend = ramp_time > 0.0 ? std::max(0.0, surface.blend - time_.ramp / ramp_time) : 0.0;
   findSources(model_, work_.tools_, surface.sources);
   std::array<Vec3, kMaxTools> u;
-  const bool finite = fieldAtAnchors(model_, work_.tools_, surface.sources.all(), work_.scratch_, u);
+  const bool finite =
+      fieldAtAnchors(model_, work_.tools_, surface.sources.all(), work_.scratch_, work_.touches_, u);
   for (std::size_t i = 0; i < kMaxTools; ++i) showAnchor(u[i], work_.tools_[i]);
   if (finite && input_.field_overflowed == 0) return;
   for (ToolResult& out : result.tools)

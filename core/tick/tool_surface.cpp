@@ -49,7 +49,7 @@ std::span<const ToolPart> findParts(std::span<const ToolMemory, kMaxTools> tools
 }  // namespace
 
 bool fieldAtAnchors(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools,
-                    std::span<const FieldSource> sources, FieldScratch& scratch,
+                    std::span<const FieldSource> sources, FieldScratch& scratch, Touches& touches,
                     std::span<Vec3, kMaxTools> u) noexcept PALPATE_NONBLOCKING {
   std::fill(u.begin(), u.end(), Vec3::Zero());
   if (sources.empty()) return true;
@@ -57,7 +57,7 @@ bool fieldAtAnchors(const MetaModel& model, std::span<const ToolMemory, kMaxTool
   for (std::size_t i = 0; i < tools.size(); ++i) anchors[i] = tools[i].contact.s;
   fieldAt(model, sources, scratch, anchors, u);
   std::array<ToolPart, kMaxTools> parts;
-  if (model.isDisplacementDriven()) addOthersAt(model, findParts(tools, parts), scratch, anchors, u);
+  if (model.isDisplacementDriven()) addOthersAt(model, findParts(tools, parts), touches, anchors, u);
   bool finite = true;
   for (Vec3& shown : u) {
     if (shown.allFinite()) continue;

@@ -17,6 +17,7 @@ void findSources(const MetaModel& model, std::span<const ToolMemory, kMaxTools> 
 /// @return false when the model overflows: u is zero there. Real-time: yes.
 [[nodiscard]] bool fieldAtAnchors(const MetaModel& model, std::span<const ToolMemory, kMaxTools> tools,
                                   std::span<const FieldSource> sources, FieldScratch& scratch,
+                                  Touches& touches,
                                   std::span<Vec3, kMaxTools> u) noexcept PALPATE_NONBLOCKING;
 
 }  // namespace palpate

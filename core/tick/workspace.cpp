@@ -29,6 +29,7 @@ Workspace::Workspace(const MetaModel& model, const StepConfig& config)
       solver_(ofEach(config, [](const ToolSettings& own) { return ContactSolver(own.tip_radius); })),
       tip_radius_(ofEach(config, [](const ToolSettings& own) { return own.tip_radius; })),
       limiter_(config),
-      scratch_(model) {}
+      scratch_(model),
+      touches_(model) {}
 
 }  // namespace palpate

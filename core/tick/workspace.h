@@ -7,6 +7,7 @@
 #include "core/contact/contact_solver.h"
 #include "core/model/field_evaluation.h"
 #include "core/model/meta_model.h"
+#include "core/model/touch_field.h"
 #include "core/tick/continuity.h"
 #include "core/tick/coupling_damper.h"
 #include "core/tick/force_limiter.h"
@@ -55,6 +56,7 @@ class Workspace {
   ForceLimiter limiter_;
   std::array<ToolMemory, kMaxTools> tools_{};
   FieldScratch scratch_;
+  Touches touches_;
   SurfaceState surface_;
   bool shaken_{false};  // a contact came or went at once: kOthersJumped in the next tick
 };

@@ -167,6 +167,7 @@ TEST(ContactDimple, IsContinuousOverTheEdgesOfItsTriangles) {
 TEST(AddOthersAt, AddsTheFieldOfTheWholeSurface) {
   Random random;
   FieldScratch scratch(organ());
+  Touches touches(organ());
   for (int trial = 0; trial < 100; ++trial) {
     const ContactPoint s = random.contactPoint();
     const Vec3 d = random.vector(0.004);
@@ -178,25 +179,24 @@ TEST(AddOthersAt, AddsTheFieldOfTheWholeSurface) {
     evaluateField(organ(), sources, scratch, u);
     const Vec3 before = random.vector(0.001);
     std::array<Vec3, 3> found{before, before, before};
-    addOthersAt(organ(), std::span(&part, 1), scratch, at, found);
-    EXPECT_LT((found[0] - before - interpolated(u, at[0])).norm(), 1e-5 * (d.norm() + part.own.norm())) << trial;
+    addOthersAt(organ(), std::span(&part, 1), touches, at, found);
+    EXPECT_LT((found[0] - before - interpolated(u, at[0])).norm(), 1e-5 * (d.norm() + part.own.norm()))
+        << trial;
     EXPECT_EQ(found[1], before) << "its own anchor";
     EXPECT_EQ(found[2], before) << "no place";
   }
 }
 
-/// What unit forces on one patch do to another at rest.
-Mat3 complianceBetween(const ContactPoint& from, const ContactPoint& to, FieldScratch& scratch) {
-  return patchMotion(organ(), from, Vec3::Zero(), 1e-5, to, scratch).slope() * stiffnessAt(from).inverse();
-}
-
 TEST(PatchMotion, AtRestIsTheLinearFieldOfOnePatchAveragedOverTheOther) {
   Random random;
-  FieldScratch scratch(organ());
+  Touches touches(organ());
+  Touch &from = touches.all[0], &to = touches.all[1];
   for (int trial = 0; trial < 100; ++trial) {
     const ContactPoint a = random.contactPoint(), b = trial == 0 ? a : random.contactPoint();
-    const Mat3 C = complianceBetween(a, b, scratch);
-    const PatchNodes& patch = scratch.touchAt(organ(), b).patch.nodes();
+    touchWith(organ(), a, Vec3::Zero(), 0.0, from);
+    to.patch.moveTo(organ(), b);
+    const Mat3 C = patchMotion(organ(), from, to).slope() * stiffnessAt(a).inverse();
+    const PatchNodes& patch = to.patch.nodes();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double f = 1e-7;  // N, so small that the rest of the field vanishes
       const std::vector<float> u = field(a, f * stiffnessAt(a).inverse().col(axis));
@@ -205,21 +205,6 @@ TEST(PatchMotion, AtRestIsTheLinearFieldOfOnePatchAveragedOverTheOther) {
         expected += patch.weight[j] / f *
                     Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * patch.node[j]).cast<double>();
       EXPECT_LT((C.col(axis) - expected).norm(), 2e-6 * expected.norm() + 1e-9) << trial;
-    }
-  }
-}
-
-TEST(FieldScratch, APatchStaysWhileOthersMove) {
-  FieldScratch scratch(organ());
-  Random random;
-  const ContactPoint still = random.contactPoint();
-  const TouchPatch& patch = scratch.touchAt(organ(), still).patch;
-  for (int tick = 0; tick < 20; ++tick) {
-    ASSERT_EQ(&scratch.touchAt(organ(), still).patch, &patch) << tick;
-    for (int tool = 1; tool < kMaxTools; ++tool) {
-      const ContactPoint moved = random.contactPoint();
-      ASSERT_EQ(scratch.touchAt(organ(), moved).patch.s(), moved);
-      ASSERT_EQ(patch.s(), still) << tick << ", tool " << tool;
     }
   }
 }

@@ -137,19 +137,37 @@ TEST(ContactPatchesOfAModel, RefusesPatchesThatWouldFillTheMemory) {
 
 constexpr double kStep = 1e-5;  // m
 
+/// Two touches, and what the one does to the patch of the other.
+class Pair {
+ public:
+  explicit Pair(const MetaModel& model) : model_(model), touches_(model) {}
+  PatchMotion motion(const ContactPoint& s, const Vec3& d, const ContactPoint& at) {
+    touchWith(model_, s, d, kStep, touches_.all[0]);
+    touches_.all[1].patch.moveTo(model_, at);
+    return patchMotion(model_, touches_.all[0], touches_.all[1]);
+  }
+  Vec3 moved(const ContactPoint& s, const Vec3& d, const ContactPoint& at) {
+    return motion(s, d, at).at(Vec3::Zero());
+  }
+
+ private:
+  const MetaModel& model_;
+  Touches touches_;
+};
+
 TEST(PatchMotion, IsTheFieldAveragedOverThePatch) {
   for (const Parameters parameters : {Parameters::kDisplacement, Parameters::kForce, Parameters::kLevel}) {
     SyntheticOptions options = kSmall;
     options.parameters = parameters;
     const MetaModel model = loadSynthetic(options);
-    FieldScratch scratch(model);
+    Pair pair(model);
     std::mt19937 random(3);
     double near = 0.0;
     for (int trial = 0; trial < 200; ++trial) {
       const ContactPoint s = anyPoint(model, random), at = anyPoint(model, random);
       const Vec3 d = anyVector(random, 0.006);
       const Vec3 expected = plainAverage(model, at, fieldOf(model, ownPart(model, s, d)));
-      const Vec3 found = patchMotion(model, s, d, kStep, at, scratch).at(Vec3::Zero());
+      const Vec3 found = pair.moved(s, d, at);
       EXPECT_LT((found - expected).norm(), 2e-6 * expected.norm() + 1e-9) << found << "\n\n" << expected;
       const double gap = (model.surface().position(at) - model.surface().position(s)).norm();
       near = std::max(near, gap < 0.03 ? expected.norm() : 0.0);
@@ -163,18 +181,17 @@ TEST(PatchMotion, ItsSlopeIsItsDerivativeByWhatTheToolImposes) {
     SyntheticOptions options = kSmall;
     options.parameters = parameters;
     const MetaModel model = loadSynthetic(options);
-    FieldScratch scratch(model);
+    Pair pair(model);
     std::mt19937 random(5);
     double largest = 0.0;
     for (int trial = 0; trial < 60; ++trial) {
       const ContactPoint s = anyPoint(model, random), at = anyPoint(model, random);
       const Vec3 d = anyVector(random, 0.004), y = anyVector(random, 2e-4);
-      const auto moved = [&](const Vec3& by) {
-        return patchMotion(model, s, by, kStep, at, scratch).at(Vec3::Zero());
-      };
-      const PatchMotion motion = patchMotion(model, s, d, kStep, at, scratch);
+      const auto moved = [&](const Vec3& by) { return pair.moved(s, by, at); };
+      const PatchMotion motion = pair.motion(s, d, at);
       const Vec3 change = 0.5 * (moved(d + y) - moved(d - y));
-      EXPECT_LT((motion.slope() * y - change).norm(), 0.02 * motion.slope().norm() * y.norm() + 1e-9) << trial;
+      EXPECT_LT((motion.slope() * y - change).norm(), 0.02 * motion.slope().norm() * y.norm() + 1e-9)
+          << trial;
       EXPECT_EQ(motion.at(y), Vec3(motion.at(Vec3::Zero()) + motion.slope() * y));
       largest = std::max(largest, change.norm() / y.norm());
     }
@@ -189,7 +206,7 @@ TEST(PatchMotion, ItsSlopeAlongTheSurfaceIsItsDerivativeAsThePatchMoves) {
     SyntheticOptions options = kSmall;
     options.parameters = parameters;
     const MetaModel model = loadSynthetic(options);
-    FieldScratch scratch(model);
+    Pair pair(model);
     std::mt19937 random(8);
     double largest = 0.0;
     for (int trial = 0; trial < 60; ++trial) {
@@ -198,10 +215,8 @@ TEST(PatchMotion, ItsSlopeAlongTheSurfaceIsItsDerivativeAsThePatchMoves) {
       ContactPoint at = anyPoint(model, random);
       if (!model.surface().complete(at.triangle)) continue;
       for (double& l : at.barycentric) l = 0.1 + 0.7 * l;  // far from the edges
-      const auto moved = [&](const ContactPoint& to) {
-        return patchMotion(model, s, d, kStep, to, scratch).at(y);
-      };
-      const Mat3 by_lambda = patchMotion(model, s, d, kStep, at, scratch).along(y);
+      const auto moved = [&](const ContactPoint& to) { return pair.motion(s, d, to).at(y); };
+      const Mat3 by_lambda = pair.motion(s, d, at).along(y);
       const Mat3 slope = by_lambda * model.surface().slopes(at.triangle);
       const double size_of_slope = slope.norm();
       for (std::size_t k = 0; k < 2; ++k) {
@@ -221,10 +236,10 @@ TEST(PatchMotion, ItsSlopeAlongTheSurfaceIsItsDerivativeAsThePatchMoves) {
 
 TEST(PatchMotion, IsZeroWhereThereIsNoAnswer) {
   const MetaModel model = loadSynthetic(kSmall);
-  FieldScratch scratch(model);
+  Pair pair(model);
   const ContactPoint top = fromPole(model, 0.0), bottom = fromPole(model, 180.0);
   const auto moved = [&](const ContactPoint& s, const ContactPoint& at) {
-    return patchMotion(model, s, Vec3(0.0, 0.0, -0.003), kStep, at, scratch).at(Vec3::Zero());
+    return pair.moved(s, Vec3(0.0, 0.0, -0.003), at);
   };
   EXPECT_EQ(moved(top, bottom), Vec3(Vec3::Zero()));
   EXPECT_EQ(moved(bottom, top), Vec3(Vec3::Zero()));
@@ -234,17 +249,18 @@ TEST(PatchMotion, IsZeroWhereThereIsNoAnswer) {
 /// A touch is found once, whoever asks, and what was found for one d or place is not taken for another.
 TEST(PatchMotion, DoesNotDependOnWhatWasAskedBefore) {
   const MetaModel model = loadSynthetic(kSmall);
-  FieldScratch used(model);
+  Pair used(model);
   std::mt19937 random(13);
-  const std::array<ContactPoint, 3> places{fromPole(model, 0.0), fromPole(model, 25.0), fromPole(model, 50.0)};
+  const std::array<ContactPoint, 3> places{fromPole(model, 0.0), fromPole(model, 25.0),
+                                           fromPole(model, 50.0)};
   const std::array<Vec3, 2> ds{Vec3(0.0, 0.001, -0.003), Vec3(0.001, 0.0, 0.002)};
   for (int trial = 0; trial < 200; ++trial) {
     const ContactPoint s = random() % 4U == 0 ? anyPoint(model, random) : places[random() % 3U];
     const ContactPoint at = random() % 4U == 0 ? anyPoint(model, random) : places[random() % 3U];
     const Vec3& d = ds[random() % 2U];
-    FieldScratch fresh(model);
-    const PatchMotion found = patchMotion(model, s, d, kStep, at, used);
-    const PatchMotion expected = patchMotion(model, s, d, kStep, at, fresh);
+    Pair fresh(model);
+    const PatchMotion found = used.motion(s, d, at);
+    const PatchMotion expected = fresh.motion(s, d, at);
     for (std::size_t k = 0; k < found.by.size(); ++k) ASSERT_EQ(found.by[k], expected.by[k]) << trial;
   }
 }
@@ -265,12 +281,12 @@ TEST(OwnDisplacements, MoveEveryPatchAsPrescribed) {
     SyntheticOptions options = kSmall;
     options.parameters = parameters;
     const MetaModel model = loadSynthetic(options);
-    FieldScratch scratch(model);
+    Touches touches(model);
     const std::array<ContactPoint, 3> s{fromPole(model, 0.0), fromPole(model, 40.0), fromPole(model, -35.0)};
     const std::array<Vec3, 3> d{Vec3(0.0, 0.0, -0.001), Vec3(-0.0005, 0.0, -0.001),
                                 Vec3(0.0, 0.0005, -0.001)};
     std::array<Vec3, 3> own;
-    ownDisplacements(model, s, d, scratch, own);
+    ownDisplacements(model, s, d, touches, own);
     for (std::size_t a = 0; a < 3; ++a) {
       EXPECT_LT((own[a] + movedTogether(model, s[a], s, d, own, a) - d[a]).norm(), 1e-6) << "tool " << a;
       EXPECT_GT((own[a] - d[a]).norm(), 1e-5) << "tool " << a << " felt nothing";
@@ -280,54 +296,55 @@ TEST(OwnDisplacements, MoveEveryPatchAsPrescribed) {
 
 TEST(OwnDisplacements, OfSmallTouchesAreLinear) {
   const MetaModel model = loadSynthetic(kSmall);
-  FieldScratch scratch(model);
+  Touches touches(model);
   const std::array<ContactPoint, 2> s{fromPole(model, 0.0), fromPole(model, 40.0)};
   const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -1e-6), Vec3(-5e-7, 0.0, -1e-6)}, twice{2.0 * d[0], 2.0 * d[1]};
   std::array<Vec3, 2> own, own_twice;
-  ownDisplacements(model, s, d, scratch, own);
-  ownDisplacements(model, s, twice, scratch, own_twice);
+  ownDisplacements(model, s, d, touches, own);
+  ownDisplacements(model, s, twice, touches, own_twice);
   for (std::size_t a = 0; a < 2; ++a) EXPECT_LT((own_twice[a] - 2.0 * own[a]).norm(), 1e-3 * own[a].norm());
 }
 
 TEST(OwnDisplacements, StayBoundedForToolsAtOnePlace) {
   const MetaModel model = loadSynthetic(kSmall);
-  FieldScratch scratch(model);
+  Touches touches(model);
   const std::array<ContactPoint, 2> s{fromPole(model, 10.0), fromPole(model, 10.0)};
   const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3(0.0, 0.0, -0.0011)};
   std::array<Vec3, 2> own;
-  ownDisplacements(model, s, d, scratch, own);
+  ownDisplacements(model, s, d, touches, own);
   for (const Vec3& x : own) EXPECT_LT(x.norm(), 300.0 * d[1].norm()) << x;
 }
 
 TEST(OwnDisplacements, OfOneToolOrAtRestAreThoseGiven) {
   const MetaModel model = loadSynthetic(kSmall);
-  FieldScratch scratch(model);
+  Touches touches(model);
   const std::array<ContactPoint, 2> s{fromPole(model, 0.0), fromPole(model, 40.0)};
   const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3::Zero()}, rest{Vec3::Zero(), Vec3::Zero()};
   std::array<Vec3, 2> own{Vec3::Ones(), Vec3::Ones()};
-  ownDisplacements(model, std::span(s).first(1), std::span(d).first(1), scratch, std::span(own).first(1));
+  ownDisplacements(model, std::span(s).first(1), std::span(d).first(1), touches, std::span(own).first(1));
   EXPECT_EQ(own[0], d[0]);
-  ownDisplacements(model, s, rest, scratch, own);
+  ownDisplacements(model, s, rest, touches, own);
   EXPECT_EQ(own[1], rest[1]);
-  ownDisplacements(model, s, d, scratch, own);
+  ownDisplacements(model, s, d, touches, own);
   EXPECT_GT(own[1].norm(), 1e-5) << "a tool that holds still takes no part";
 }
 
 TEST(Influence, AlongTheSurfaceHasNoPartAlongItsNormal) {
   const MetaModel model = loadSynthetic(kSmall);
-  FieldScratch scratch(model);
+  Touches touches(model);
   const std::array<ContactPoint, 2> s{fromPole(model, 0.0), fromPole(model, 40.0)};
   const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3(-0.0005, 0.0, -0.001)};
   std::array<Vec3, 2> own;
   Influence influence;
-  ownDisplacements(model, s, d, scratch, own, &influence);
+  ownDisplacements(model, s, d, touches, own, &influence);
   for (std::size_t a = 0; a < 2; ++a) {
     const auto* const corner = model.view().surface_triangles.data() + 3 * s[a].triangle;
     const Vec3 n = (nodePosition(model, corner[1]) - nodePosition(model, corner[0]))
                        .cross(nodePosition(model, corner[2]) - nodePosition(model, corner[0]))
                        .normalized();
     EXPECT_GT(influence.along[a].norm(), 1e-3);
-    EXPECT_LT((influence.along[a] * n).norm(), 1e-9 * influence.along[a].norm()) << "the patch does not leave the surface";
+    EXPECT_LT((influence.along[a] * n).norm(), 1e-9 * influence.along[a].norm())
+        << "the patch does not leave the surface";
   }
 }
 

@@ -76,7 +76,7 @@ TEST(Step, NeverAllocatesWithALoadDrivenModel) {
 
 TEST(ToolCoupling, NeverAllocates) {
   const MetaModel model = loadSynthetic();
-  FieldScratch scratch(model);
+  Touches touches(model);
   const std::array<ContactPoint, 2> s{model.surface().closestPoint({0.0, 0.0, 0.06}).s,
                                       model.surface().closestPoint({0.02, 0.0, 0.06}).s};
   const std::array<Vec3, 2> d{Vec3(0.0, 0.0, -0.001), Vec3(0.0005, 0.0, -0.001)};
@@ -84,7 +84,7 @@ TEST(ToolCoupling, NeverAllocates) {
   std::size_t allocations = 0;
   {
     const AllocationGuard guard;
-    ownDisplacements(model, s, d, scratch, own);
+    ownDisplacements(model, s, d, touches, own);
     (void)ownField(model, s[0], d[0], own[0]);
     allocations = guard.count();
   }

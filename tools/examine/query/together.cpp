@@ -28,8 +28,8 @@ std::vector<Vec3> ownOf(const MetaModel& model, std::span<const Touch> touches) 
     s.push_back(touch.anchor.s);
     d.push_back(touch.d);
   }
-  FieldScratch scratch(model);
-  ownDisplacements(model, s, d, scratch, own);
+  Touches asked(model);
+  ownDisplacements(model, s, d, asked, own);
   return own;
 }
 
