@@ -165,7 +165,7 @@ void NearField::add(std::int32_t source, std::span<const double> weight, double 
 void NearField::findTogether(std::int32_t source, std::span<const float> weight,
                              std::span<float> u) const noexcept PALPATE_NONBLOCKING {
   const std::size_t m = index(source), length = 3 * nodes(source).size();
-  std::fill(u.begin(), u.end(), 0.0F);
+  std::fill_n(u.begin(), kTogether * length + 1, 0.0F);
   addRowsTogether({arrays_.field.data() + 3 * rows_ * index(arrays_.offset[m]),
                    arrays_.scale.data() + m * rows_, weight.size() / kTogether, length},
                   weight.data(), u.data());

@@ -105,7 +105,7 @@ class NearField {
   void add(std::int32_t source, std::span<const double> weight, double factor, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   /// kTogether of block() at once: u[c] = sum_r weight[r][c] * row r. @param weight  [rows][kTogether], or of the first rows
-  /// @param u  [kTogether][K][3], and a number behind that is set to zero. Real-time: yes.
+  /// @param u  [kTogether][K][3], and a number behind that is set to zero; may be longer. Real-time: yes.
   void findTogether(std::int32_t source, std::span<const float> weight,
                     std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   /// The farthest of a block's nodes from its source, over all blocks, m. @param source  [sources] m  @param positions  [Ns][3]

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/base/index.h"
+#include "core/base/prefetch.h"
 
 namespace palpate {
 
@@ -118,15 +119,20 @@ void LinearField::findUnitNear(const PatchSources& from, std::vector<std::int32_
     for (const std::int32_t source : sources) u.reach(near_.nodes(source));
     reached.assign(sources.begin(), sources.end());
   }
+  const auto vectorsOf = [&](std::size_t i) noexcept PALPATE_NONBLOCKING {
+    return near_by_node_.data() + kThreeVectors * index(near_offset_[index(from.source[i])]);
+  };
   for (std::size_t i = 0; i < from.count; ++i) {
+    if (i + 1 < from.count)  // which lies elsewhere
+      prefetch(vectorsOf(i + 1),
+               kThreeVectors * sizeof(std::int16_t) * near_.nodes(from.source[i + 1]).size());
     const std::size_t g = index(from.source[i]);
     std::array<float, kNodeFloats> weight{};
     for (std::size_t load = 0; load < kLoads; ++load)
       std::fill_n(weight.data() + 4 * load, 3,
                   static_cast<float>(from.weight[i]) * near_scale_[kLoads * g + load]);
     const std::span<const std::int32_t> nodes = near_.nodes(from.source[i]);
-    addVectors(near_by_node_.data() + kThreeVectors * index(near_offset_[g]), nodes.data(), nodes.size(),
-               weight, u.data());
+    addVectors(vectorsOf(i), nodes.data(), nodes.size(), weight, u.data());
   }
 }
 

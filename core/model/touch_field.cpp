@@ -2,6 +2,7 @@
 #include "core/model/touch_field.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/base/index.h"
@@ -11,15 +12,18 @@ namespace palpate {
 
 namespace {
 
-/// Of the block of a near field, kTogether vectors for each node, and a number behind them.
-std::size_t sizeOf(std::size_t nodes) {
-  return 3 * kTogether * nodes + 1;
-}
-
 template <std::size_t... I>
 std::array<Touch, sizeof...(I)> touchesOf(const MetaModel& model, std::index_sequence<I...> /*all*/) {
-  const std::size_t room = TouchField::roomFor(model);
-  return {((void)I, Touch(model, room))...};
+  return {((void)I, Touch(model))...};
+}
+
+/// Of the functions those that modes and near fields have, side by side. @param phi  [Cm][kTogether]
+void storeLast(const TouchFunctions& functions, std::size_t size,
+               std::span<float> phi) noexcept PALPATE_NONBLOCKING {
+  const std::size_t rows = phi.size() / kTogether;
+  for (std::size_t c = 0; c < kTogether; ++c)
+    for (std::size_t k = 0; k < rows; ++k)
+      phi[kTogether * k + c] = static_cast<float>(functions[c][size - rows + k]);
 }
 
 }  // namespace
@@ -28,58 +32,33 @@ Touches::Touches(const MetaModel& model)
     : all(touchesOf(model, std::make_index_sequence<kMaxTools>{})),
       amplitudes(index(model.farField().modes())) {}
 
-std::size_t TouchField::roomFor(const MetaModel& model) {
-  constexpr std::size_t kMost = 1U << 18U;  // a MiB
-  std::size_t most = 0;
-  for (std::int32_t t = 0; t < model.surface().triangles(); ++t) {
-    const ContactPoint middle{t, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
-    std::size_t room = 0;
-    forEachNear(model, middle, fieldStencil(model, middle),
-                [&](const NearPart& part) { room += sizeOf(part.field.nodes(part.source).size()); });
-    most = std::max(most, room);
-  }
-  return std::min(most, kMost);
-}
-
-TouchField::TouchField(const MetaModel& model, std::size_t room)
+TouchField::TouchField(const MetaModel& model)
     : modes_(index(model.farField().modes())),
-      phi_(kTogether * modeCoefficients(model.attributes(), index(model.functions().size()))),
-      kept_y_(Stencil::kMost * kTogether * modes_),
-      kept_(room + sizeOf(std::max(model.nearField().blockSize(), model.edgeField().blockSize()) / 3)),
-      room_(room),
+      functions_(index(model.functions().size())),
+      rows_(modeCoefficients(model.attributes(), functions_)),
+      row_(rows_),
+      Y_(rows_ * modes_),
+      phi_(kTogether * rows_),
       y_(kTogether * modes_),
-      near_(index(model.surface().nodes())) {}
-
-void TouchField::moveOrigin(const MetaModel& model, const Origin& origin,
-                            const TouchFunctions& functions) noexcept PALPATE_NONBLOCKING {
-  origin_ = origin;
-  s_ = {};
-  near_kept_ = false;
-  const std::size_t rows = phi_.size() / kTogether;
-  const std::size_t first = index(model.functions().size()) - rows;
-  for (std::size_t c = 0; c < kTogether; ++c)
-    for (std::size_t k = 0; k < rows; ++k)
-      phi_[kTogether * k + c] = static_cast<float>(functions[c][first + k]);
-  const Stencil stencil = fieldStencil(model, {origin.triangle, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}});
-  std::fill_n(kept_y_.begin(), stencil.count * y_.size(), 0.0F);
-  for (std::size_t b = 0; b < stencil.count; ++b)
-    model.amplitudes().addTogether(stencil.position[b], phi_,
-                                   std::span(kept_y_).subspan(b * y_.size(), y_.size()));
+      near_(index(model.surface().nodes())),
+      block_(kTogether * std::max(model.nearField().blockSize(), model.edgeField().blockSize()) + 1) {
+  std::iota(row_.begin(), row_.end(), 0);
 }
 
-void TouchField::set(const MetaModel& model, const TouchPatch& from,
-                     const Vec3& d) noexcept PALPATE_NONBLOCKING {
-  s_ = from.s();
+void TouchField::set(const MetaModel& model, const TouchPatch& from, const Vec3& d, double step,
+                     const TouchFunctions& functions) noexcept PALPATE_NONBLOCKING {
+  if (!(s_ == from.s())) {
+    s_ = from.s();
+    stencil_ = fieldStencil(model, s_);
+    std::fill(Y_.begin(), Y_.end(), 0.0F);
+    model.amplitudes().addRows(std::span(stencil_.position).first(stencil_.count), stencil_.weight.data(),
+                               Y_);
+  }
   d_ = d;
+  step_ = step;
   near_found_ = false;
-  stencil_ = fieldStencil(model, s_);
-  std::fill(y_.begin(), y_.end(), 0.0F);
-  for (std::size_t b = 0; b < stencil_.count; ++b)
-    addScaled(kept_y_.data() + b * y_.size(), static_cast<float>(stencil_.weight[b]), y_);
-  const std::span<float> u = std::span(y_).first(modes_);
-  const Vec3 beyond = d_ - origin_.d;
-  for (std::size_t i = 0; i < 3; ++i)
-    addScaled(y_.data() + (i + 1) * modes_, static_cast<float>(beyond[Eigen::Index(i)]), u);
+  storeLast(functions, functions_, phi_);
+  mixRowsTogether({Y_.data(), modes_, row_.data(), rows_}, phi_.data(), y_.data());
   const Vec3 X = model.surface().position(s_);
   reach_ = 0.0;
   forEachNear(model, s_, stencil_, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
@@ -99,20 +78,16 @@ void TouchField::set(const MetaModel& model, const TouchPatch& from,
 void TouchField::findNear(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
   if (near_found_) return;
   near_found_ = true;
-  near_.clear();
-  std::size_t begin = 0;
+  near_.zero();
+  const bool elsewhere = reached_ != s_.triangle;
+  if (elsewhere) near_.clear();
+  reached_ = s_.triangle;
   forEachNear(model, s_, stencil_, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
     const std::span<const std::int32_t> nodes = part.field.nodes(part.source);
-    const std::size_t size = sizeOf(nodes.size());
-    const bool fits = begin + size <= room_;
-    const std::span<float> block = std::span(kept_).subspan(fits ? begin : room_, size);
-    if (!fits || !near_kept_)
-      part.field.findTogether(part.source, std::span(phi_).first(kTogether * part.rows), block);
-    if (fits) begin += size;
-    near_.reach(nodes);
-    addVectors(block.data(), nodes.data(), nodes.size(), static_cast<float>(part.weight), near_.data());
+    if (elsewhere) near_.reach(nodes);
+    part.field.findTogether(part.source, std::span(phi_).first(kTogether * part.rows), block_);
+    addVectors(block_.data(), nodes.data(), nodes.size(), static_cast<float>(part.weight), near_.data());
   });
-  near_kept_ = true;
 }
 
 PatchMotion TouchField::on(const MetaModel& model, TouchPatch& from,
@@ -131,9 +106,7 @@ PatchMotion TouchField::on(const MetaModel& model, TouchPatch& from,
     findNear(model);
     to.average(near_, near.data());
     for (std::size_t k = 0; k < motion.by.size(); ++k) {
-      const NodeSum::Vectors bend = NodeSum::vectorsOf(near.data() + kNodeFloats * k);
-      motion.by[k] += bend;
-      motion.by[k].col(0) += bend.rightCols<3>() * (d_ - origin_.d);
+      motion.by[k] += NodeSum::vectorsOf(near.data() + kNodeFloats * k);
     }
   }
   if (!model.isDisplacementDriven() || apart > 2.0 * model.reachOfPatches() + model.linearField().reach())
@@ -158,7 +131,6 @@ Vec3 TouchField::at(const MetaModel& model, TouchPatch& from, const Vec3& y, con
       model.isDisplacementDriven() && apart <= model.reachOfPatches() + model.linearField().reach();
   if (bends) findNear(model);
   if (loaded) from.findNear(model);
-  const Vec3 beyond = d_ - origin_.d + y;
   Vec3 f = load_[0], u = Vec3::Zero();
   for (std::size_t i = 0; i < 3; ++i) f += y[Eigen::Index(i)] * load_[i + 1];
   const NodeMix nodes = model.surface().nodesAt(point);
@@ -166,7 +138,7 @@ Vec3 TouchField::at(const MetaModel& model, TouchPatch& from, const Vec3& y, con
     Vec3 there = model.farField().at(scratch, nodes.node[k]);
     if (bends) {
       const NodeSum::Vectors bend = near_.at(nodes.node[k]);
-      there += bend.col(0) + bend.rightCols<3>() * beyond;
+      there += bend.col(0) + bend.rightCols<3>() * y;
     }
     if (loaded) there += from.near().at(nodes.node[k]).leftCols<3>() * f;
     u += nodes.weight[k] * there;

@@ -41,39 +41,23 @@ struct PatchMotion {
   }
 };
 
-/// The field of one touch, for others to be asked about: u and du/dd.                               docs/design.md, Parts
-/// What modes and near fields of positions and edges give, orders of two and more of a "displacement" model, is found at a d_0
-/// near d and goes on from there along its slopes. It is kept by position while the touch stays in its triangle and d near d_0,
-/// so that a touch that slides only mixes. Its memory is made once, so that a tick can fill it.
+/// The field of one touch, for others to be asked about: u and du/dd, found once for a place and a d.  docs/design.md, Parts
+/// Its memory is made once, so that a tick can fill it.
 class TouchField {
  public:
-  /// What the positions' parts depend on.
-  struct Origin {
-    std::int32_t triangle{-1};  ///< of s
-    std::size_t positions{0};   ///< that answer there
-    Vec3 d = Vec3::Zero();      ///< d_0, m
-    double limit{0.0};          ///< of the functions, where d_0 is beyond it, else 0
-    double step{0.0};           ///< of differences, m
-    [[nodiscard]] bool operator==(const Origin&) const noexcept = default;
-  };
+  explicit TouchField(const MetaModel& model);
 
-  /// @param room  roomFor()
-  TouchField(const MetaModel& model, std::size_t room);
-  /// Numbers that near fields in any triangle take, up to a bound: what is beyond it is found again each time.
-  [[nodiscard]] static std::size_t roomFor(const MetaModel& model);
+  /// The touch at from.s() that imposes d. @param from  its patch; by it the linear part is superposed  @param step  of the
+  /// differences that `functions` has, m  @param functions  at d. Cost O(C n), of another s O(stencil C n). Real-time: yes.
+  void set(const MetaModel& model, const TouchPatch& from, const Vec3& d, double step,
+           const TouchFunctions& functions) noexcept PALPATE_NONBLOCKING;
+  /// Whether that was set last.
+  [[nodiscard]] bool is(const ContactPoint& s, const Vec3& d, double step) const noexcept {
+    return s_ == s && d_ == d && step_ == step;
+  }
 
-  [[nodiscard]] const Origin& origin() const noexcept { return origin_; }
-  [[nodiscard]] const ContactPoint& s() const noexcept { return s_; }
-  [[nodiscard]] const Vec3& d() const noexcept { return d_; }
-  /// @param functions  at origin.d. Cost O(stencil C n). Real-time: yes.
-  void moveOrigin(const MetaModel& model, const Origin& origin,
-                  const TouchFunctions& functions) noexcept PALPATE_NONBLOCKING;
-  /// The touch at from.s() that imposes d, of this origin. @param from  its patch; by it the linear part is superposed
-  /// Cost O(stencil n). Real-time: yes.
-  void set(const MetaModel& model, const TouchPatch& from, const Vec3& d) noexcept PALPATE_NONBLOCKING;
-
-  /// What it moves another patch by. @param from  as in set(). Cost O(n + k); once for all that are near O(stencil K), and
-  /// O(stencil C K) of a new origin. Real-time: yes.
+  /// What it moves another patch by. @param from  as in set(). Cost O(n + k), once for all that are near O(stencil C K).
+  /// Real-time: yes.
   [[nodiscard]] PatchMotion on(const MetaModel& model, TouchPatch& from,
                                const TouchPatch& to) noexcept PALPATE_NONBLOCKING;
   /// u + du/dd y at a point of the drawn surface, m. @param scratch  [n]. Cost O(n). Real-time: yes.
@@ -83,26 +67,26 @@ class TouchField {
  private:
   void findNear(const MetaModel& model) noexcept PALPATE_NONBLOCKING;
 
-  Origin origin_;
   ContactPoint s_;
   Vec3 d_ = Vec3::Zero();
+  double step_{0.0};
   Stencil stencil_;
-  std::size_t modes_;
-  std::vector<float> phi_;     // [Cm][kTogether]
-  std::vector<float> kept_y_;  // [stencil][kTogether][n] of the positions
-  std::vector<float> kept_;    // blocks of near fields, one after the other, as far as there is room
-  std::size_t room_;           // of kept_; behind it there is room for a block that is not kept
-  bool near_kept_{false};
-  std::array<Vec3, kTogether> load_;  // N, on the patch of a "displacement" model
-  std::vector<float> y_;              // [kTogether][n]
-  NodeSum near_;                      // of positions and edges
+  std::size_t modes_, functions_, rows_;  // n, C, Cm
+  std::vector<std::int32_t> row_;         // [Cm] their numbers
+  std::vector<float> Y_;                  // [Cm][n] mixed at s
+  std::vector<float> phi_;                // [Cm][kTogether]
+  std::array<Vec3, kTogether> load_;      // N, on the patch of a "displacement" model
+  std::vector<float> y_;                  // [kTogether][n]
+  NodeSum near_;                          // of positions and edges
   bool near_found_{false};
-  double reach_{0.0};  // of near_, from X(s), m
+  std::int32_t reached_{-1};  // the triangle whose near fields near_ reaches
+  double reach_{0.0};         // of near_, from X(s), m
+  std::vector<float> block_;  // of one source, kTogether vectors for each node, and a number behind
 };
 
 /// A touch that others are asked about: its patch, and its field where that is asked for.
 struct Touch {
-  Touch(const MetaModel& model, std::size_t room) : patch(model), field(model, room) {}
+  explicit Touch(const MetaModel& model) : patch(model), field(model) {}
   TouchPatch patch;
   TouchField field;
 };

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/base/index.h"
 #include "core/base/length.h"
@@ -40,14 +39,6 @@ void findFunctions(const MetaModel& model, const ContactPoint& s, const Vec3& d,
   }
 }
 
-/// The point of the lattice that is nearest to d.
-Vec3 latticePoint(const MetaModel& model, const Vec3& d) noexcept PALPATE_NONBLOCKING {
-  const double part = model.functions().reference() / kLatticeParts;
-  Vec3 point;
-  for (Eigen::Index i = 0; i < 3; ++i) point[i] = part * std::round(d[i] / part);
-  return point;
-}
-
 }  // namespace
 
 double tangentStep(std::span<const Vec3> d) noexcept PALPATE_NONBLOCKING {
@@ -60,22 +51,11 @@ double tangentStep(std::span<const Vec3> d) noexcept PALPATE_NONBLOCKING {
 void touchWith(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
                Touch& touch) noexcept PALPATE_NONBLOCKING {
   touch.patch.moveTo(model, s);
-  const PositionMix mix = model.surface().mix(s);
-  TouchField::Origin origin{s.triangle, index(mix.count), d, 0.0, step};
-  if (model.isDisplacementDriven()) {
-    origin.d = latticePoint(model, d);
-    origin.step = 0.0;
-    const double limit = model.response().limit(mix);
-    if (lengthOf(origin.d) > limit) origin.limit = limit;
-  }
-  if (!(touch.field.origin() == origin)) {
-    TouchFunctions functions;
-    findFunctions(model, s, origin.d, step, functions);
-    touch.field.moveOrigin(model, origin, functions);
-  } else if (touch.field.s() == s && touch.field.d() == d) {
-    return;
-  }
-  touch.field.set(model, touch.patch, d);
+  const double used = model.isDisplacementDriven() ? 0.0 : step;
+  if (touch.field.is(s, d, used)) return;
+  TouchFunctions functions;
+  findFunctions(model, s, d, step, functions);
+  touch.field.set(model, touch.patch, d, used, functions);
 }
 
 FieldSource ownPart(const MetaModel& model, const ContactPoint& s,

@@ -23,12 +23,10 @@ namespace palpate {
 /// How long the differences are that derivatives by d of a load-driven model are taken by, m. @param d  of all tools, m
 [[nodiscard]] double tangentStep(std::span<const Vec3> d) noexcept PALPATE_NONBLOCKING;
 
-/// Makes `touch` that of a tool that imposes d at s by itself. Orders of two and more of a "displacement" model are found at the
-/// point d_0 of a lattice that is nearest to d, kLatticeParts points a d_ref, and go on along their slopes there.
-/// @param step  tangentStep(). Cost O(k n) for another s, O(C n) for another d_0 or triangle. Real-time: yes.
+/// Makes `touch` that of a tool that imposes d at s by itself. @param step  tangentStep(), unused for a "displacement" model
+/// Cost O(k n) for another s, O(C n) for another d. Real-time: yes.
 void touchWith(const MetaModel& model, const ContactPoint& s, const Vec3& d, double step,
                Touch& touch) noexcept PALPATE_NONBLOCKING;
-inline constexpr double kLatticeParts = 64.0;
 
 /// What a touch moves the contact patch of another by: P_to u, far plus near field, and its derivatives by d and by the place of
 /// that patch. Zero where the model has no answer at one of the two.                          docs/design.md, Symbols, Parts

@@ -221,8 +221,9 @@ TEST(Kernels, VectorsAreAddedToTheirNodesAlone) {
               std::find(node.begin(), node.begin() + std::ptrdiff_t(count), int(n)) - node.begin());
           const bool added = i < count, last = k % 4 == 3;  // those have no meaning
           const float more = added ? weight[k] * static_cast<float>(field.A[kThreeVectors * i + k]) : 0.0F;
-          if (k < kThreeVectors)
+          if (k < kThreeVectors) {
             EXPECT_NEAR(whole[at], start[at] + more, 1e-6F) << count << ' ' << n << ' ' << k;
+          }
           if (added && last) continue;
           const float other = added ? -0.5F * y[3 * (k / 4 * count + i) + k % 4] : 0.0F;
           EXPECT_NEAR(floats[at], start[at] + other, 1e-6F) << count << ' ' << n << ' ' << k;
