@@ -18,7 +18,7 @@ endif()
 # palpate_precompiled(library...): static libraries whose sources mostly include Eigen or the standard library. Not under
 # gcc's sanitizers: those builds keep the warnings, and show which sources lack an include.
 function(palpate_precompiled)
-  if(PALPATE_PRECOMPILE AND (NOT PALPATE_SANITIZE OR PALPATE_SANITIZE STREQUAL "realtime"))
+  if(PALPATE_PRECOMPILE AND (NOT PALPATE_SANITIZE OR CMAKE_CXX_COMPILER_ID STREQUAL "Clang"))
     foreach(library IN LISTS ARGN)
       target_precompile_headers(${library} REUSE_FROM palpate_headers)
       target_compile_options(${library} PRIVATE ${PALPATE_PRECOMPILED_OPTIONS})

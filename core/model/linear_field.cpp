@@ -109,15 +109,17 @@ Mat3 LinearField::nearAt(const PatchSources& from, std::int32_t node) const noex
   return u;
 }
 
-void LinearField::findUnitNear(const PatchSources& from, std::vector<std::int32_t>& reached,
+void LinearField::findUnitNear(const PatchSources& from, ReachedSources& reached,
                                NodeSum& u) const noexcept PALPATE_NONBLOCKING {
   const std::span<const std::int32_t> sources = std::span(from.source).first(from.count);
-  if (std::equal(sources.begin(), sources.end(), reached.begin(), reached.end())) {
+  const std::span<const std::int32_t> known = std::span(reached.source).first(reached.count);
+  if (std::equal(sources.begin(), sources.end(), known.begin(), known.end())) {
     u.zero();
   } else {
     u.clear();
     for (const std::int32_t source : sources) u.reach(near_.nodes(source));
-    reached.assign(sources.begin(), sources.end());
+    std::copy(sources.begin(), sources.end(), reached.source.begin());
+    reached.count = sources.size();
   }
   const auto vectorsOf = [&](std::size_t i) noexcept PALPATE_NONBLOCKING {
     return near_by_node_.data() + kThreeVectors * index(near_offset_[index(from.source[i])]);

@@ -25,6 +25,12 @@ struct PatchSources {
       place;  ///< [G] of a Green's function, by which it is found again; -1 between uses
 };
 
+/// The first `count` Green's functions whose nodes a sum reaches.
+struct ReachedSources {
+  std::size_t count{0};
+  std::vector<std::int32_t> source;  ///< with room for those of any patch
+};
+
 /// Degree 1 of a "displacement" model's field: nodal Green's functions W_i, the displacement by a unit load at node i,
 /// superposed over the patch. So it is as exact at any s as at a node.                    docs/design.md, Parts
 ///   u(X; s, f) = sum_i w_i(s) W_i(X) f,   W_i(X) = sum_k X_k(X) Z_i,k + N_i(X),   f = K_s d
@@ -51,9 +57,8 @@ class LinearField {
   void addNear(const PatchSources& from, const Vec3& f, std::span<float> scratch,
                std::span<float> u) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] std::size_t blockSize() const noexcept { return near_.blockSize(); }
-  /// Of unit loads: u = sum_i w_i N_i, vector by load. @param reached  the sources whose nodes u reaches; with room for those of
-  /// any patch. Cost O(k K). Real-time: yes.
-  void findUnitNear(const PatchSources& from, std::vector<std::int32_t>& reached,
+  /// Of unit loads: u = sum_i w_i N_i, vector by load. @param reached  of u. Cost O(k K). Real-time: yes.
+  void findUnitNear(const PatchSources& from, ReachedSources& reached,
                     NodeSum& u) const noexcept PALPATE_NONBLOCKING;
   /// What the near fields of unit loads on a patch move one node by, column by load, m/N. Cost O(k log K). Real-time: yes.
   [[nodiscard]] Mat3 nearAt(const PatchSources& from, std::int32_t node) const noexcept PALPATE_NONBLOCKING;

@@ -15,7 +15,7 @@ TouchPatch::TouchPatch(const MetaModel& model)
       X_(3 * kWeights * modes_),
       Z_(3 * modes_),
       near_(index(model.surface().nodes())) {
-  reached_.reserve(sources_.source.size());
+  reached_.source.resize(sources_.source.size());
 }
 
 void TouchPatch::moveTo(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {

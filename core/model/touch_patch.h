@@ -53,7 +53,7 @@ class TouchPatch {
   std::vector<float> Z_;  // [3][n]
   NodeSum near_;
   bool near_found_{false};
-  std::vector<std::int32_t> reached_;  // the sources that near_ reaches as far as
+  ReachedSources reached_;  // of near_
 };
 
 }  // namespace palpate

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "../instruction_sets.h"
+#include "palpate/testing/instruction_sets.h"
 
 namespace palpate::testing {
 

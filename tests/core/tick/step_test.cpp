@@ -158,8 +158,8 @@ TEST(Step, TwoToolsFeelEachOtherAsTheModelSays) {
   const std::array<Vec3, 2> d{vec(both.result().tools[0].displacement),
                               vec(both.result().tools[3].displacement)};
   std::array<Vec3, 2> own;
-  FieldScratch scratch(organ());
-  ownDisplacements(organ(), s, d, scratch, own);
+  Touches touches(organ());
+  ownDisplacements(organ(), s, d, touches, own);
   for (std::size_t i = 0; i < 2; ++i) {
     Response response;
     (void)respond(organ(), s[i], d[i], response);

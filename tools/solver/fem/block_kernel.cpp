@@ -2,6 +2,7 @@
 #include "tools/solver/fem/block_kernel.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 // Compiled once for each instruction set; the first call finds the best that the processor has.
@@ -30,8 +31,14 @@ HWY_INLINE void inTiles(int begin, int end, const Do& tile) {
   if constexpr (T > 1) inTiles<T / 2>(begin, end, tile);
 }
 
-constexpr int kVectors = 3;  ///< of a row of right-hand sides
-constexpr int kAhead = 8;    ///< columns of L that are fetched before they are needed
+/// What lies so many numbers on, which may be behind the end of the factor.
+HWY_INLINE void fetch(const double* from, std::size_t numbers) {
+  hwy::Prefetch(
+      reinterpret_cast<const double*>(reinterpret_cast<std::uintptr_t>(from) + numbers * sizeof(double)));
+}
+
+constexpr int kVectors = 3;        ///< of a row of right-hand sides
+constexpr std::size_t kAhead = 8;  ///< columns of L that are fetched before they are needed
 
 /// One block of L, and a panel of the right-hand sides: V vectors of each row.
 template <int V>
@@ -76,7 +83,7 @@ class Panel {
     const double* x = own_;
     const double* L = block_.values + r;
     for (int k = 0; k < known; ++k, x += stride_, L += block_.stride) {
-      hwy::Prefetch(L + kAhead * static_cast<std::ptrdiff_t>(block_.stride));
+      fetch(L, kAhead * static_cast<std::size_t>(block_.stride));
       Vector xk[V];
       for (int v = 0; v < V; ++v) xk[v] = hn::LoadU(d, x + v * kVector);
       for (int i = 0; i < R; ++i) {
@@ -153,6 +160,10 @@ void Backward(const BlockOfL& block, double* b, std::size_t columns) {
   });
 }
 
+std::string Name() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace palpate::solver
 HWY_AFTER_NAMESPACE();
@@ -162,6 +173,7 @@ namespace palpate::solver {
 namespace {
 HWY_EXPORT(Forward);
 HWY_EXPORT(Backward);
+HWY_EXPORT(Name);
 }  // namespace
 
 void solveForward(const BlockOfL& block, Lanes* b, int lanes) {
@@ -172,6 +184,10 @@ void solveForward(const BlockOfL& block, Lanes* b, int lanes) {
 void solveBackward(const BlockOfL& block, Lanes* b, int lanes) {
   HWY_DYNAMIC_DISPATCH(Backward)
   (block, reinterpret_cast<double*>(b), static_cast<std::size_t>(lanes) * kLanes);
+}
+
+std::string blockKernel() {
+  return HWY_DYNAMIC_DISPATCH(Name)();
 }
 
 }  // namespace palpate::solver

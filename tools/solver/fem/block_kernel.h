@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "tools/solver/base/lanes.h"
 
@@ -20,5 +21,7 @@ struct BlockOfL {
 void solveForward(const BlockOfL& block, Lanes* b, int lanes);
 /// x of L^T x = y in the rows of the triangle, for the x of the rows below.
 void solveBackward(const BlockOfL& block, Lanes* b, int lanes);
+/// The instruction set that both take; another one may round otherwise.
+[[nodiscard]] std::string blockKernel();
 
 }  // namespace palpate::solver

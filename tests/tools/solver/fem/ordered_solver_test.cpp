@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <set>
+#include <string>
+
 #include "../boxes.h"
+#include "palpate/testing/instruction_sets.h"
+#include "tools/solver/fem/block_kernel.h"
 
 namespace palpate::solver {
 namespace {
@@ -15,6 +21,21 @@ class OrderedSolution : public ::testing::TestWithParam<int> {
   const int lanes_ = GetParam(), columns_ = lanes_ * kLanes;
 
   OrderedSolution() { factor_.factorize(Eigen::VectorXd::Zero(3 * model_.nodeCount())); }
+
+  /// With the kernels of each instruction set that this processor has.
+  static void onEverySet(const std::function<void()>& body) {
+    const testing::InstructionSets sets;
+    std::set<std::string> names;
+    for (const std::int64_t set : sets.list()) {
+      hwy::SetSupportedTargetsForTest(set);
+      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+      const std::string name = blockKernel();
+      SCOPED_TRACE(name);
+      names.insert(name);
+      body();
+    }
+    EXPECT_GT(names.size(), 1U);
+  }
 
   /// Largest difference from CHOLMOD's own solution, relative.
   double errorFor(const Eigen::MatrixXd& b) {
@@ -37,19 +58,20 @@ class OrderedSolution : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(OrderedSolution, IsThatOfCholmod) {
-  EXPECT_LT(errorFor(Eigen::MatrixXd::Random(model_.dofCount(), columns_)), 1e-12);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(model_.dofCount(), columns_);
+  onEverySet([&] { EXPECT_LT(errorFor(b), 1e-12); });
 }
 
 TEST_P(OrderedSolution, LeavesOutOnlyWhatIsZero) {
   for (int dof = 0; dof < model_.dofCount(); dof += 17) {
     Eigen::MatrixXd b = Eigen::MatrixXd::Zero(model_.dofCount(), columns_);
     b(dof, dof % columns_) = 1.0;
-    EXPECT_LT(errorFor(b), 1e-12) << dof;
+    onEverySet([&] { EXPECT_LT(errorFor(b), 1e-12) << dof; });
   }
 }
 
 // Panels of three vectors, and what is left of them on every processor.
-INSTANTIATE_TEST_SUITE_P(Lanes, OrderedSolution, ::testing::Values(1, 2, 3, 5),
+INSTANTIATE_TEST_SUITE_P(Lanes, OrderedSolution, ::testing::Values(1, 2, 3, 4, 5),
                          [](const auto& of) { return std::to_string(of.param); });
 
 TEST(Cholesky, NamesTheUnknownWhereAMatrixIsNotPositiveDefinite) {
