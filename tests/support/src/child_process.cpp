@@ -18,7 +18,7 @@ extern char** environ;
 namespace palpate::testing {
 
 ChildProcess::ChildProcess(const std::string& program, std::vector<std::string> arguments,
-                           const Streams& streams) {
+                           const Streams& streams, Kills kills) {
   const std::string path = program.find('/') == std::string::npos ? binDir() + "/" + program : program;
   std::string name = program;
   std::vector<char*> argv{name.data()};
@@ -28,12 +28,18 @@ ChildProcess::ChildProcess(const std::string& program, std::vector<std::string> 
   posix_spawn_file_actions_init(&actions);
   if (streams.out >= 0) posix_spawn_file_actions_adddup2(&actions, streams.out, STDOUT_FILENO);
   if (streams.err >= 0) posix_spawn_file_actions_adddup2(&actions, streams.err, STDERR_FILENO);
-  const int failure = posix_spawn(&pid_, path.c_str(), &actions, nullptr, argv.data(), environ);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  if (kills == Kills::kGroup) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int failure = posix_spawn(&pid_, path.c_str(), &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) throw std::runtime_error("cannot start " + path + ": " + std::strerror(failure));
+  if (kills == Kills::kGroup) group_ = pid_;
 }
 
 ChildProcess::~ChildProcess() {
+  if (group_ > 0) kill(-group_, SIGKILL);
   if (!running()) return;
   kill(pid_, SIGKILL);
   waitpid(pid_, nullptr, 0);

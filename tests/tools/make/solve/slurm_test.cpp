@@ -56,6 +56,7 @@ class SolvedBySlurm : public SolveProgram {
                                                {"SLURM_ARRAY_TASK_MAX", most},
                                                {"SLURM_ARRAY_TASK_COUNT", count}};
     for (const auto& [name, value] : variables) setenv(name, std::to_string(value).c_str(), 1);
+    setenv("SLURM_ARRAY_JOB_ID", "77", 1);
   }
   [[nodiscard]] static std::vector<std::string> script(const std::string& name,
                                                        const std::vector<std::string>& rest) {
@@ -70,16 +71,17 @@ class SolvedBySlurm : public SolveProgram {
   void expectThatItGoesBackIntoTheQueue(const std::vector<std::string>& words, const fs::path& partial,
                                         int exit_code) const {
     testing::CaughtOutput err;
-    testing::ChildProcess job("/bin/bash", words, {err.descriptor(), err.descriptor()});
+    testing::ChildProcess job("/bin/bash", words, {err.descriptor(), err.descriptor()},
+                              testing::ChildProcess::Kills::kGroup);
     std::error_code error;
     while (job.running() && !(fs::file_size(partial / "series.journal", error) > 0 && !error))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     job.signal(SIGUSR1);
-    EXPECT_EQ(job.waitForExit(std::chrono::seconds(20)), exit_code) << err.text();
+    EXPECT_EQ(job.waitForExit(), exit_code) << err.text();
     EXPECT_TRUE(fs::exists(partial / "series.journal")) << err.text();
   }
 
-  const std::string slow_ = "[model]\nmodes = 20\n";
+  const std::string slow_ = "[model]\nmodes = 60\norder = 6\n";
   const std::string quick_ = "[model]\nmodes = 20\norder = 2\n";
 };
 
@@ -146,10 +148,29 @@ TEST_F(SolvedBySlurm, PutsATaskBackIntoTheQueueAndOn) {
   beTask(1, 1, 1, 1);
   const std::vector<std::string> words = script("batch.sbatch", {path("cases"), "--json", "-q"});
   expectThatItGoesBackIntoTheQueue(words, folder_ / "cases/a.h5.partial", 0);
-  EXPECT_EQ(testing::contentOf(folder_ / "asked"), "requeue 77\n");
+  EXPECT_EQ(testing::contentOf(folder_ / "asked"), "requeue 77_1\n");
   const ProgramResult rest = runProgram("/bin/bash", words);
   ASSERT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_GT(json::parse(rest.out).at("cases").at(0).at("solve").at("seconds").at("kept"), 0.0);
+}
+
+TEST_F(SolvedBySlurm, EndsWhereItsSolveEndsAsTheSignalComes) {
+  for (const char* const name : {"palpate-solve", "mpirun"}) {
+    std::ofstream(folder_ / "bin" / name)
+        << "#!/bin/sh\ntrap 'exit 0' TERM\ntouch '" << path("begun") << "'\nwhile :; do sleep 0.02; done\n";
+    fs::permissions(folder_ / "bin" / name, fs::perms::owner_all);
+  }
+  beTask(1, 1, 1, 1);
+  for (const char* const name : {"batch.sbatch", "solve.sbatch"}) {
+    testing::ChildProcess job("/bin/bash", script(name, {path("cases")}), {},
+                              testing::ChildProcess::Kills::kGroup);
+    while (job.running() && !fs::exists(folder_ / "begun"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    job.signal(SIGUSR1);
+    EXPECT_EQ(job.waitForExit(), 0);
+    EXPECT_TRUE(fs::remove(folder_ / "begun"));
+    EXPECT_FALSE(fs::exists(folder_ / "asked")) << name;
+  }
 }
 
 TEST_F(SolvedBySlurm, GivesUpATaskThatNeverEnds) {

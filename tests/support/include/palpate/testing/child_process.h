@@ -18,9 +18,16 @@ class ChildProcess {
     int err{-1};
   };
 
+  /// Which processes the destructor kills.
+  enum class Kills {
+    kProgram,
+    kGroup,  ///< also those that it has started: all are in a process group of its own
+  };
+
   /// @param[in] program  e.g. "palpate-tool"; a path when it has a slash
   /// @throw std::runtime_error  it cannot be started
-  ChildProcess(const std::string& program, std::vector<std::string> arguments, const Streams& streams);
+  ChildProcess(const std::string& program, std::vector<std::string> arguments, const Streams& streams,
+               Kills kills = Kills::kProgram);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -39,7 +46,7 @@ class ChildProcess {
  private:
   void ended(int status) noexcept;
 
-  pid_t pid_{-1};
+  pid_t pid_{-1}, group_{-1};  ///< no group of its own: -1
   int exit_code_{-1};
 };
 
