@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -14,20 +13,14 @@
 #include "tools/make/solve/batch_case.h"
 #include "tools/make/solve/batch_report.h"
 #include "tools/make/solve/summary.h"
-#include "tools/program/printed.h"
 #include "tools/program/write_file.h"
+#include "tools/solver/build/build_model_parts.h"
 
 namespace palpate::solve_program {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-using program::printed;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The I-th of N programs.
 struct Share {
@@ -86,25 +79,28 @@ std::vector<BatchCase> casesOf(const Options& options) {
   return cases;
 }
 
-/// How long the rest takes, as fast as it has gone.
+/// How long the rest takes, as fast as the cases that were solved.
 class TimeLeft {
  public:
   explicit TimeLeft(const std::vector<BatchCase>& cases) : cases_(cases) {}
 
-  /// "; about 12 min left", nothing where nothing is done.
+  /// What failed or was left says nothing of the rest.
+  void add(const BatchCase& one, double seconds) {
+    if (one.state != CaseState::kSolved && one.state != CaseState::kEstimated) return;
+    work_ += one.work;
+    seconds_ += seconds;
+  }
+  /// "; about 12 min left", nothing where nothing is solved.
   [[nodiscard]] std::string text() const {
-    double done = 0.0, left = 0.0;
-    for (const BatchCase& one : cases_) {
-      const bool ended = one.state == CaseState::kSolved || one.state == CaseState::kEstimated;
-      if (ended) done += one.work;
+    double left = 0.0;
+    for (const BatchCase& one : cases_)
       if (one.state == CaseState::kWaiting) left += one.work;
-    }
-    return done > 0.0 ? "; about " + spanText(secondsSince(start_) * left / done) + " left" : "";
+    return work_ > 0.0 ? "; about " + spanText(seconds_ * left / work_) + " left" : "";
   }
 
  private:
   const std::vector<BatchCase>& cases_;
-  Clock::time_point start_{Clock::now()};
+  double work_{0.0}, seconds_{0.0};  ///< of what is solved
 };
 
 void tellBeginning(const std::vector<BatchCase>& cases, const Options& options) {
@@ -123,7 +119,7 @@ void tellError(const BatchCase& one) {
 }
 
 void solveAll(std::vector<BatchCase>& cases, const Options& options) {
-  const TimeLeft time(cases);
+  TimeLeft time(cases);
   std::size_t number = 0;
   for (const BatchCase& one : cases) number += one.state == CaseState::kWaiting ? 1 : 0;
   std::size_t next = 0;
@@ -132,7 +128,9 @@ void solveAll(std::vector<BatchCase>& cases, const Options& options) {
     if (!options.quiet)
       std::cerr << "case " << ++next << " of " << number << ": " << one.name()
                 << (one.again.empty() ? "" : ", again: " + one.again) << time.text() << '\n';
+    const solver::Stopwatch watch;
     solve(one);
+    time.add(one, watch.seconds());
     tellError(one);
     if (one.state == CaseState::kSolved) print(one.found);
   }
@@ -141,7 +139,7 @@ void solveAll(std::vector<BatchCase>& cases, const Options& options) {
 }  // namespace
 
 int solveBatch(const Options& options) {
-  const auto start = Clock::now();
+  const solver::Stopwatch whole;
   // 1. Which cases, and what has to be done. What cannot be read is told before hours are spent on the rest.
   std::vector<BatchCase> cases = casesOf(options);
   for (BatchCase& one : cases) {
@@ -152,7 +150,7 @@ int solveBatch(const Options& options) {
   // 2. One after the other.
   solveAll(cases, options);
   // 3. What came out.
-  const program::Json report = batchReport(options, cases, secondsSince(start));
+  const program::Json report = batchReport(options, cases, whole.seconds());
   std::fputs(batchTable(cases, report).c_str(), options.dry_run && !options.json ? stdout : stderr);
   if (options.json) std::cout << report.dump(2) << '\n';
   return report.at("failed").get<int>() > 0 ? program::kFailed : program::kDone;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -35,14 +36,25 @@ fs::path pictureOf(const fs::path& model) {
   return fs::path(model).replace_extension(".xdmf");
 }
 
+/// Whether what is in scratch under the model's name is the case's. In a scratch folder of its own it may be that of a case of another
+/// folder, with the same name.
+bool hasScratchBesideModel(const Options& options) {
+  std::error_code ignored;
+  return fs::equivalent(options.scratch, options.output.parent_path(), ignored);
+}
+
+bool leftParts(const Options& options) {
+  return hasScratchBesideModel(options) && fs::exists(partialFolder(options));
+}
+
 /// Whether nothing is left to do beside a model: a run may have been killed just after it had written that.
 bool isWhole(const Options& options) {
-  return fs::exists(pictureOf(options.output)) && !fs::exists(partialFolder(options));
+  return fs::exists(pictureOf(options.output)) && !leftParts(options);
 }
 
 void makeWhole(Options options, const solver::Case& c, const std::vector<std::string>& lines) {
   if (!fs::exists(pictureOf(options.output))) modelfile::writeXdmf(options.output);
-  if (!fs::exists(partialFolder(options))) return;
+  if (!leftParts(options)) return;
   options.quiet = true;
   try {
     if (const auto checkpoint = checkpointOf(options, c, lines, solver::Ranks::one())) checkpoint->remove();
@@ -56,13 +68,17 @@ void makeWhole(Options options, const solver::Case& c, const std::vector<std::st
 /// One program at a time has a case, wherever its scratch is. The file stays where the program is killed, and says nothing then.
 class Claim {
  public:
+  /// @throw std::runtime_error  the folder of the output is gone, or no file can be made in it
   explicit Claim(const fs::path& output)
-      : file_(output.string() + ".lock"), lock_(solver::FileLock::take(file_)) {}
+      : file_(output.string() + ".lock"), lock_(solver::FileLock::take(file_)) {
+    if (!lock_ && !fs::is_directory(output.parent_path()))
+      throw std::runtime_error(output.parent_path().string() + ": the folder of the models is gone");
+  }
   Claim(const Claim&) = delete;
   Claim& operator=(const Claim&) = delete;
   ~Claim() {
-    std::error_code ignored;  // it is an empty file
-    if (lock_) fs::remove(file_, ignored);
+    std::error_code ignored;  // one that is not empty is somebody's
+    if (lock_ && fs::file_size(file_, ignored) == 0) fs::remove(file_, ignored);
   }
   [[nodiscard]] bool holds() const noexcept { return lock_.has_value(); }
 
@@ -94,13 +110,25 @@ Json solveOrLeave(const BatchCase& one) {
   return {{kThere, true}};
 }
 
+/// Of the exception that is being handled.
+std::string errorText() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 Json said(const BatchCase& one) {
   try {
     return solveOrLeave(one);
-  } catch (const solver::CheckpointInUse&) {
-    return {{kElsewhere, true}};
-  } catch (const std::exception& error) {
+  } catch (const solver::CheckpointInUse& error) {
+    if (hasScratchBesideModel(one.options)) return {{kElsewhere, true}};
     return {{kError, error.what()}};
+  } catch (const std::exception&) {
+    return {{kError, errorText()}};
   }
 }
 
@@ -120,8 +148,8 @@ void look(BatchCase& one) {
     const std::optional<std::string> reason = reasonToSolve(options.output, lines);
     if (!reason && isWhole(options)) one.state = CaseState::kThere;
     one.again = reason.value_or("");
-  } catch (const std::exception& error) {
-    fail(one, error.what());
+  } catch (const std::exception&) {
+    fail(one, errorText());
   }
 }
 

@@ -127,9 +127,11 @@ std::string spanText(double seconds) {
 Json batchReport(const Options& options, std::span<const BatchCase> cases, double seconds) {
   Json report{{"batch", options.batch.string()}, {"seconds", seconds}};
   if (options.worker) report["worker"] = *options.worker;
-  for (const StateWord& one : kStates)
+  for (const StateWord& one : kStates) {
+    if (one.state == CaseState::kEstimated && !options.dry_run) continue;
     report[one.word] = std::count_if(cases.begin(), cases.end(),
                                      [&](const BatchCase& each) { return each.state == one.state; });
+  }
   if (options.dry_run) {
     report["dry_run"] = true;
     report["estimate"] = sumOfEstimates(cases);
@@ -145,10 +147,7 @@ std::string batchTable(std::span<const BatchCase> cases, const Json& report) {
       dry_run ? Row{"case", "state", "s", "MB", "MiB of memory", "MB of scratch"}
               : Row{"case", "state", "s", "MB", "MiB of memory", "field error / %", "d_max / mm"}};
   for (const BatchCase& one : cases) rows.push_back(rowOf(one, dry_run));
-  std::string errors;
-  for (const BatchCase& one : cases)
-    if (!one.error.empty()) errors += one.name() + ": " + one.error + '\n';
-  return aligned(rows) + errors + sumLine(report) + '\n';
+  return aligned(rows) + sumLine(report) + '\n';
 }
 
 }  // namespace palpate::solve_program

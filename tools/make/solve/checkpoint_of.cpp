@@ -95,9 +95,11 @@ std::unique_ptr<solver::Checkpoint> checkpointOf(const Options& options, const s
     bool in_use = false;
     try {
       if (ranks.isFirst() == first) checkpoint = openedBy(options, solve, ranks);
+    } catch (const solver::CheckpointInUse& error) {
+      wrong = error.what();
+      in_use = true;
     } catch (const solver::CheckpointError& error) {
       wrong = error.what();
-      in_use = dynamic_cast<const solver::CheckpointInUse*>(&error) != nullptr;
     }
     if (ranks.all(wrong.empty())) continue;
     checkpoint.reset();

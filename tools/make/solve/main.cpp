@@ -73,6 +73,8 @@ void checkTogether(const solve_program::Options& options, const solver::Ranks& r
     if (given && ranks.size() > 1)
       throw program::UsageError(std::string(option) + " is for one process, not for " +
                                 std::to_string(ranks.size()));
+  if (batch && &ranks != &solver::Ranks::one())
+    throw program::UsageError("--batch starts its processes itself: start it without a launcher of MPI");
   if (batch && options.case_template) throw program::UsageError("--batch does not go with --template");
   if (batch && !options.input.empty())
     throw program::UsageError("--batch does not go with the input " + options.input.string() +

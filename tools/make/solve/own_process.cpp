@@ -50,8 +50,8 @@ std::string readAll(int end) {
   }
 }
 
-/// The process's part. It leaves what the other one has to end, its streams among it, alone.
-[[noreturn]] void runChild(pid_t parent, int end, const std::function<Json()>& work) {
+/// The process's part. It leaves what the other one has to end, its streams among it, alone: an exception ends it here.
+[[noreturn]] void runChild(pid_t parent, int end, const std::function<Json()>& work) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(program::kFailed);  // it ended before it could be followed
   const bool said = writeAll(end, work().dump());

@@ -15,7 +15,7 @@ namespace palpate::solve_program {
 [[nodiscard]] std::string fileHash(const std::filesystem::path& path);
 
 /// All that decides which model a case becomes, one "name = value" each.
-/// @param mesh_hash  fileHash() of its mesh when that was read
+/// @param mesh_hash  fileHash() of its mesh just before that was read
 [[nodiscard]] std::vector<std::string> linesOf(const solver::Case& c, const std::string& mesh_hash);
 
 /// Fills in provenance: program, time, case, mesh with its SHA-256, the lines of both, timings, error of the fit after each sweep or

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/make/solve/solve_case.h"
 
-#include <chrono>
 #include <cstddef>
 #include <iostream>
 #include <memory>
@@ -23,17 +22,13 @@
 #include "tools/modelfile/write_xdmf.h"
 #include "tools/program/write_file.h"
 #include "tools/solver/build/build_model.h"
+#include "tools/solver/build/build_model_parts.h"
 
 namespace palpate::solve_program {
 
 namespace {
 
 using program::Json;
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A bare mesh that names its accessible group means it.
 void adoptGroups(solver::Case& c, const mesh::TetMesh& organ) {
@@ -85,7 +80,7 @@ void waitForFile(const solver::Ranks& ranks) {
 }
 
 Json solved(Options options, const solver::Ranks& ranks) {
-  const auto start = Clock::now();
+  const solver::Stopwatch whole;
   // 1. What to solve, and where to.
   if (options.output.empty()) options.output = "model.h5";
   checkOutput(options.output);
@@ -96,8 +91,8 @@ Json solved(Options options, const solver::Ranks& ranks) {
     throw program::UsageError("--fresh is for the series methods, not " + toString(c.method));
   if (!options.scratch.empty()) program::checkOutput("--scratch", options.scratch / "series");
   // 2. The organ.
+  const std::string mesh_hash = fileHash(c.mesh);  // first: a mesh that changes now is told by the next batch
   const mesh::TetMesh organ = solver::raised(c, readOrgan(c.mesh, c.fixed));
-  const std::string mesh_hash = fileHash(c.mesh);
   adoptGroups(c, organ);
   const std::filesystem::path folder = std::filesystem::absolute(options.output).parent_path();
   if (options.scratch.empty()) options.scratch = folder;
@@ -120,14 +115,14 @@ Json solved(Options options, const solver::Ranks& ranks) {
     return {};
   }
   addProvenance(data, c, mesh_hash, report);
-  const auto write_start = Clock::now();
+  const solver::Stopwatch writing;
   modelfile::writeModel(options.output, data);
   modelfile::writeXdmf(options.output);
-  const double write_seconds = secondsSince(write_start);
+  const double write_seconds = writing.seconds();
   waitForFile(ranks);
   if (checkpoint) checkpoint->remove();
   // 5. What came out.
-  return summarize(options.output, c, data, report, write_seconds, secondsSince(start));
+  return summarize(options.output, c, data, report, write_seconds, whole.seconds());
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ TEST_F(SolvedInBatches, HaveTheModelsOfSingleSolves) {
   EXPECT_EQ(statesOf(report),
             (States{{"linear.toml", "solved"}, {"soft.toml", "solved"}, {"stiff.toml", "solved"}}));
   EXPECT_EQ(report.at("solved"), 3);
+  EXPECT_FALSE(report.contains("estimated"));
   EXPECT_EQ(leftOvers(), std::vector<std::string>());
   for (const std::string name : {"linear", "soft", "stiff"}) {
     const ProgramResult single =
@@ -64,7 +65,9 @@ TEST_F(SolvedInBatches, GoOnAfterOneThatFails) {
                                          {"d_group.toml", "rim"}}) {
     const auto error = entryOf(report, name).at("error").get<std::string>();
     EXPECT_NE(error.find(part), std::string::npos) << error;
-    EXPECT_NE(result.err.find("error: " + name + ": " + error + '\n'), std::string::npos) << result.err;
+    const std::size_t told = result.err.find("error: " + name + ": " + error + '\n');
+    ASSERT_NE(told, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find(error, told + error.size() + name.size()), std::string::npos) << result.err;
   }
   EXPECT_NE(result.err.find("1 solved, 3 failed; "), std::string::npos) << result.err;
 }
@@ -72,9 +75,21 @@ TEST_F(SolvedInBatches, GoOnAfterOneThatFails) {
 TEST_F(SolvedInBatches, DoNotReplaceWhatTheyDidNotMake) {
   addCase("fitted.toml", quick_);
   addCase("thesis.toml", quick_);
-  std::ofstream(inCases("thesis.h5")) << "years of work";
+  addCase("slides.toml", quick_);
+  for (const char* const file : {"thesis.h5", "slides.xdmf", "fitted.h5.lock"})
+    std::ofstream(inCases(file)) << "years of work";
+  const json first = solved(1);
+  EXPECT_EQ(statesOf(first),
+            (States{{"fitted.toml", "solved"}, {"slides.toml", "failed"}, {"thesis.toml", "failed"}}));
+  EXPECT_EQ(
+      entryOf(first, "slides.toml").at("error"),
+      inCases("slides.xdmf").string() + " is in the way: it does not belong to slides.h5; move it away");
+  for (const char* const file : {"thesis.h5", "slides.xdmf", "fitted.h5.lock"})
+    EXPECT_EQ(testing::contentOf(inCases(file)), "years of work") << file;
+  fs::remove(inCases("slides.xdmf"));
   ASSERT_EQ(solved(1).at("solved"), 1);
-  EXPECT_EQ(testing::contentOf(inCases("thesis.h5")), "years of work");
+  fs::remove(inCases("slides.h5"));
+  ASSERT_EQ(solved(1).at("solved"), 1) << "its own .xdmf is not in the way";
   {
     const MetaModel model = MetaModel::load(inCases("fitted.h5"));
     json provenance = json::parse(model.attributes().provenance);
@@ -94,7 +109,7 @@ TEST_F(SolvedInBatches, BeginAgainFromAnotherCaseOnlyWhenAsked) {
   addCase("one.toml", slow_);
   {
     testing::ChildProcess program("palpate-solve", batch(), {});
-    ASSERT_GT(solverOf(program, "one.h5"), 0);
+    ASSERT_GT(solverOf(program, inCases("one.h5")), 0);
     program.signal(SIGKILL);
     ASSERT_EQ(program.waitForExit(), 128 + SIGKILL);
   }
@@ -114,6 +129,7 @@ TEST_F(SolvedInBatches, SayWhatTheyWouldTake) {
   addCase("two.toml", quick_ + "[material]\nE = 1e5\n");
   const json report = solved(1, {"--dry-run", "-o", path("models")});
   EXPECT_EQ(report.at("dry_run"), true);
+  EXPECT_EQ(report.at("estimated"), 2);
   EXPECT_EQ(statesOf(report),
             (States{{"linear.toml", "failed"}, {"one.toml", "estimated"}, {"two.toml", "estimated"}}));
   const json one = entryOf(report, "one.toml").at("estimate"),

@@ -153,6 +153,8 @@ TEST_F(SolvedByRanks, RefuseWhatIsForOneProcess) {
                 "palpate-solve: --dry-run is for one process, not for 2\n");
   expectOneLine(byRanks(2, {"--batch", folder_.path().string()}), 2,
                 "palpate-solve: --batch is for one process, not for 2\n");
+  expectOneLine(byRanks(1, {"--batch", folder_.path().string()}), 2,
+                "palpate-solve: --batch starts its processes itself: start it without a launcher of MPI\n");
   expectOneLine(byRanks(2, {path("case.toml"), "-o", path("out.h5"), "--method", "pgd-linear",
                             "--load-direction", "any"}),
                 1, "method pgd-linear is solved by one process, not by 2\n");

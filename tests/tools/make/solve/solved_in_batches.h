@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/types.h>
 
 #include <chrono>
@@ -58,21 +59,35 @@ class SolvedInBatches : public SolveProgram {
         names.push_back(entry.path().filename());
     return names;
   }
-  /// The process that solves the present case, once that has kept something.
-  [[nodiscard]] pid_t solverOf(testing::ChildProcess& batch, const std::string& model) const {
-    const fs::path journal = inCases(model + ".partial") / "series.journal";
+  /// Waits until a solve has kept something.
+  static void waitForParts(testing::ChildProcess& program, const fs::path& model) {
+    const fs::path journal = fs::path(model.string() + ".partial") / "series.journal";
     std::error_code error;
-    while (batch.running() && (!fs::exists(journal) || fs::file_size(journal, error) == 0))
+    while (program.running() && (!fs::exists(journal) || fs::file_size(journal, error) == 0))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  /// Stops a process that solves, for good. @return whether it was still at work
+  [[nodiscard]] static bool stopped(pid_t solver, const fs::path& model) {
+    if (solver <= 0 || kill(solver, SIGSTOP) != 0) return false;
+    std::string name;
+    char state = 0;
+    while (std::ifstream("/proc/" + std::to_string(solver) + "/stat") >> solver >> name >> state &&
+           state != 'T' && state != 'Z')
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return state == 'T' && !fs::exists(model);
+  }
+  /// The process that solves the present case, stopped once that has kept something. @return 0: it ended too soon
+  [[nodiscard]] static pid_t solverOf(testing::ChildProcess& batch, const fs::path& model) {
+    waitForParts(batch, model);
     const std::string task = "/proc/" + std::to_string(batch.pid()) + "/task/" + std::to_string(batch.pid());
     pid_t solver = 0;
     std::ifstream(task + "/children") >> solver;
-    return solver;
+    return stopped(solver, model) ? solver : 0;
   }
 
   using States = std::map<std::string, std::string>;
   const std::string quick_ = "[model]\nmodes = 20\norder = 2\n";
-  const std::string slow_ = "[model]\nmodes = 20\n";
+  const std::string slow_ = "[model]\nmodes = 60\norder = 6\n";  ///< its parts are seen long before its end
 };
 
 }  // namespace palpate
