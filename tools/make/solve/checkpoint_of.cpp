@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "tools/make/solve/provenance.h"
-#include "tools/solver/base/parallel.h"
-#include "tools/solver/fem/block_kernel.h"
+#include "tools/solver/build/build_model.h"
 
 namespace palpate::solve_program {
 
@@ -84,8 +83,7 @@ std::unique_ptr<solver::Checkpoint> checkpointOf(const Options& options, const s
                                                  std::vector<std::string> solve, const solver::Ranks& ranks) {
   if (!keepsItsWork(c)) return nullptr;
   solve.push_back("program = SHA-256 " + fileHash("/proc/self/exe"));
-  solve.push_back("BLAS = " + solver::blasVersion());
-  solve.push_back("instruction set = " + solver::blockKernel());
+  solve.push_back("arithmetic = " + solver::arithmetic());
   solve.push_back("processes = " + std::to_string(ranks.size()));
   requireSame(solve, ranks);
   std::unique_ptr<solver::Checkpoint> checkpoint;

@@ -4,9 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "tools/solver/base/parallel.h"
 #include "tools/solver/build/build_model_pgd.h"
 #include "tools/solver/build/displacement_series.h"
 #include "tools/solver/build/force_series.h"
+#include "tools/solver/fem/block_kernel.h"
 
 namespace palpate::solver {
 
@@ -30,6 +32,10 @@ modelfile::ModelData buildModel(const Case& c, const mesh::TetMesh& mesh, const 
       return buildPgd(c, mesh, options, report);
   }
   throw CaseError("method is not known");
+}
+
+std::string arithmetic() {
+  return blasVersion() + ", kernels " + blockKernel();
 }
 
 }  // namespace palpate::solver

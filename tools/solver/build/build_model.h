@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "tools/mesh/tet_mesh.h"
 #include "tools/modelfile/model_data.h"
 #include "tools/solver/build/build_options.h"
@@ -15,5 +17,9 @@ namespace palpate::solver {
 /// @param mesh  checked  @throw CaseError, std::runtime_error
 [[nodiscard]] modelfile::ModelData buildModel(const Case& c, const mesh::TetMesh& mesh,
                                               const BuildOptions& options, BuildReport& report);
+
+/// What rounds: OpenBLAS's version and kind of processor, and the instruction set of our own kernel. Another one may give other
+/// bits.
+[[nodiscard]] std::string arithmetic();
 
 }  // namespace palpate::solver
