@@ -63,8 +63,9 @@ TEST(Bench, StepAndLoadUseTheModelGiven) {
   const TemporaryFile file("bench.h5");
   writeSyntheticModel(file.path(), {.subdivisions = 3, .modes = 8});
   auto found = measured({file.path().string(), "--benchmark_filter=step|load"});
-  ASSERT_EQ(found.size(), 3U);
-  for (const char* name : {"step/default/one_tool", "step/default/two_tools", "load/default"}) {
+  ASSERT_EQ(found.size(), 4U);
+  for (const char* name :
+       {"step/default/one_tool", "step/default/two_tools", "step/default/four_tools", "load/default"}) {
     ASSERT_TRUE(found.contains(name)) << name;
     EXPECT_GT(found[name]["p50_us"], 0.0);
     EXPECT_GE(found[name]["p99_us"], found[name]["p50_us"]);

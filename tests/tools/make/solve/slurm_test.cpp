@@ -81,7 +81,7 @@ class SolvedBySlurm : public SolveProgram {
     EXPECT_TRUE(fs::exists(partial / "series.journal")) << err.text();
   }
 
-  const std::string slow_ = "[model]\nmodes = 60\norder = 6\n";
+  const std::string slow_ = "[model]\nmodes = 60\norder = 6\nsweeps = 40\n";
   const std::string quick_ = "[model]\nmodes = 20\norder = 2\n";
 };
 

@@ -87,7 +87,8 @@ class SolvedInBatches : public SolveProgram {
 
   using States = std::map<std::string, std::string>;
   const std::string quick_ = "[model]\nmodes = 20\norder = 2\n";
-  const std::string slow_ = "[model]\nmodes = 60\norder = 6\n";  ///< its parts are seen long before its end
+  const std::string slow_ =
+      "[model]\nmodes = 60\norder = 6\nsweeps = 40\n";  ///< its parts are seen long before its end
 };
 
 }  // namespace palpate
