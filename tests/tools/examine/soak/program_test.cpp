@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "palpate/testing/paths.h"
 #include "palpate/testing/run_program.h"
@@ -24,10 +26,17 @@ TEST(Soak, JudgesAServerAmongToolsVisitorsChangesAndAHostileClient) {
   const TemporaryFolder out;
   writeSyntheticModel(model.path(), {.subdivisions = 2, .modes = 6});
   writeSyntheticModel(other.path(), {.subdivisions = 2, .modes = 6, .stiffness = 200.0});
-  const ProgramResult made =
-      runProgram(kSoak, {"--minutes", "0.33", "--bin", binDir(), "--model", model.path().string(), "--swap",
-                         other.path().string(), "--output", out.path().string(), "--json"});
-  EXPECT_EQ(made.exit_code, 0) << made.out << made.err << contentOf(out.path() / "soak.txt");
+  ProgramResult made;
+  std::string table;
+  std::filesystem::path folder;
+  for (const std::string minutes : {"0.33", "0.7", "1.5"}) {
+    folder = out.path() / minutes;
+    made = runProgram(kSoak, {"--minutes", minutes, "--bin", binDir(), "--model", model.path().string(),
+                              "--swap", other.path().string(), "--output", folder.string(), "--json"});
+    table = contentOf(folder / "soak.txt");
+    if (table.find("too few to judge") == std::string::npos) break;  // as on a machine with much other work
+  }
+  EXPECT_EQ(made.exit_code, 0) << made.out << made.err << table;
   const auto json = nlohmann::json::parse(made.out);
   EXPECT_EQ(json["verdicts"].size(), 11U);
   EXPECT_GE(json["scenes"], 2);
@@ -39,9 +48,9 @@ TEST(Soak, JudgesAServerAmongToolsVisitorsChangesAndAHostileClient) {
     EXPECT_GT(row["pose_to_force_us"]["p99"], row["pose_to_force_us"]["p50"]);
     EXPECT_GT(row["ticks"], 1000);
   }
-  EXPECT_THAT(contentOf(out.path() / "soak.txt"), HasSubstr("holds   server memory"));
+  EXPECT_THAT(table, HasSubstr("holds   server memory"));
   if (isInstalled("gnuplot")) {
-    EXPECT_THAT(contentOf(out.path() / "soak.svg"), HasSubstr("</svg>"));
+    EXPECT_THAT(contentOf(folder / "soak.svg"), HasSubstr("</svg>"));
   }
 }
 
