@@ -55,7 +55,6 @@ struct SeriesSolver::State {
   void firstDegree();
   void nextDegree(int degree);
   void fillSides(std::size_t count);
-  void solveSides(int count);
   void takeFields(int first, int last, const Lanes* mix);
   void store(int lane, int k, const Vec3& value);
   const Mat3& inverseCompliance(int lane, const Mat3& C);
@@ -106,11 +105,6 @@ void SeriesSolver::State::store(int lane, int k, const Vec3& value) {
   for (int c = 0; c < 3; ++c) answer[static_cast<std::size_t>(3 * k + c)][lane] = value[c];
 }
 
-/// Solves for all `count` coefficients of a degree.
-void SeriesSolver::State::solveSides(int count) {
-  solver.solve(sides, count);
-}
-
 /// U_k from the solution, first <= k < last of one degree. @param mix  [k - first][3], see fieldsFromRows
 void SeriesSolver::State::takeFields(int first, int last, const Lanes* mix) {
   const MultiIndex& alpha = basis[first];
@@ -128,7 +122,7 @@ void SeriesSolver::State::firstDegree() {
       for (int c = 0; c < 3; ++c)
         sides[order_of_nodes.rowOf(patch(lane).nodes[i], c) * 3 + static_cast<std::size_t>(c)][lane] =
             patch(lane).weights[i];
-  solveSides(3);
+  solver.solve(sides, 3);
   std::array<Lanes, 9> mix{};  // of the columns of W_s, [k][i]
   double softest = 0.0;
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -174,7 +168,7 @@ void SeriesSolver::State::nextDegree(int degree) {
   r.assign(static_cast<std::size_t>(model.nodeCount()) * static_cast<std::size_t>(count) * 3, Lanes{});
   assembleDegree(input(points), product, first, last, r.data());
   fillSides(static_cast<std::size_t>(count));
-  solveSides(count);
+  solver.solve(sides, count);
   std::array<Lanes, 3 * MonomialBasis::kMaxCoefficients> mix;  // [k - first][i]: of U_{e_i}
   for (int lane = 0; lane < kLanes; ++lane)
     for (int j = 0; j < count; ++j) {
