@@ -81,7 +81,7 @@ void TouchField::findNear(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
   near_.zero();
   const bool elsewhere = reached_ != s_.triangle;
   if (elsewhere) near_.clear();
-  reached_ = s_.triangle;
+  reached_ = stencil_.count > 0 ? s_.triangle : -1;  // where no position answers nothing is reached
   forEachNear(model, s_, stencil_, [&](const NearPart& part) noexcept PALPATE_NONBLOCKING {
     const std::span<const std::int32_t> nodes = part.field.nodes(part.source);
     if (elsewhere) near_.reach(nodes);
