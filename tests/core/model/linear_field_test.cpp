@@ -211,4 +211,26 @@ TEST(PatchMotion, AtRestIsTheLinearFieldOfOnePatchAveragedOverTheOther) {
   }
 }
 
+TEST(TouchField, AnswersAfterAPlaceWithoutAnAnswerInItsTriangle) {
+  int tried = 0;
+  for (std::int32_t t = 0; t < organ().surface().triangles(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      ContactPoint corner{t, {0.0, 0.0, 0.0}}, inside{t, {0.4, 0.3, 0.3}};
+      corner.barycentric[k] = 1.0;
+      if (organ().surface().mix(corner).count > 0 || organ().surface().mix(inside).count == 0) continue;
+      Touch touch(organ()), fresh(organ()), at(organ());
+      at.patch.moveTo(organ(), inside);
+      touchWith(organ(), corner, Vec3(0.0, 0.0, -0.001), 0.0, touch);
+      (void)patchMotion(organ(), touch, at);
+      for (const double depth : {0.001, 0.002, 0.003}) {
+        touchWith(organ(), inside, Vec3(0.0, 0.0, -depth), 0.0, touch);
+        touchWith(organ(), inside, Vec3(0.0, 0.0, -depth), 0.0, fresh);
+        const Vec3 u = patchMotion(organ(), touch, at).at(Vec3::Zero());
+        EXPECT_EQ(u, patchMotion(organ(), fresh, at).at(Vec3::Zero())) << t << ' ' << depth;
+        tried += u.norm() > 0.0 ? 1 : 0;
+      }
+    }
+  EXPECT_GT(tried, 0);
+}
+
 }  // namespace palpate::testing
