@@ -22,6 +22,12 @@ run_logged() {
   return "$code"
 }
 
+# What this machine has compiled before, in whatever folder, where it has ccache.
+if command -v ccache >/dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_SLOPPINESS=pch_defines,time_macros
+fi
+
 # build PRESET [TARGET...]: configures and builds on all cores; everything when no target is named.
 build() {
   local preset=$1

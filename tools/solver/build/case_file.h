@@ -128,7 +128,7 @@ struct Case {
   [[nodiscard]] double forceErrorOrDefault() const { return force_error.value_or(0.01); }
   [[nodiscard]] double fieldErrorOrDefault() const { return field_error.value_or(0.01); }
   [[nodiscard]] int sweepsOrDefault() const {
-    return sweeps.value_or(method == Method::kSeriesDisplacement ? 2 : 6);
+    return sweeps.value_or(method == Method::kSeriesDisplacement ? 3 : 6);
   }
   [[nodiscard]] bool nodalLoad() const { return load.node.value_or(false); }
 };

@@ -18,6 +18,7 @@
 #include "tools/solver/build/displacement_fields.h"
 #include "tools/solver/build/edge_fields.h"
 #include "tools/solver/build/estimate.h"
+#include "tools/solver/fit/far_field_fit.h"
 #include "tools/solver/series/nodal_greens.h"
 
 namespace palpate::solver {
@@ -88,11 +89,13 @@ double fitSeconds(const FitCounts& c, double n, bool given, int sweeps, double r
   const auto y = [&](double sources, double seen, double columns) {
     return sources * (seen * grams + 6.0 * n * c.surface_nodes * columns + solving);
   };
-  const double x = c.positions * (c.positions_seen * grams + 6.0 * n * c.surface_nodes * c.coefficients) +
+  const double principal = std::min(c.coefficients, static_cast<double>(FarFieldFit::kPrincipal));
+  const double x = c.positions * (c.positions_seen * grams + 6.0 * n * c.surface_nodes * principal) +
                    c.surface_nodes * solving;
-  const double sweep = y(c.positions, c.positions_seen, c.coefficients) + x;
+  const double sweep = y(c.positions, c.positions_seen, principal) + x;
   const double head = given ? 0.8 : 1.5, constant = given ? 1.0 : 3.0;  // sweeps; s
-  return constant + kBesides * ((sweeps + head) * sweep + y(c.loads, c.loads_seen, 3.0)) / rate;
+  const double last = y(c.positions, c.positions_seen, c.coefficients);
+  return constant + kBesides * ((sweeps + head) * sweep + last + y(c.loads, c.loads_seen, 3.0)) / rate;
 }
 
 /// Part of all pairs that are closer than three near radii, where weights differ from the area's.
@@ -130,9 +133,10 @@ Estimate DisplacementBuilder::sizes() const {
     const Blocks blocks(entries, *options_.ranks, part);
     return static_cast<double>(blocks.ownEnd() - blocks.ownBegin());
   };
+  constexpr double principal{FarFieldFit::kPrincipal};
   out.scratch =
       4.0 * rows *
-      (own(setup_.positions.nodes.size(), kLanes) * C + 3.0 * own(loaded_.size(), NodalGreens::kMost));
+      (own(setup_.positions.nodes.size(), kLanes) * (C > principal ? C + principal : C) + 3.0 * own(loaded_.size(), NodalGreens::kMost));
   double n = case_.modes ? *case_.modes : modesFor(case_.fieldErrorOrDefault(), setup_.surface, near_radius_);
   if (case_.handheld() && !case_.modes)
     n = std::clamp(0.45 * case_.sizeLimitOrDefault() / (rows + 3.0 * G + M * Cm / 3.0), 12.0, 400.0);
@@ -160,7 +164,7 @@ Estimate DisplacementBuilder::sizes() const {
   constexpr double kNodes = 128.0;  // whose matrices a worker adds up
   const double sums = 2.0 * n * n * options_.workers * kNodes;
   constexpr double kLibraries = 3e7;  // OpenBLAS, HDF5, stacks
-  const double fit = 4.0 * nodes * std::max(M, G) + 8.0 * n * M * C + 32.0 * n * rows + work + sums;
+  const double fit = 4.0 * nodes * std::max(M, G) + (8.0 * n + 4.0 * principal) * M * C + 32.0 * n * rows + work + sums;
   out.resident = residentBytes();
   out.memory = kLibraries + out.resident + std::max(fit + 0.25 * floats, 2.0 * floats);
   return out;

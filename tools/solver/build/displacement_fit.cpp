@@ -15,7 +15,7 @@ namespace palpate::solver {
 
 namespace {
 
-constexpr int kFewModes = 100;              ///< to begin with, where their number is not given
+constexpr double kBegin = 0.6;              ///< of the modes that an error is expected to want
 constexpr double kWider = 4.0 / 3.0;        ///< near fields, where the most modes are not enough
 constexpr double kWidestNearField = 8.001;  ///< in patch radii
 
@@ -95,7 +95,8 @@ std::vector<FitSource> DisplacementBuilder::fitSources(std::span<const std::int3
 FitOptions DisplacementBuilder::fitOptions() const {
   FitOptions options;
   options.error = report_.fit_asked;
-  options.modes = case_.modes.value_or(budget_ ? budget_->modes() : kFewModes);
+  options.modes = case_.modes.value_or(budget_ ? budget_->modes() : static_cast<int>(kBegin * sizes().modes));
+  options.scratch = options_.scratch;
   options.head_start = 3;
   options.sweeps = case_.sweepsOrDefault();
   options.reweighted = std::min(2, options.sweeps);

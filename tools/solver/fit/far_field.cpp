@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/solver/base/dense_decompositions.h"
 #include "tools/solver/base/progress.h"
 #include "tools/solver/fit/ball_moments.h"
 #include "tools/solver/fit/far_field_fit.h"
@@ -19,6 +20,7 @@ using Eigen::MatrixXf;
 namespace {
 
 constexpr std::size_t kNodes = 128;  ///< of a block: their matrices share those of the sources
+constexpr double kAim = 0.9;          ///< of the asked error, for modes that a part of the sources wants: all want more
 
 }  // namespace
 
@@ -67,16 +69,18 @@ FarFieldFit::Sources FarFieldFit::activeOf(std::size_t block) const {
   return Sources(active_).subspan(active_begin_[block], active_begin_[block + 1] - active_begin_[block]);
 }
 
-/// The fields of some sources, columns i * C + k, scaled by reference^|alpha|: metres; and the same times the weights.
+/// The fields of some sources, columns i * coefficients_ + k, all of them scaled by reference^|alpha|: metres; and the same times
+/// the weights.
 void FarFieldFit::read(Sources chunk, Worker& worker) const {
+  const FieldTable& table = over_all_ ? problem_.table : *principal_;
   const auto block = static_cast<std::size_t>(rows_ * coefficients_);
   worker.fields.resize(chunk.size() * block);
   worker.weighted.resize(rows_, static_cast<Index>(chunk.size()) * coefficients_);
   for (std::size_t i = 0; i < chunk.size(); ++i) {
     float* const own = worker.fields.data() + i * block;
-    problem_.table.read(static_cast<std::size_t>(chunk[i]), std::span(own, block));
+    table.read(static_cast<std::size_t>(chunk[i]), std::span(own, block));
     Eigen::Map<MatrixXf> A(own, rows_, coefficients_);
-    for (Index k = 0; k < coefficients_; ++k) {
+    for (Index k = 0; over_all_ && k < coefficients_; ++k) {
       const MultiIndex& a = problem_.basis[static_cast<int>(k)];
       A.col(k) *= static_cast<float>(std::pow(problem_.reference, a[0] + a[1] + a[2]));
     }
@@ -94,8 +98,9 @@ void FarFieldFit::weigh(std::int32_t s, Index column, Worker& worker) const {
 }
 
 /// C x C: times this, the columns of one source are orthonormal in the mean over its ball,
-/// relative to |d| (or to the size of its displacements times |f| / f_ref).
+/// relative to |d| (or to the size of its displacements times |f| / f_ref). Principal fields are.
 MatrixXf FarFieldFit::whitening(std::int32_t s) const {
+  if (!over_all_) return MatrixXf::Identity(coefficients_, coefficients_);
   const double travel = source(s).ball_radius / problem_.reference;
   MatrixXd D = moment_factor_;
   for (Index k = 0; k < coefficients_; ++k) {
@@ -103,6 +108,42 @@ MatrixXf FarFieldFit::whitening(std::int32_t s) const {
     D.row(k) *= std::pow(std::max(travel, 1e-3), a[0] + a[1] + a[2] - 1) / source(s).size;
   }
   return D.cast<float>();
+}
+
+/// Of all sources of this rank: the whitened fields' directions of largest energy in the weights, once for all sweeps.
+void FarFieldFit::findPrincipal() {
+  if (options_.scratch.empty() || coefficients_ <= kPrincipal) return;
+  principal_ = std::make_unique<FieldTable>(ScratchPlace(options_.scratch), sources_, std::size_t{kPrincipal},
+                                            problem_.table.rows());
+  principal_of_.setZero(kPrincipal, result_.Y.cols());
+  activate(1);
+  forOwn(sources_, [&](Worker& worker, std::size_t block) {
+    MatrixXf fields;
+    for (const std::int32_t s : activeOf(block)) {
+      read(Sources(&s, 1), worker);
+      const Eigen::Map<const MatrixXf> A(worker.fields.data(), rows_, coefficients_);
+      requireFinite(A, s);
+      const MatrixXd W = whitening(s).cast<double>();
+      const MatrixXf weighted = row_area_.cast<float>().asDiagonal() * worker.weighted;
+      const MatrixXf gram = A.transpose() * weighted;
+      const MatrixXd V = eigenpairs(W.transpose() * gram.cast<double>() * W).V.leftCols(kPrincipal);
+      fields.noalias() = A * (W * V).cast<float>();
+      principal_->write(static_cast<std::size_t>(s), {fields.data(), static_cast<std::size_t>(fields.size())});
+      columnsOf(principal_of_, s) =
+          W.transpose().triangularView<Eigen::Upper>().solve(V).transpose().cast<float>();
+    }
+  });
+  sweepOver(false);
+  modes_ = std::min(modes_, result_.Y.cols());
+}
+
+/// From here on. The next sweep finds the Y.
+void FarFieldFit::sweepOver(bool all) {
+  if (!principal_) return;
+  over_all_ = all;
+  coefficients_ = all ? problem_.basis.size() : kPrincipal;
+  result_.Y = MatrixXf::Zero(modes_, static_cast<Index>(problem_.sources.size()) * coefficients_);
+  std::fill(energies_.begin(), energies_.end(), -1.0);
 }
 
 /// The Y of some sources side by side, each times its whitening.
@@ -124,7 +165,7 @@ void FarFieldFit::shareY() {
 
 /// Every fourth source is enough to begin with, where that leaves many times more columns than modes.
 std::size_t FarFieldFit::headStride() const {
-  constexpr Index kColumnsPerMode = 20;
+  constexpr Index kColumnsPerMode = 8;
   const Index all = static_cast<Index>(problem_.sources.size()) * coefficients_;
   const Index most = std::max<Index>(modes_, options_.error > 0.0 ? options_.most_modes : 0);
   return static_cast<std::size_t>(std::clamp<Index>(all / (kColumnsPerMode * most), 1, 4));
@@ -158,7 +199,7 @@ void FarFieldFit::headStart() {
     const double error = quantileOfLargest();
     if (error <= options_.error || modes_ >= options_.most_modes) break;
     const Index before = modes_;
-    grow(modesFor(error, options_.error));
+    grow(modesFor(error, kAim * options_.error));
     if (modes_ == before) break;  // the table has no more
     for (int i = 0; i < 2; ++i) sweep(Step::kPlain);
   }
@@ -170,11 +211,14 @@ void FarFieldFit::sweepAll() {
   const int plain = options_.sweeps - options_.reweighted;
   for (int i = 1; i <= options_.sweeps; ++i)
     sweep(i < plain ? Step::kPlain : i == plain ? Step::kMeasured : Step::kReweighted);
+  sweepOver(true);
   sweep(Step::kLast);
 }
 
 FarField FarFieldFit::run() {
-  Progress progress("far field", 3, options_.quiet);
+  Progress progress("far field", 4, options_.quiet);
+  findPrincipal();
+  progress.advance();
   headStart();
   progress.advance();
   sweepAll();
@@ -183,7 +227,9 @@ FarField FarFieldFit::run() {
     const Index before = modes_;
     grow(modesFor(quantileOfLargest(), options_.error));
     if (modes_ == before) break;  // the table has no more
+    sweepOver(false);
     sweep(Step::kReweighted);
+    sweepOver(true);
     sweep(Step::kLast);
   }
   shareY();

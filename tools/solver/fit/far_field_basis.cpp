@@ -25,6 +25,10 @@ MatrixXf FarFieldFit::noise(Sources chunk, Index count) const {
   return all;
 }
 
+void FarFieldFit::requireFinite(const Eigen::Ref<const MatrixXf>& fields, std::int32_t s) {
+  if (!fields.allFinite()) throw FitError("the fields of source " + std::to_string(s) + " are not finite");
+}
+
 /// A first basis: the table times random numbers (a randomized range finder, one pass).
 void FarFieldFit::sketch() {
   TreeSum<MatrixXf> sum(sources_, rows_, modes_);
@@ -34,8 +38,7 @@ void FarFieldFit::sketch() {
       read(chunk, worker);
       const Eigen::Map<const MatrixXf> A(worker.fields.data(), rows_, worker.weighted.cols());
       for (std::size_t i = 0; i < chunk.size(); ++i)
-        if (!A.middleCols(static_cast<Index>(i) * coefficients_, coefficients_).allFinite())
-          throw FitError("the fields of source " + std::to_string(chunk[i]) + " are not finite");
+        requireFinite(A.middleCols(static_cast<Index>(i) * coefficients_, coefficients_), chunk[i]);
       part.noalias() += A * noise(chunk, modes_);
     }
     sum.add(block, std::move(part));

@@ -11,22 +11,24 @@ using Eigen::Index;
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
-/// C x 26: the columns of one source times this are its fields over abs(d), abs(d) the ball's radius.
+/// coefficients_ x 26: the columns of one source times this are its fields over abs(d), abs(d) the ball's radius.
 MatrixXf FarFieldFit::directions(std::int32_t s) const {
   const double travel = std::max(source(s).ball_radius / problem_.reference, 1e-3);
-  MatrixXf D(coefficients_, 26);
+  const Index C = problem_.basis.size();
+  MatrixXf D(C, 26);
   for (Index q = 0, cell = 0; cell < 27; ++cell) {
     if (cell == 13) continue;  // no direction
     const Vec3 x = Vec3(static_cast<double>(cell / 9 - 1), static_cast<double>(cell / 3 % 3 - 1),
                         static_cast<double>(cell % 3 - 1))
                        .normalized();
-    for (Index k = 0; k < coefficients_; ++k) {
+    for (Index k = 0; k < C; ++k) {
       const MultiIndex& a = problem_.basis[static_cast<int>(k)];
       D(k, q) = static_cast<float>(std::pow(x.x(), a[0]) * std::pow(x.y(), a[1]) * std::pow(x.z(), a[2]) *
                                    std::pow(travel, a[0] + a[1] + a[2] - 1) / source(s).size);
     }
     ++q;
   }
+  if (!over_all_) D = principal_of_.middleCols(s * C, C) * D;
   return D;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,9 +18,14 @@
 namespace palpate::solver {
 
 /// The work of fitFarField(): a sketch, then sweeps of a Y-step and an X-step each (far_field_fit.cpp). Each rank has the Y of the
-/// sources whose fields it has, and the X of a part of the nodes, until both are shared.
+/// sources whose fields it has, and the X of a part of the nodes, until both are shared. Sweeps go over the principal fields of
+/// each source, where it has scratch for them; the last one of all goes over all coefficients.
 class FarFieldFit {
  public:
+  /// Principal fields of a source. Far from a patch its load acts by its resultant and its first moments, 3 and 9 numbers, however
+  /// many coefficients the polynomial in d has (Saint-Venant's principle).                docs/decisions/three_parts.md
+  static constexpr Eigen::Index kPrincipal = 12;
+
   FarFieldFit(const FitProblem& problem, const FitOptions& options);
   FarField run();
   /// Y of this rank's sources for these modes, m. @param X  3 Ns x n
@@ -54,6 +60,9 @@ class FarFieldFit {
   void weigh(std::int32_t source, Eigen::Index column, Worker& worker) const;
   [[nodiscard]] Eigen::MatrixXf whitening(std::int32_t source) const;
   [[nodiscard]] Eigen::MatrixXd whitenedY(Sources sources);
+  static void requireFinite(const Eigen::Ref<const Eigen::MatrixXf>& fields, std::int32_t source);
+  void findPrincipal();
+  void sweepOver(bool all);
   void activate(std::size_t stride);
   [[nodiscard]] std::size_t headStride() const;
   [[nodiscard]] Eigen::MatrixXf noise(Sources chunk, Eigen::Index count) const;
@@ -81,7 +90,7 @@ class FarFieldFit {
 
   const FitProblem& problem_;
   FitOptions options_;
-  Eigen::Index rows_, coefficients_, modes_;
+  Eigen::Index rows_, coefficients_, modes_;  // coefficients_: columns of a source, of its principal fields or of all
   Eigen::MatrixXd moment_factor_;          // C x C
   Eigen::VectorXd row_area_;               // 3 Ns, sums to 3
   const Blocks& sources_;                  // of the table
@@ -94,6 +103,9 @@ class FarFieldFit {
   std::vector<double> energies_;           // weighted squares of each source's field, negative: not known yet
   Eigen::MatrixXd area_gram_;              // X^T diag(area) X, n x n
   Eigen::MatrixXf area_X_;                 // diag(area) X
+  std::unique_ptr<FieldTable> principal_;  // [source][kPrincipal][row]; null: sweeps go over all coefficients
+  Eigen::MatrixXf principal_of_;           // kPrincipal x (M C): a field is the principal ones times this
+  bool over_all_{true};
   FarField result_;
   std::vector<Worker> workers_;
 };

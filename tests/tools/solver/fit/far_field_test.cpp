@@ -259,6 +259,67 @@ TEST_F(SteepFields, DoesNotDependOnTheUnitOfLength) {
   }
 }
 
+/// Fields as a load on a patch makes them: polynomials of d with nineteen coefficients, that act on the rest by a few moments.
+class PatchFields : public SteepFields {
+ protected:
+  static constexpr int kMoments = 9;
+
+  PatchFields() {
+    Eigen::MatrixXf bases(static_cast<Eigen::Index>(cubic_.rows()), kMoments);
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      for (Eigen::Index row = 0; row < bases.rows(); ++row)
+        for (int m = 0; m < kMoments; ++m) {
+          const Vec3 X = surface_.positions[static_cast<std::size_t>(row / 3)], at = sources_[s].place;
+          const double r = (X - at + 0.002 * Vec3(m / 3 - 1, m % 3 - 1, 0)).norm();
+          bases(row, m) = static_cast<float>(std::exp(-r / 0.02) * (row % 3 == m % 3 ? 1.0 : 0.2));
+        }
+      std::srand(static_cast<unsigned>(s));
+      const Eigen::MatrixXf fields = bases * Eigen::MatrixXf::Random(kMoments, kCubic.size());
+      cubic_.write(s, {fields.data(), static_cast<std::size_t>(fields.size())});
+    }
+  }
+
+  [[nodiscard]] FarField fitCubic(const std::filesystem::path& scratch) const {
+    FitOptions options;
+    options.modes = 30;
+    options.sweeps = 3;
+    options.reweighted = 1;
+    options.scratch = scratch;
+    options.workers = 2;
+    options.quiet = true;
+    return fitFarField({cubic_, kCubic, surface_.areas, surface_.positions, sources_, 1.0}, options);
+  }
+
+  inline static const MonomialBasis kCubic{3};
+  FieldTable cubic_{std::filesystem::temp_directory_path(), surface_.positions.size(),
+                    static_cast<std::size_t>(kCubic.size()), 3 * surface_.positions.size()};
+};
+
+TEST_F(PatchFields, SweepsOverPrincipalFieldsEndAsSweepsOverAll) {
+  const FarField all = fitCubic({}), few = fitCubic(std::filesystem::temp_directory_path());
+  ASSERT_EQ(few.Y.cols(), all.Y.cols());
+  EXPECT_NEAR(few.errors.back(), all.errors.back(), 0.02 * all.errors.back());
+  EXPECT_NEAR(quantile(few.largest), quantile(all.largest), 0.1 * quantile(all.largest));
+  const Eigen::MatrixXf u = all.X * all.Y, v = few.X * few.Y;
+  EXPECT_LT(double{(u - v).norm()}, 2.0 * all.errors.back() * double{u.norm()});
+}
+
+TEST_F(PatchFields, NamesTheSourceBeforeItLooksForPrincipalFields) {
+  std::vector<float> fields(cubic_.rows() * static_cast<std::size_t>(kCubic.size()));
+  fields[5] = std::numeric_limits<float>::infinity();
+  cubic_.write(3, fields);
+  EXPECT_THROW(
+      {
+        try {
+          (void)fitCubic(std::filesystem::temp_directory_path());
+        } catch (const FitError& error) {
+          EXPECT_STREQ(error.what(), "the fields of source 3 are not finite");
+          throw;
+        }
+      },
+      FitError);
+}
+
 TEST(NearWindow, FallsSmoothlyFromOneToZero) {
   EXPECT_EQ(nearWindow(0.0, 0.025), 1.0);
   EXPECT_EQ(nearWindow(0.025, 0.025), 0.0);
