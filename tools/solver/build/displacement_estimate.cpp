@@ -134,9 +134,9 @@ Estimate DisplacementBuilder::sizes() const {
     return static_cast<double>(blocks.ownEnd() - blocks.ownBegin());
   };
   constexpr double principal{FarFieldFit::kPrincipal};
-  out.scratch =
-      4.0 * rows *
-      (own(setup_.positions.nodes.size(), kLanes) * (C > principal ? C + principal : C) + 3.0 * own(loaded_.size(), NodalGreens::kMost));
+  out.scratch = 4.0 * rows *
+                (own(setup_.positions.nodes.size(), kLanes) * (C > principal ? C + principal : C) +
+                 3.0 * own(loaded_.size(), NodalGreens::kMost));
   double n = case_.modes ? *case_.modes : modesFor(case_.fieldErrorOrDefault(), setup_.surface, near_radius_);
   if (case_.handheld() && !case_.modes)
     n = std::clamp(0.45 * case_.sizeLimitOrDefault() / (rows + 3.0 * G + M * Cm / 3.0), 12.0, 400.0);
@@ -164,7 +164,8 @@ Estimate DisplacementBuilder::sizes() const {
   constexpr double kNodes = 128.0;  // whose matrices a worker adds up
   const double sums = 2.0 * n * n * options_.workers * kNodes;
   constexpr double kLibraries = 3e7;  // OpenBLAS, HDF5, stacks
-  const double fit = 4.0 * nodes * std::max(M, G) + (8.0 * n + 4.0 * principal) * M * C + 32.0 * n * rows + work + sums;
+  const double fit =
+      4.0 * nodes * std::max(M, G) + (8.0 * n + 4.0 * principal) * M * C + 32.0 * n * rows + work + sums;
   out.resident = residentBytes();
   out.memory = kLibraries + out.resident + std::max(fit + 0.25 * floats, 2.0 * floats);
   return out;

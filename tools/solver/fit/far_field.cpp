@@ -20,7 +20,8 @@ using Eigen::MatrixXf;
 namespace {
 
 constexpr std::size_t kNodes = 128;  ///< of a block: their matrices share those of the sources
-constexpr double kAim = 0.9;          ///< of the asked error, for modes that a part of the sources wants: all want more
+constexpr double kAim =
+    0.85;  ///< of the asked error, for modes that a part of the sources wants: all want more
 
 }  // namespace
 
@@ -128,7 +129,8 @@ void FarFieldFit::findPrincipal() {
       const MatrixXf gram = A.transpose() * weighted;
       const MatrixXd V = eigenpairs(W.transpose() * gram.cast<double>() * W).V.leftCols(kPrincipal);
       fields.noalias() = A * (W * V).cast<float>();
-      principal_->write(static_cast<std::size_t>(s), {fields.data(), static_cast<std::size_t>(fields.size())});
+      principal_->write(static_cast<std::size_t>(s),
+                        {fields.data(), static_cast<std::size_t>(fields.size())});
       columnsOf(principal_of_, s) =
           W.transpose().triangularView<Eigen::Upper>().solve(V).transpose().cast<float>();
     }

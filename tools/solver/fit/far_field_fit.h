@@ -90,12 +90,13 @@ class FarFieldFit {
 
   const FitProblem& problem_;
   FitOptions options_;
-  Eigen::Index rows_, coefficients_, modes_;  // coefficients_: columns of a source, of its principal fields or of all
-  Eigen::MatrixXd moment_factor_;          // C x C
-  Eigen::VectorXd row_area_;               // 3 Ns, sums to 3
-  const Blocks& sources_;                  // of the table
-  Blocks nodes_;                           // of the X-step
-  std::vector<std::int32_t> active_;       // the sources that sweeps go over, in order
+  Eigen::Index rows_, coefficients_,
+      modes_;                         // coefficients_: columns of a source, of its principal fields or of all
+  Eigen::MatrixXd moment_factor_;     // C x C
+  Eigen::VectorXd row_area_;          // 3 Ns, sums to 3
+  const Blocks& sources_;             // of the table
+  Blocks nodes_;                      // of the X-step
+  std::vector<std::int32_t> active_;  // the sources that sweeps go over, in order
   std::vector<std::size_t> active_begin_;  // by block of sources, and the end; offsets into active_
   Eigen::MatrixXf change_;                 // Ns x M: weight - 1, moved by sweeps
   double mean_seen_{0.0};                  // mean error near the sources, of the last measure

@@ -38,7 +38,8 @@ struct FitOptions {
   int head_start{0};    ///< sweeps before them over a quarter of the sources
   double error{0.0};    ///< asked 95 % quantile of FarField::largest; 0: the modes are as many as given
   int most_modes{400};  ///< with an asked error
-  std::filesystem::path scratch{};  ///< folder for principal fields, for sources with near fields; empty: sweeps go over all
+  std::filesystem::path
+      scratch{};  ///< folder for principal fields, for sources with near fields; empty: sweeps go over all
   int workers{1};
   bool quiet{false};
 };
