@@ -129,7 +129,7 @@ void addApplicability(const Json& content, Json& view) {
   const Json& c = content["certificate"];
   const Json& travel = content["context_of_use"]["travel"];
   view["area_sentence"] =
-      "Of all touches that were drawn, over area, directions and lengths together, " +
+      "Of all touches, over area, directions and lengths together, " +
       percent(c["certified_area_fraction"]) +
       " are in the domain and have a full solution: the errors of part 6 are about these.";
   view["reach"] = Json::array();
