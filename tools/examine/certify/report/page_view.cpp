@@ -129,8 +129,7 @@ void addApplicability(const Json& content, Json& view) {
   const Json& c = content["certificate"];
   const Json& travel = content["context_of_use"]["travel"];
   view["area_sentence"] =
-      "Of all touches, over area, directions and lengths together, " +
-      percent(c["certified_area_fraction"]) +
+      "Of all touches, over area, directions and lengths together, " + percent(c["certified_area_fraction"]) +
       " are in the domain and have a full solution: the errors of part 6 are about these.";
   view["reach"] = Json::array();
   for (const Json& one : content["applicability"]["reach"])
