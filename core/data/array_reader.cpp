@@ -12,10 +12,11 @@ std::byte* ArrayReader::addArray(const std::string& path, NumberType type, std::
                                  std::size_t bytes) {
   Array& array = (*arrays_)[path];
   bytes_ += bytes - array.bytes;
-  array = {type, std::move(shape), std::vector<double>(bytes / sizeof(double) + 1), nullptr, bytes};
-  auto* const room = static_cast<std::byte*>(static_cast<void*>(array.numbers.data()));
-  array.first = room;
-  return room;
+  array = {type, std::move(shape), std::unique_ptr<double[]>(new double[bytes / sizeof(double) + 1]), nullptr,
+           bytes};
+  auto* const first = static_cast<std::byte*>(static_cast<void*>(array.room.get()));
+  array.first = first;
+  return first;
 }
 
 void ArrayReader::placeArray(const std::string& path, ArrayShape shape, std::span<const std::byte> bytes) {

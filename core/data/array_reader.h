@@ -44,8 +44,8 @@ class ArrayReader : public ModelSource {
   struct Array {
     NumberType type{};
     std::vector<std::uint64_t> shape;
-    std::vector<double>
-        numbers;  ///< room of `bytes`, aligned for any of them; none where somebody else keeps it
+    std::unique_ptr<double[]>
+        room;  ///< of `bytes`, aligned for any number; null where somebody else keeps it
     const std::byte* first{nullptr};
     std::size_t bytes{0};
   };

@@ -99,8 +99,8 @@ class ModelSource {
                                            std::size_t count) const;
 
   std::string name_;
-  std::shared_ptr<std::vector<std::vector<double>>> copies_{
-      std::make_shared<std::vector<std::vector<double>>>()};
+  using Copies = std::vector<std::unique_ptr<double[]>>;  // aligned for any number
+  std::shared_ptr<Copies> copies_{std::make_shared<Copies>()};
 };
 
 }  // namespace palpate

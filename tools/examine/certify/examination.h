@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/model/meta_model.h"
+#include "tools/examine/certify/quantile_bound.h"
 #include "tools/examine/certify/reference_solver.h"
 #include "tools/examine/certify/touch_sampler.h"
 
@@ -42,7 +43,7 @@ struct Examination {
 
 /// How much is examined.
 struct Extent {
-  std::size_t samples{59};  ///< touches within the domain, >= 1
+  std::size_t samples{kSamples};  ///< touches within the domain, >= 1
   int threads{1};
 };
 

@@ -2,7 +2,7 @@
 // palpate-certify: how far a model is off, found by fresh touches that full Newton solves, and written into its file.
 //
 // Sample runs:  palpate-certify liver.h5
-//               palpate-certify liver.h5 --samples 93 --json --plot errors.svg
+//               palpate-certify liver.h5 --samples 59 --json --plot errors.svg
 //               palpate-certify liver.h5 --report liver_report --youngs-modulus-error 0.2
 //               palpate-certify liver.h5 --seed 7 --samples 100 --json    # measures only
 #include <algorithm>
@@ -33,7 +33,7 @@ namespace {
 
 struct Options {
   std::string model, plot, report;
-  int samples{59}, threads{solver::machineThreads()};
+  int samples{kSamples}, threads{solver::machineThreads()};
   std::optional<double> travel, length, modulus_error;
   std::optional<std::int64_t> seed;
   bool two_tools{false}, inward{false}, json{false}, no_write{false};

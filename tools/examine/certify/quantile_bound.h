@@ -9,6 +9,8 @@ namespace palpate::certify {
 
 /// Fewer samples have no such rank.
 inline constexpr std::size_t kLeastSamples = 59;
+/// What a certificate has unless told otherwise: the fifth largest bounds, so no single touch decides.
+inline constexpr std::size_t kSamples = 181;
 
 /// The least rank k, from 1, for which the k-th smallest of n independent samples is at least their distribution's 95 %
 /// quantile with 95 % confidence, whatever the distribution: P(B < k) >= 0.95 for a binomial B of n and 0.95.
