@@ -18,6 +18,12 @@ solver::NewtonOptions newtonOptions() {
   return options;
 }
 
+solver::NewtonOptions fromSeries() {
+  solver::NewtonOptions options = newtonOptions();
+  options.lost = 0.5;
+  return options;
+}
+
 /// From rest, where the series leads nowhere: a touch is given up after minutes, not hours.
 solver::NewtonOptions fromRest() {
   solver::NewtonOptions options = newtonOptions();
@@ -85,7 +91,7 @@ std::optional<query::FullSolution> ReferenceSolver::solve(std::span<const Touch>
   query::FullSolution solution;
   solution.patch = tools.front().patch;
   solution.d = tools.front().d;
-  if (auto state = newton.solvePatchesFrom(start, tools, newtonOptions())) {
+  if (auto state = newton.solvePatchesFrom(start, tools, fromSeries())) {
     solution.min_det_f = organ_.body.minDetF(state->u);
     solution.state = std::move(*state);
     if (solution.min_det_f > 0.0) return solution;

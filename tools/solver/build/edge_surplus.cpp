@@ -11,7 +11,7 @@ namespace palpate::solver {
 namespace {
 
 constexpr double kTooHigh =
-    3.0;  // what an edge misses in its worst direction over what touches do: docs/decisions/domain.md
+    2.75;  // what an edge misses in its worst direction over what touches do: docs/decisions/domain.md
 constexpr double kSlowest = 0.8;  // of the terms of one degree over those of the last
 
 ModelView surfaceOf(const modelfile::ModelData& data) {

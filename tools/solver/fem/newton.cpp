@@ -97,11 +97,9 @@ struct PatchProblem {
   Eigen::VectorXd external, internal;
 };
 
-/// Newton at one level. @return whether it converged; state is then the solution. It gives up early where three iterations leave half
-/// of the largest force unbalanced: there tangents are seldom positive definite, and one that is not takes eight times as long.
+/// Newton at one level. @return whether it converged; state is then the solution
 template <typename Problem>
 bool converge(Problem& problem, NewtonResult& state, const NewtonOptions& options) {
-  constexpr double kLost = 0.5;
   double previous = problem.error(state);
   bool held = false;  // the factor of an earlier iteration
   int lost = 0;
@@ -115,7 +113,7 @@ bool converge(Problem& problem, NewtonResult& state, const NewtonOptions& option
     if (!state.u.allFinite()) return false;  // patches that cannot move apart; a maximum would miss NaN
     state.residual = problem.error(state);
     if (!std::isfinite(state.residual) || state.residual > 1e6) return false;
-    if (state.residual > kLost && ++lost == 3) return false;
+    if (state.residual > options.lost && ++lost == 3) return false;
     // Rounding may keep the residual just above the tolerance; then it stops falling.
     const bool stagnated =
         !held && state.residual < 1e3 * options.tolerance && state.residual > 0.5 * previous;

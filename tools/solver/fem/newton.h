@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -28,6 +29,8 @@ struct NewtonOptions {
   double tolerance{1e-10};  ///< of the residual, relative to the largest internal nodal force
   double held{
       0.0};  ///< a factor serves on while iterations leave less than this part of the residual; 0: one each
+  /// Three iterations that leave a larger residual end a step: where a tangent is not positive definite, each takes long.
+  double lost{std::numeric_limits<double>::infinity()};
 };
 
 struct NewtonResult {
