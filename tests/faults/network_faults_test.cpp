@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A network between device and server: two network namespaces and a pair of Ethernet ends, which are gone with the test's thread.
+// A network between device and server: two network namespaces, and what this process makes of the frames between them.
 #include <fcntl.h>
 #include <net/if.h>
 #include <sched.h>
@@ -10,16 +10,13 @@
 #include <cstdlib>
 #include <string>
 
+#include "emulated_network.h"
 #include "rig.h"
 
 namespace palpate::faults {
 namespace {
 
 constexpr double kFound = 1000.0;  // ms: DDS sends again what is new, and two ramps
-
-bool ran(const std::string& command) {
-  return std::system(command.c_str()) == 0;
-}
 
 // The end of the server's namespace.
 class Link {
@@ -63,6 +60,7 @@ class NetworkFault : public Fault {
   ~NetworkFault() override {
     device_.reset();
     server_.reset();
+    network_.reset();
     (void)setns(home_, CLONE_NEWNET);
     for (const int network : {home_, device_network_, server_network_})
       if (network >= 0) close(network);
@@ -70,28 +68,29 @@ class NetworkFault : public Fault {
     palpate::testing::useLoopback();
   }
 
-  // The device in one namespace, this thread and the server in another. @return whether it was granted
+  // A namespace for the device, and one for the server and this thread. @return whether they were granted
   bool connect() {
     if (unshare(CLONE_NEWNET) != 0) return false;
     device_network_ = thisNetwork();
-    if (unshare(CLONE_NEWNET) != 0) return false;
+    auto device = NetworkEnd::make("device", 2);
+    if (!device || unshare(CLONE_NEWNET) != 0) return false;
     server_network_ = thisNetwork();
-    const std::string device = "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(device_network_);
-    return ran("ip link add server type veth peer name device && ip addr add 10.77.0.1/24 dev server && "
-               "ip link set server up && ip link set device netns " +
-               device) &&
-           setns(device_network_, CLONE_NEWNET) == 0 &&
-           ran("ip addr add 10.77.0.2/24 dev device && ip link set device up");
+    auto server = NetworkEnd::make("server", 1);
+    if (!server) return false;
+    network_ = std::make_unique<EmulatedNetwork>(std::move(device), std::move(server));
+    return true;
   }
 
-  // Where connect() left this thread in the device's network.
   void startBoth() {
+    ASSERT_EQ(setns(device_network_, CLONE_NEWNET), 0);
     useInterface("device");
     startDevice();
     ASSERT_EQ(setns(server_network_, CLONE_NEWNET), 0);
     useInterface("server");
     ASSERT_NO_FATAL_FAILURE(start());
   }
+
+  std::unique_ptr<EmulatedNetwork> network_;
 
  private:
   int home_{thisNetwork()};
@@ -115,6 +114,29 @@ TEST_F(NetworkFault, ACutNetworkLeavesNoForceAndIsFoundAgain) {
   };
   cutFor(milliseconds(500));
   cutFor(milliseconds(2000));  // the device looks for another server meanwhile
+}
+
+TEST_F(NetworkFault, ANetworkThatLosesOrDelaysTakesNoForceUntilItIsTooSlow) {
+  if (!connect()) GTEST_SKIP() << "no two network namespaces may be made and joined here";
+  ASSERT_NO_FATAL_FAILURE(startBoth());
+  const auto forASecond = [&](const std::string& what, double lost, int delay_ms, Force wanted) {
+    expect(
+        "network: " + what + " for 1 s, both ways", wanted,
+        [&] {
+          network_->lose(lost);
+          network_->delay(milliseconds(delay_ms));
+          wait(milliseconds(1000));
+          network_->lose(0.0);
+          network_->delay(milliseconds(0));
+        },
+        kFound);
+  };
+  forASecond("a tenth lost", 0.1, 0, Force::kGoesOn);
+  forASecond("a fifth lost", 0.2, 0, Force::kGoesOn);
+  forASecond("5 ms", 0.0, 5, Force::kGoesOn);
+  forASecond("a tenth lost, 15 ms", 0.1, 15, Force::kGoesOn);
+  forASecond("100 ms", 0.0, 100, Force::kZero);
+  forASecond("all lost", 1.0, 0, Force::kZero);
 }
 
 }  // namespace

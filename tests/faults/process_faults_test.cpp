@@ -17,6 +17,7 @@
 #include "recorded.h"
 #include "rig.h"
 #include "service_manager.h"
+#include "stepped_clock.h"
 #include "stuck_thread.h"
 
 namespace palpate::faults {
@@ -156,6 +157,27 @@ TEST_F(ProcessFault, AStuckTickLeavesNoForceAndIsStartedAgain) {
 
 TEST_F(ProcessFault, AStuckReceiveThreadLeavesNoForceAndIsStartedAgain) {
   restartLikeSystemd("recv");
+}
+
+TEST_F(ProcessFault, AWallClockThatStepsTakesNoForce) {
+  setenv("LD_PRELOAD", PALPATE_FAULTS_DIR "/libpalpate_stepped_clock.so", 1);
+  useArguments();
+  startServer();
+  unsetenv("LD_PRELOAD");
+  ASSERT_NO_FATAL_FAILURE(start());
+  const auto step = [&](const std::string& what, int signal) {
+    constexpr milliseconds kLease{11'000};  // of DDS: by then who is not heard of any more is forgotten
+    expect(
+        "server: its wall clock " + what, Force::kGoesOn,
+        [&] {
+          server_->signal(signal);
+          wait(kLease);
+        },
+        0.0);
+  };
+  step("an hour forward", SIGUSR2);
+  EXPECT_NE(server_->log().find(kReadAhead), std::string::npos) << server_->log();
+  step("an hour back", SIGUSR1);
 }
 
 // Keeps one processor for itself, above the tick. @return whether it was granted
