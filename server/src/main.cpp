@@ -41,24 +41,26 @@ void prepareProcess() {
   spdlog::cfg::load_env_levels();  // SPDLOG_LEVEL=debug
 }
 
-// A real-time thread has computed for kLongestComputation without a sleep. @return whether it is one of ours
+// A real-time thread has computed for kLongestComputation without a sleep. A flood keeps a receive thread busy; many readers, or a
+// machine with other work, the one that sends fields: forces go on without their priority. @return whether it is another one
 bool judgeSpinning() {
-  bool ours = false;
+  bool forces = false;
   for (const rt::ThreadFacts& thread : rt::spinningThreads(std::chrono::milliseconds(50))) {
-    const bool receives = wantedPriority(thread.name) == kReceivePriority;
+    const int wanted = wantedPriority(thread.name);
+    const bool lower = wanted == kReceivePriority || wanted == kSurfacePriority;
     spdlog::critical(
         "thread {} computes at real-time priority {} without a sleep for {} ms: {}", thread.name,
         thread.fifo_priority, kLongestComputation.count(),
-        receives ? "it goes on as an ordinary thread" : "the server ends, so that the machine stays usable");
-    if (const int error = receives ? rt::lowerThread(thread) : 0; error != 0)
+        lower ? "it goes on as an ordinary thread" : "the server ends, so that the machine stays usable");
+    if (const int error = lower ? rt::lowerThread(thread) : 0; error != 0)
       spdlog::critical("thread {} keeps its priority: {}", thread.name, std::strerror(error));
-    ours = ours || !receives;
+    forces = forces || !lower;
   }
   (void)rt::limitRealtimeWithoutSleep(kLongestComputation, kLastComputation);  // the kernel has raised it
-  return ours;
+  return forces;
 }
 
-// @return the signal; SIGXCPU when a thread of ours spins
+// @return the signal; SIGXCPU when a thread spins that forces need
 int waitForSignal() {
   const sigset_t signals = stopSignals();
   for (;;) {

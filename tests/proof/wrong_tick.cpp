@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wrong twin of a tick, to show that what counts its calls can find something. Loaded into palpate-server before the
-// counter: from time to time, where a tick wakes the thread that sends forces, it does what no tick may do.
+// counter: from time to time, where a tick wakes the thread that sends forces, it does what no tick may do. Or the thread that sends fields spins.
 #include <dlfcn.h>
 #include <pthread.h>
+#include <sched.h>
 #include <semaphore.h>
 #include <sys/mman.h>
 
@@ -20,8 +21,10 @@ constexpr int kSeldom = 200;  // posts to a mistake
 constexpr std::size_t kPage = 4096;
 
 using Post = int(sem_t*);
+using Wait = int(sem_t*, clockid_t, const timespec*);
 
 Post* next_post = nullptr;
+Wait* next_wait = nullptr;
 std::string_view mistake;
 pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 __attribute__((tls_model("initial-exec"))) thread_local int posts = 0;
@@ -61,16 +64,26 @@ void makeMistake() noexcept {
   }
 }
 
-bool isTickThread() noexcept {
-  char name[16] = {};
-  pthread_getname_np(pthread_self(), name, sizeof name);
-  return std::string_view(name) == kTickThread;
+// Computes as long as this thread has a real-time priority, once.
+void spinWhileRaised() noexcept {
+  static bool spun = false;
+  while (!spun && sched_getscheduler(0) == SCHED_FIFO) {
+  }
+  spun = true;
+}
+
+bool isThread(std::string_view name) noexcept {
+  char own[16] = {};
+  pthread_getname_np(pthread_self(), own, sizeof own);
+  return own == name;
 }
 
 // Before main().
 __attribute__((constructor)) void prepare() noexcept {
-  void* const found = dlsym(RTLD_NEXT, "sem_post");
+  void* found = dlsym(RTLD_NEXT, "sem_post");
   std::memcpy(&next_post, &found, sizeof found);
+  found = dlsym(RTLD_NEXT, "sem_clockwait");
+  std::memcpy(&next_wait, &found, sizeof found);
   if (const char* const wanted = std::getenv(kMistakeVariable)) mistake = wanted;
 }
 
@@ -79,8 +92,15 @@ __attribute__((constructor)) void prepare() noexcept {
 
 extern "C" int sem_post(sem_t* semaphore) noexcept {
   using namespace palpate::proof;
-  if (is_tick < 0) is_tick = isTickThread() ? 1 : 0;
+  if (is_tick < 0) is_tick = isThread(kTickThread) ? 1 : 0;
   if (is_tick == 1 && ++posts % kSeldom == 0) makeMistake();
   if (next_post == nullptr) prepare();
   return next_post(semaphore);
+}
+
+extern "C" int sem_clockwait(sem_t* semaphore, clockid_t clock, const timespec* until) noexcept {
+  using namespace palpate::proof;
+  if (next_wait == nullptr) prepare();
+  if (mistake == "spin surface-out" && isThread("surface-out")) spinWhileRaised();
+  return next_wait(semaphore, clock, until);
 }
