@@ -69,7 +69,7 @@ Errors play() {
     const Point p = pressAt(std::max(0.0, 1e-9 * static_cast<double>(now) - 0.041));
     const Vec3 true_force = truth.at(palpate::Vec3(p[0], p[1], p[2])).force;
     const auto seq = static_cast<std::uint64_t>(i + 1);
-    for (ForceRenderer* renderer : {&holding, &carrying}) renderer->sent(seq, p);
+    for (ForceRenderer* renderer : {&holding, &carrying}) renderer->sent(seq, p, now);
     if (i % kRate == 0)
       on_the_way.emplace_back(now + kWay * kPeriod,
                               answerOf(server.at(palpate::Vec3(p[0], p[1], p[2])), seq, now));

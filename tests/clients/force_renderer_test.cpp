@@ -23,7 +23,7 @@ double sizeOf(const Vec3& v) {
 class Pressed : public ::testing::Test {
  protected:
   void SetUp() override {
-    renderer.sent(7, kPose);
+    renderer.sent(7, kPose, now);
     answer.force = {0.1, 0.0, 0.5};
     answer.stiffness = {-200, 0, 0, 0, -200, 0, 0, 0, -500};
     answer.pose_seq = 7;
@@ -50,7 +50,7 @@ TEST(ForceRendererNearest, IsOfAFreeToolTheDistanceToItsAnchor) {
   EXPECT_EQ(renderer.nearest(), std::numeric_limits<double>::infinity());
   Answer answer;
   const auto answered = [&](std::uint64_t seq, const Point& position, const Vec3& anchor) {
-    renderer.sent(seq, position);
+    renderer.sent(seq, position, 0);
     answer.pose_seq = seq;
     answer.anchor = anchor;
     ASSERT_TRUE(renderer.answered(answer));
@@ -82,13 +82,13 @@ TEST(ForceRendererNearest, IsOfAFreeToolTheDistanceToItsAnchor) {
 TEST_F(Pressed, ComesBackAfterADriverThatDidNotReadOnceALaterPoseIsAnswered) {
   EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).gain, 1.0);
   now += 1000 * kMs;
-  renderer.sent(8, kPose);  // just before the pause, or after it
+  renderer.sent(8, kPose, now);  // just before the pause, or after it
   for (int ms = 0; ms < 10; ++ms) {
     answer.arrived_ns = now += kMs;
     answer.pose_seq = ms < 5 ? 7 : 8;
     ASSERT_TRUE(renderer.answered(answer));
     EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).gain, 0.0) << ms;
-    renderer.sent(9 + static_cast<std::uint64_t>(ms), kPose);
+    renderer.sent(9 + static_cast<std::uint64_t>(ms), kPose, now);
   }
   answer.pose_seq = 9;
   double last = 0.0;
@@ -172,7 +172,7 @@ TEST_F(Pressed, IsNeverLongerThanTheLimit) {
 
 TEST_F(Pressed, StartsFromThePoseThatWasAnswered) {
   for (std::uint64_t seq = 8; seq < 12; ++seq)
-    renderer.sent(seq, {0, 0, -0.001 - 1e-4 * static_cast<double>(seq)});
+    renderer.sent(seq, {0, 0, -0.001 - 1e-4 * static_cast<double>(seq)}, now);
   EXPECT_EQ(at(kPose), answer.force) << "poses sent since do not matter";
   answer.pose_seq = 9;
   answer.arrived_ns = now;
@@ -182,7 +182,7 @@ TEST_F(Pressed, StartsFromThePoseThatWasAnswered) {
 }
 
 TEST_F(Pressed, IsHeldWhenTheAnsweredPoseIsForgotten) {
-  for (std::uint64_t seq = 8; seq < 8 + ForceRenderer::kPoses; ++seq) renderer.sent(seq, kPose);
+  for (std::uint64_t seq = 8; seq < 8 + ForceRenderer::kPoses; ++seq) renderer.sent(seq, kPose, now);
   EXPECT_EQ(at({0, 0, -0.002}), answer.force);
 }
 
@@ -237,9 +237,44 @@ TEST_F(Pressed, ComesBackWithin30MsAndNeverAtOnce) {
   EXPECT_NEAR(before, 1.0, 1e-9);
 }
 
+// A network that delays by so many ms: answers come at their pace, each to a pose of so long ago; and the gain in the end.
+class Delayed : public Pressed, public ::testing::WithParamInterface<std::pair<int, double>> {};
+
+TEST_P(Delayed, AnswersThatTookLongerThan50MsAreNone) {
+  const auto [delay_ms, gain] = GetParam();
+  constexpr int kMost = 2 * static_cast<int>(ForceRenderer::kPoses);
+  for (int ms = 0; ms < kMost; ++ms) {
+    now += kMs;
+    renderer.sent(8 + static_cast<std::uint64_t>(ms), kPose, now);
+    if (ms >= delay_ms) {
+      answer.pose_seq = 8 + static_cast<std::uint64_t>(ms - delay_ms);
+      answer.arrived_ns = now;
+      EXPECT_EQ(renderer.answered(answer), gain == 1.0) << ms;
+    }
+    (void)renderer.at(nullptr, now, kNoLimit);
+  }
+  EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).gain, gain);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Delayed,
+                         ::testing::Values(std::pair(0, 1.0), std::pair(49, 1.0), std::pair(51, 0.0),
+                                           std::pair(1500, 0.0)),
+                         [](const auto& named) { return std::to_string(named.param.first) + "ms"; });
+
+// A driver that sends seldom: a server answers its newest pose in each tick.
+TEST_F(Pressed, AnAnswerThatIsRepeatedIsAsGoodAsTheFirst) {
+  renderer.sent(8, kPose, now);
+  answer.pose_seq = 8;
+  for (int ms = 0; ms < 200; ++ms) {
+    answer.arrived_ns = now += kMs;
+    ASSERT_TRUE(renderer.answered(answer));
+    ASSERT_EQ(renderer.at(nullptr, now, kNoLimit).gain, 1.0) << ms;
+  }
+}
+
 TEST(ForceRenderer, IsZeroBeforeTheFirstAnswer) {
   ForceRenderer renderer(0.002);
-  renderer.sent(1, {0, 0, 0});
+  renderer.sent(1, {0, 0, 0}, 0);
   const Point p{0, 0, 0};
   const Force force = renderer.at(&p, kMs, kNoLimit);
   EXPECT_EQ(sizeOf(force.force), 0.0);

@@ -165,19 +165,19 @@ TEST_F(ProcessFault, AWallClockThatStepsTakesNoForce) {
   startServer();
   unsetenv("LD_PRELOAD");
   ASSERT_NO_FATAL_FAILURE(start());
-  const auto step = [&](const std::string& what, int signal) {
-    constexpr milliseconds kLease{11'000};  // of DDS: by then who is not heard of any more is forgotten
+  const auto step = [&](const std::string& what, int signal, milliseconds time) {
     expect(
         "server: its wall clock " + what, Force::kGoesOn,
         [&] {
           server_->signal(signal);
-          wait(kLease);
+          wait(time);
         },
         0.0);
   };
-  step("an hour forward", SIGUSR2);
+  step("an hour forward", SIGUSR2, milliseconds(2'000));
   EXPECT_NE(server_->log().find(kReadAhead), std::string::npos) << server_->log();
-  step("an hour back", SIGUSR1);
+  // Who has begun to wait until a time of before waits an hour longer, and after 10 s DDS forgets whom it does not hear.
+  step("an hour back", SIGUSR1, milliseconds(11'000));
 }
 
 // Keeps one processor for itself, above the tick. @return whether it was granted

@@ -39,15 +39,24 @@ Point without(const Point& v, const Point& direction, double sign) noexcept {
 
 }  // namespace
 
-void ForceRenderer::sent(std::uint64_t seq, const Point& position) noexcept PALPATE_NONBLOCKING {
-  poses_[seq % kPoses] = {seq, position};
+void ForceRenderer::sent(std::uint64_t seq, const Point& position,
+                         std::int64_t sent_ns) noexcept PALPATE_NONBLOCKING {
+  poses_[seq % kPoses] = {seq, position, sent_ns};
   newest_sent_ = seq;
+}
+
+// A server goes on answering a pose until there is a newer one, and only the first answer tells how long the way is.
+bool ForceRenderer::isTooLate(const Answer& answer) const noexcept PALPATE_NONBLOCKING {
+  if (has_answer_ && answer.pose_seq == answer_.pose_seq) return false;
+  const SentPose& pose = poses_[answer.pose_seq % kPoses];
+  if (pose.seq == answer.pose_seq) return answer.arrived_ns - pose.sent_ns > kTooLate;
+  return answer.pose_seq + kPoses <= newest_sent_;  // as many came since
 }
 
 bool ForceRenderer::answered(const Answer& answer) noexcept PALPATE_NONBLOCKING {
   const bool sane = isFinite(answer.force) && isFinite(answer.stiffness) && isFinite(answer.anchor) &&
                     isFinite(answer.proxy);
-  if (!sane || (has_answer_ && answer.pose_seq < answer_.pose_seq)) return false;
+  if (!sane || (has_answer_ && answer.pose_seq < answer_.pose_seq) || isTooLate(answer)) return false;
   if (answer.session != answer_.session) gain_ = 0.0;
   answer_ = answer;
   has_answer_ = true;

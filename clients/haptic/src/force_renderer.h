@@ -32,6 +32,8 @@ class ForceRenderer {
  public:
   static constexpr double kStaleAfter = 0.020;  ///< s without an answer until the force falls
   static constexpr double kRamp = 0.030;        ///< s from full force to none, and back
+  static constexpr std::int64_t kTooLate =
+      50'000'000;  ///< ns from a pose to its answer: one that took longer is none
   static constexpr double kLongestRead =
       0.005;  ///< s; of the time between two reads, what counts: in a rise of the force, and as the time it is rendered for
   static constexpr std::size_t kPoses = 1024;  ///< remembered poses; a quarter of a second at 4 kHz
@@ -39,11 +41,12 @@ class ForceRenderer {
   /// @param[in] max_extrapolation  m
   explicit ForceRenderer(double max_extrapolation) noexcept : max_extrapolation_(max_extrapolation) {}
 
-  /// @param[in] seq  rises by one with each pose
-  void sent(std::uint64_t seq, const Point& position) noexcept PALPATE_NONBLOCKING;
+  /// @param[in] seq  rises by one with each pose  @param[in] sent_ns  when, on this machine's clock
+  void sent(std::uint64_t seq, const Point& position, std::int64_t sent_ns) noexcept PALPATE_NONBLOCKING;
 
   /// The force of another session rises from zero.
-  /// @return false when it is ignored: a number is not finite, or the pose is older than that of the last answer
+  /// @return false when it is ignored: a number is not finite, the pose is older than that of the last answer, or its first answer took
+  /// longer than kTooLate: a network that delays is as good as none
   bool answered(const Answer& answer) noexcept PALPATE_NONBLOCKING;
 
   /// The current force. The device renders it until its next read, which is taken to be as far off as the last one: by then it has
@@ -60,9 +63,11 @@ class ForceRenderer {
   struct SentPose {
     std::uint64_t seq{0};
     Point position{};
+    std::int64_t sent_ns{0};
   };
 
   [[nodiscard]] Point extrapolated(const Point& position) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] bool isTooLate(const Answer& answer) const noexcept PALPATE_NONBLOCKING;
   void comeNear() noexcept PALPATE_NONBLOCKING;
   void watch(std::int64_t now_ns) noexcept PALPATE_NONBLOCKING;
 

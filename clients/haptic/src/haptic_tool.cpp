@@ -76,10 +76,11 @@ class HapticTool::Impl {
   std::uint64_t send(const Vec3& position, const Quaternion& orientation, std::uint32_t buttons) noexcept {
     if (!knowsServer()) return 0;
     if (wanted_.organ_id) tool_.want(target_.load(std::memory_order_relaxed));
-    announceIfDue(rt::monotonicNow());
+    const std::int64_t now_ns = rt::monotonicNow();
+    announceIfDue(now_ns);
     const Point p{position[0], position[1], position[2]};
     const std::uint64_t seq = tool_.publish(p, orientation, buttons);
-    if (seq != 0) renderer_.sent(seq, p);
+    if (seq != 0) renderer_.sent(seq, p, now_ns);
     return seq;
   }
 
