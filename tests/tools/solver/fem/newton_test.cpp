@@ -111,5 +111,18 @@ TEST_F(TwoPatches, ABeginningThatLeadsNowhereGivesNothing) {
   EXPECT_FALSE(newton_.solvePatchesFrom(wild, std::span(&tool, 1), options));
 }
 
+TEST_F(TwoPatches, ABeginningThatIsLostEndsAtTheThirdLargeResidual) {
+  const ImposedPatch tool{patchAt(3, 2), Vec3(0.001, 0.0, -0.008)};
+  NewtonOptions options;
+  const auto found = newton_.solvePatches(std::span(&tool, 1), options);
+  ASSERT_GE(found.iterations, 3);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(3 * model_.nodeCount());
+  ASSERT_TRUE(newton_.solvePatchesFrom(rest, std::span(&tool, 1), options));
+  options.lost = 0.0;  // any residual is too large
+  EXPECT_FALSE(newton_.solvePatchesFrom(rest, std::span(&tool, 1), options));
+  options.lost = 1e3;
+  EXPECT_TRUE(newton_.solvePatchesFrom(rest, std::span(&tool, 1), options));
+}
+
 }  // namespace
 }  // namespace palpate::solver
