@@ -12,6 +12,7 @@ std::byte* ArrayReader::addArray(const std::string& path, NumberType type, std::
                                  std::size_t bytes) {
   Array& array = (*arrays_)[path];
   bytes_ += bytes - array.bytes;
+  // Not cleared, as it is filled in. emscripten 3.1 has no make_unique_for_overwrite.
   array = {type, std::move(shape), std::unique_ptr<double[]>(new double[bytes / sizeof(double) + 1]), nullptr,
            bytes};
   auto* const first = static_cast<std::byte*>(static_cast<void*>(array.room.get()));

@@ -97,6 +97,7 @@ std::span<const T> ModelSource::dataset(const Dataset<T>& what, Lengths& lengths
 template <typename T>
 std::span<const T> ModelSource::widened(NumberType stored, const std::byte* first, std::size_t count) const {
   requireRoom(count * sizeof(T));
+  // Not cleared (array_reader.cpp).
   copies_->push_back(std::unique_ptr<double[]>(new double[count * sizeof(T) / sizeof(double) + 1]));
   T* const to = static_cast<T*>(static_cast<void*>(copies_->back().get()));
   if constexpr (std::is_arithmetic_v<T>)

@@ -166,6 +166,10 @@ TEST_F(ProcessFault, AWallClockThatStepsTakesNoForce) {
   unsetenv("LD_PRELOAD");
   ASSERT_NO_FATAL_FAILURE(start());
   const auto step = [&](const std::string& what, int signal, milliseconds time) {
+    prepare_ = [&] {  // who waits then waits until a time of the clock before the step
+      server_->signal(signal == SIGUSR2 ? SIGUSR1 : SIGUSR2);
+      wait(milliseconds(1'000));
+    };
     expect(
         "server: its wall clock " + what, Force::kGoesOn,
         [&] {

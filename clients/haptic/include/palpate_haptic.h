@@ -26,7 +26,7 @@ extern "C" {
 /* What a call returns. */
 enum {
   PALPATE_HAPTIC_OK = 0,
-  PALPATE_HAPTIC_NO_ANSWER = 1,         /* no force came yet, or none for 50 ms: the force is zero */
+  PALPATE_HAPTIC_NO_ANSWER = 1,         /* no force came yet, or none in time for 50 ms: the force is zero */
   PALPATE_HAPTIC_INVALID_ARGUMENT = -1, /* a null pointer, or a number out of its range */
   PALPATE_HAPTIC_SEND_FAILED = -2,      /* DDS refused the pose, or no server of the organ is known */
   PALPATE_HAPTIC_NO_SERVER = -3         /* no server within the time */

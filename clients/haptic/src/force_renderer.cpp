@@ -45,11 +45,9 @@ void ForceRenderer::sent(std::uint64_t seq, const Point& position,
   newest_sent_ = seq;
 }
 
-// A server goes on answering a pose until there is a newer one, and only the first answer tells how long the way is.
 bool ForceRenderer::isTooLate(const Answer& answer) const noexcept PALPATE_NONBLOCKING {
-  if (has_answer_ && answer.pose_seq == answer_.pose_seq) return false;
   const SentPose& pose = poses_[answer.pose_seq % kPoses];
-  if (pose.seq == answer.pose_seq) return answer.arrived_ns - pose.sent_ns > kTooLate;
+  if (pose.seq == answer.pose_seq) return answer.first_arrived_ns - pose.sent_ns > kTooLate;
   return answer.pose_seq + kPoses <= newest_sent_;  // as many came since
 }
 

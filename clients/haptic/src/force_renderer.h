@@ -22,6 +22,8 @@ struct Answer {
   std::uint32_t flags{0};
   std::uint32_t state{0};
   std::int64_t arrived_ns{0};  ///< this machine's clock
+  std::int64_t first_arrived_ns{
+      0};  ///< of the first answer to this pose: a server repeats it until there is a newer one
   std::uint32_t server_id{0};
   std::uint64_t session{0};
 };
@@ -33,7 +35,7 @@ class ForceRenderer {
   static constexpr double kStaleAfter = 0.020;  ///< s without an answer until the force falls
   static constexpr double kRamp = 0.030;        ///< s from full force to none, and back
   static constexpr std::int64_t kTooLate =
-      50'000'000;  ///< ns from a pose to its answer: one that took longer is none
+      50'000'000;  ///< ns from a pose to its first answer; what arrives later is ignored
   static constexpr double kLongestRead =
       0.005;  ///< s; of the time between two reads, what counts: in a rise of the force, and as the time it is rendered for
   static constexpr std::size_t kPoses = 1024;  ///< remembered poses; a quarter of a second at 4 kHz
@@ -45,8 +47,8 @@ class ForceRenderer {
   void sent(std::uint64_t seq, const Point& position, std::int64_t sent_ns) noexcept PALPATE_NONBLOCKING;
 
   /// The force of another session rises from zero.
-  /// @return false when it is ignored: a number is not finite, the pose is older than that of the last answer, or its first answer took
-  /// longer than kTooLate: a network that delays is as good as none
+  /// @return false when it is ignored: a number is not finite, the pose is older than that of the last answer, or its first answer arrived
+  /// more than kTooLate after it was sent
   bool answered(const Answer& answer) noexcept PALPATE_NONBLOCKING;
 
   /// The current force. The device renders it until its next read, which is taken to be as far off as the last one: by then it has

@@ -117,9 +117,13 @@ class HapticTool::Impl {
       if (const auto status = self.statuses_.find(run))
         self.adopt(*status);  // it came before the first answer
     }
+    if (force.pose_seq != self.answered_seq_) {
+      self.answered_seq_ = force.pose_seq;
+      self.first_answer_ns_ = received_ns;
+    }
     self.arrivals_.write({arrayOf(force.force), arrayOf(force.stiffness), arrayOf(force.anchor),
                           arrayOf(force.proxy), force.pose_seq, force.flags, force.state, received_ns,
-                          force.server_id, force.session});
+                          self.first_answer_ns_, force.server_id, force.session});
   }
 
   // Seen half changed, a status is not adopted; the next one comes within a second.
@@ -184,6 +188,8 @@ class HapticTool::Impl {
   std::int64_t said_ns_{0};                              // 0: never
   std::atomic<std::uint32_t> held_id_{dds::kServerAny};  // the receive threads' only
   std::atomic<std::uint64_t> held_session_{0};
+  std::uint64_t answered_seq_{0};    // the receive thread's: of the newest answer,
+  std::int64_t first_answer_ns_{0};  // and when the first one to that pose arrived
   client::StatusBoard statuses_;
   client::ToolClient tool_;  // last: nothing is received while the other members are destroyed
 };

@@ -48,7 +48,7 @@ struct Options {
 void describe(program::Options line, Options& options) {
   line.add("model", &options.model, "model file (.h5), driven by displacement").required();
   line.add("--samples", &options.samples,
-           "touches within the domain; a bound takes 59, fewer are not written")
+           "touches within the domain (default: 181); a bound takes 59, fewer are not written")
       .range(1, 100000);
   line.add("--travel", &options.travel,
            "how far tools press (default: the case's, else 0.007 below 50 kPa, 0.005 above)")

@@ -98,7 +98,7 @@ struct Case {
   std::optional<double> force_error;  ///< of the force within the travel, relative, (0, 1); absent: 0.01
   std::optional<double> field_error;  ///< largest error of the field over abs(d), (0, 1); absent: 0.01
   std::optional<double> size_limit;   ///< of the file, bytes, [1e5, 1e12]; handheld only; absent: 8 or 20 MB
-  std::optional<int> sweeps;  ///< of the fit of the modes, 1 to 1000; absent: 2 beside a near field, else 6
+  std::optional<int> sweeps;  ///< of the fit of the modes, 1 to 1000; absent: 3 beside a near field, else 6
   LoadCase load;
   PgdCase pgd;
   std::string text;  ///< the case file as read, for the provenance

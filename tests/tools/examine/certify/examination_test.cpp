@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "../query/box_model.h"
@@ -108,6 +109,21 @@ TEST_F(Box, ForcesTooLargeByTwoPercentAreFoundSo) {
   EXPECT_NEAR(c["force_error"]["p50"].get<double>(), kTooLarge - 1.0, 0.003);
   EXPECT_GT(c["force_error"]["bound_95_95"].get<double>(), kTooLarge - 1.0);
   EXPECT_NE(spoiled_->digest(), box_->model.digest());
+}
+
+TEST_F(Box, ATouchWithoutASolutionIsNotCertified) {
+  Examination found = examined(box_->model, 5, 2);
+  const Drawing drawing{{kTravel, ""}, kRange, 1};
+  const auto share = [&] {
+    return certificateOf(box_->model, drawing, found)["certified_area_fraction"].get<double>();
+  };
+  const double solved = share();
+  ASSERT_GT(solved, 0.0);
+  ASSERT_EQ(found.count(Outcome::kWithin), 5U);
+  const auto within = std::find_if(found.findings.begin(), found.findings.end(),
+                                   [](const Finding& f) { return f.outcome == Outcome::kWithin; });
+  within->outcome = Outcome::kNotSolved;
+  EXPECT_NEAR(share(), 0.8 * solved, 1e-12);
 }
 
 TEST_F(Box, TooFewSamplesClaimNoBound) {

@@ -19,6 +19,19 @@ using ::testing::HasSubstr;
 
 const std::string kSoak = std::string(PALPATE_TOOLS_DIR) + "/soak";
 
+// Whether only lines through the ends of scenes do not hold: with much other work there are too few ends, or two that differ. What
+// leaks does so in a longer run too; a server that ends, or loses answers, is none.
+bool wantsALongerRun(const std::string& said) {
+  const auto json = nlohmann::json::parse(said, nullptr, false);
+  if (!json.is_object()) return false;
+  for (const nlohmann::json& verdict : json["verdicts"]) {
+    const auto what = verdict["what"].get<std::string>();
+    const bool is_line = what.find(' ') != std::string::npos || what == "scenes";  // "server memory"
+    if (!verdict["holds"].get<bool>() && !is_line) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TEST(Soak, JudgesAServerAmongToolsVisitorsChangesAndAHostileClient) {
@@ -34,8 +47,7 @@ TEST(Soak, JudgesAServerAmongToolsVisitorsChangesAndAHostileClient) {
     made = runProgram(kSoak, {"--minutes", minutes, "--bin", binDir(), "--model", model.path().string(),
                               "--swap", other.path().string(), "--output", folder.string(), "--json"});
     table = contentOf(folder / "soak.txt");
-    // Too few scenes are judged with much other work beside, and two of them may differ; what leaks does so in a longer run too.
-    if (made.exit_code == 0) break;
+    if (made.exit_code == 0 || !wantsALongerRun(made.out)) break;
   }
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err << table;
   const auto json = nlohmann::json::parse(made.out);

@@ -111,7 +111,7 @@ TEST_F(TwoPatches, ABeginningThatLeadsNowhereGivesNothing) {
   EXPECT_FALSE(newton_.solvePatchesFrom(wild, std::span(&tool, 1), options));
 }
 
-TEST_F(TwoPatches, ABeginningThatIsLostEndsAtTheThirdLargeResidual) {
+TEST_F(TwoPatches, ABeginningThatIsLostEndsEarly) {
   const ImposedPatch tool{patchAt(3, 2), Vec3(0.001, 0.0, -0.008)};
   NewtonOptions options;
   const auto found = newton_.solvePatches(std::span(&tool, 1), options);

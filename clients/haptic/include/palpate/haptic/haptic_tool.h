@@ -58,7 +58,7 @@ struct Options {
 ///
 /// Watchdog, by this machine's clock: 20 ms after the newest answer the force at the device begins to fall; 30 ms later it is
 /// zero, when it is read every 5 ms or more often. When answers come or come back, the force rises within 30 ms. After 50 ms
-/// without a read it is zero until a later pose is answered. An answer that took longer than 50 ms from its pose on is none. The watchdog acts when the caller reads: a driver that stops
+/// without a read it is zero until a later pose is answered. Answers that arrive more than 50 ms after their pose was sent are ignored. The watchdog acts when the caller reads: a driver that stops
 /// reading must release its device itself.
 ///
 /// Threads: one thread sends and reads. The library receives answers on its own thread.
