@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loaded before all other libraries of palpate-server (LD_PRELOAD): steps its wall clock, an hour forward by SIGUSR2 and back to the
-// machine's by SIGUSR1, and says once that somebody has read it. Who waits for a time of that clock is woken by a step as the kernel's clock would wake it.
+// machine's by SIGUSR1, and says once that somebody has read it. Who waits for a time of that clock is woken by a step as the kernel's clock would
+// wake it.
 #include "stepped_clock.h"
 
 #include <dlfcn.h>
@@ -9,7 +10,6 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>

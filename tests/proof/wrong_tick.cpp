@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wrong twin of a tick, to show that what counts its calls can find something. Loaded into palpate-server before the
-// counter: from time to time, where a tick wakes the thread that sends forces, it does what no tick may do. Or the thread that sends fields spins.
+// counter: from time to time, where a tick wakes the thread that sends forces, it does what no tick may do.
+// Or the thread that sends fields spins.
 #include <dlfcn.h>
 #include <pthread.h>
 #include <sched.h>

@@ -48,7 +48,7 @@ void ForceRenderer::sent(std::uint64_t seq, const Point& position,
 bool ForceRenderer::isTooLate(const Answer& answer) const noexcept PALPATE_NONBLOCKING {
   const SentPose& pose = poses_[answer.pose_seq % kPoses];
   if (pose.seq == answer.pose_seq) return answer.first_arrived_ns - pose.sent_ns > kTooLate;
-  return answer.pose_seq + kPoses <= newest_sent_;  // as many came since
+  return answer.pose_seq < newest_sent_ && newest_sent_ - answer.pose_seq >= kPoses;  // forgotten
 }
 
 bool ForceRenderer::answered(const Answer& answer) noexcept PALPATE_NONBLOCKING {
