@@ -29,12 +29,16 @@ int settle(const ThreadOptions& options) {
 
 Thread::Thread(const ThreadOptions& options, std::function<void()> body) {
   std::promise<int> settled;
+  std::promise<void> ended;
+  ended_ = ended.get_future();
   std::future<int> refusal = settled.get_future();
   const bool required = options.priority > 0 && options.policy == RealtimePolicy::kRequire;
-  thread_ = std::thread([options, required, settled = std::move(settled), body = std::move(body)]() mutable {
+  thread_ = std::thread([options, required, settled = std::move(settled), ended = std::move(ended),
+                         body = std::move(body)]() mutable {
     const int error = settle(options);
     settled.set_value(error);
     if (error == 0 || (error > 0 && !required)) body();
+    ended.set_value_at_thread_exit();
   });
   const int error = refusal.get();
   realtime_ = error == 0 && options.priority > 0 && options.policy != RealtimePolicy::kOff;
@@ -49,6 +53,12 @@ Thread::Thread(const ThreadOptions& options, std::function<void()> body) {
 
 void Thread::join() {
   if (thread_.joinable()) thread_.join();
+}
+
+bool Thread::joinWithin(std::chrono::milliseconds patience) {
+  const std::future_status status = ended_.wait_for(patience);
+  if (status == std::future_status::ready) join();
+  return status == std::future_status::ready;
 }
 
 }  // namespace palpate::rt

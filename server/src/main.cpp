@@ -12,6 +12,7 @@
 
 #include "command_line.h"
 #include "log_sink.h"
+#include "palpate/rt/memory.h"
 #include "palpate/rt/spin_guard.h"
 #include "palpate/server/machine_check.h"
 #include "palpate/server/model_loader.h"
@@ -36,6 +37,7 @@ sigset_t stopSignals() {
 void prepareProcess() {
   const sigset_t signals = stopSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  rt::shortenThreadStacks();
   std::signal(SIGPIPE, SIG_IGN);  // the reader of our log may close its end; the server goes on
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("palpate-server", std::make_shared<LogSink>()));
   spdlog::cfg::load_env_levels();  // SPDLOG_LEVEL=debug
@@ -114,12 +116,11 @@ int serve(int argc, char** argv) {
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
   // 5. Until a signal says stop,
   const int signal = waitForSignal();
-  if (signal == SIGXCPU) {  // a tick that spins joins nobody
+  // 6. zero force first, then everything else, the log too. Where a thread spins or hangs no destructor may wait for it.
+  if (signal == SIGXCPU || !server.stop()) {
     spdlog::shutdown();
     std::_Exit(program::kFailed);
   }
-  // 6. zero force first, then everything else, the log too.
-  server.stop();
   spdlog::info("signal {}: stopped", signal);
   return program::kDone;
 }

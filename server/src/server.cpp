@@ -70,6 +70,24 @@ std::string describeRealtime(rt::RealtimePolicy policy, bool realtime) {
          std::to_string(kTickPriority);
 }
 
+// Waits for threads that write to DDS, of which one may hang in it. Less than the service manager's TimeoutStopSec, 10 s, by what zero
+// force takes, and than kLastComputation of one that spins.
+class Patience {
+ public:
+  [[nodiscard]] bool endOf(const std::unique_ptr<rt::Thread>& thread, const char* name) const {
+    using std::chrono::milliseconds;
+    const auto left = std::chrono::duration_cast<milliseconds>(until_ - Clock::now());
+    if (!thread || thread->joinWithin(std::max(left, milliseconds(0)))) return true;
+    spdlog::critical("thread {} hangs: the server ends without it after {} s", name, kLongest.count());
+    return false;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kLongest{3};
+  Clock::time_point until_{Clock::now() + kLongest};
+};
+
 }  // namespace
 
 Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig& config)
@@ -108,7 +126,7 @@ Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig
   try {
     startThreads(config);
   } catch (...) {
-    stop();
+    (void)stop();
     throw;
   }
   startup.awake = awake_ && awake_->held();
@@ -192,7 +210,7 @@ void Server::tellServiceManager(const ServerConfig& config) {
                                                   [this] { watchdog_->run(); });
 }
 
-void Server::stop() {
+bool Server::stop() {
   if (tick_thread_) {
     sendZeroForce();
     service_.tell("STOPPING=1\nSTATUS=no forces any more");
@@ -206,17 +224,19 @@ void Server::stop() {
   channels_.late_watch_ready.post();
   late_thread_.reset();  // its last word is for events
   channels_.events_ready.post();
-  force_thread_.reset();  // joins
-  surface_thread_.reset();
-  events_thread_.reset();
   if (recorder_thread_) {
     recorder_thread_.reset();
     spdlog::info(recorder_->summary());
   }
+  const Patience patience;
+  const bool forces = patience.endOf(force_thread_, "force-out");
+  const bool fields = patience.endOf(surface_thread_, "surface-out");
+  const bool events = patience.endOf(events_thread_, "events");
   if (watchdog_) watchdog_->end();
   watchdog_thread_.reset();
   watchdog_.reset();
   tick_thread_.reset();
+  return forces && fields && events;
 }
 
 void Server::sendZeroForce() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A real-time thread that never sleeps again: of a tick the server ends before it takes the machine, of others it goes on
+// A real-time thread that never sleeps again, or never wakes: of a tick the server ends before it takes the machine, of others it goes on
 // (docs/design.md, Threads; docs/decisions/spinning.md).
 #include <gtest/gtest.h>
 
@@ -8,7 +8,9 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "core/record/record_reader.h"
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
@@ -22,12 +24,14 @@ using palpate::testing::ServerProcess;
 class SpinningServer : public ::testing::Test {
  protected:
   // One that makes the mistake.
-  void start(const char* mistake) {
+  void start(const char* mistake, const std::vector<std::string>& more = {}) {
     palpate::testing::writeSyntheticModel(model_.path());
     setenv("LD_PRELOAD", (std::string(PALPATE_PROOF_DIR) + "/libpalpate_wrong_tick.so").c_str(), 1);
     setenv(kMistakeVariable, mistake, 1);
-    server_ = std::make_unique<ServerProcess>(std::vector<std::string>{
-        "--model", model_.path().string(), "--domain", std::to_string(palpate::testing::exclusiveDomain())});
+    std::vector<std::string> arguments{"--model", model_.path().string(), "--domain",
+                                       std::to_string(palpate::testing::exclusiveDomain())};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    server_ = std::make_unique<ServerProcess>(arguments);
     unsetenv("LD_PRELOAD");
     unsetenv(kMistakeVariable);
   }
@@ -58,6 +62,20 @@ TEST_F(SpinningServer, GoesOnWithFieldsOfAnOrdinaryThread) {
   EXPECT_TRUE(server_->running()) << server_->log();
   server_->signal(SIGTERM);
   EXPECT_EQ(server_->waitForExit(), 0) << server_->log();
+}
+
+TEST_F(SpinningServer, IsStoppedWhereTheThreadThatSendsFieldsHangs) {
+  const palpate::testing::TemporaryFile recording("hang.palpate");
+  start("hang surface-out", {"--record", recording.path().string()});
+  ASSERT_TRUE(logs("serving on DDS domain")) << server_->log();
+  server_->signal(SIGTERM);
+  EXPECT_EQ(server_->waitForExit(std::chrono::seconds(20)), 1) << server_->log();
+  for (const char* const said : {"page faults in ticks: ", "recorded ",
+                                 "thread surface-out hangs: the server ends without it after 3 s"})
+    EXPECT_NE(server_->log().find(said), std::string::npos) << said << "\n" << server_->log();
+  record::RecordReader recorded(recording.path());
+  for (record::RecordedTick tick; recorded.next(tick);) continue;  // throws where the end is missing
+  EXPECT_GT(recorded.ticks(), 0U);
 }
 
 TEST_F(SpinningServer, EndsWithAWordThatNamesTheThread) {

@@ -53,7 +53,7 @@ struct TickCounts {
 inline constexpr const char* kCountsVariable =
     "PALPATE_TICK_COUNTS";  ///< names the shared memory's file descriptor
 inline constexpr const char* kMistakeVariable =
-    "PALPATE_TICK_MISTAKE";  ///< malloc, lock, fault, sleep, spin or "spin surface-out"
+    "PALPATE_TICK_MISTAKE";  ///< malloc, lock, fault, sleep, spin, "spin surface-out" or "hang surface-out"
 inline constexpr const char* kTickThread = "tick";  ///< the thread's name
 
 }  // namespace palpate::proof

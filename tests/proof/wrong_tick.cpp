@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wrong twin of a tick, to show that what counts its calls can find something. Loaded into palpate-server before the
 // counter: from time to time, where a tick wakes the thread that sends forces, it does what no tick may do.
-// Or the thread that sends fields spins.
+// Or the thread that sends fields spins, or hangs.
 #include <dlfcn.h>
 #include <pthread.h>
 #include <sched.h>
 #include <semaphore.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -73,6 +74,10 @@ void spinWhileRaised() noexcept {
   spun = true;
 }
 
+void hang() noexcept {
+  for (;;) pause();
+}
+
 bool isThread(std::string_view name) noexcept {
   char own[16] = {};
   pthread_getname_np(pthread_self(), own, sizeof own);
@@ -103,5 +108,6 @@ extern "C" int sem_clockwait(sem_t* semaphore, clockid_t clock, const timespec* 
   using namespace palpate::proof;
   if (next_wait == nullptr) prepare();
   if (mistake == "spin surface-out" && isThread("surface-out")) spinWhileRaised();
+  if (mistake == "hang surface-out" && isThread("surface-out")) hang();
   return next_wait(semaphore, clock, until);
 }

@@ -2,6 +2,7 @@
 #include "palpate/rt/scheduling.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +44,15 @@ int withoutPrivilege(Body body) {
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 98;
+}
+
+TEST(Thread, ThatHangsIsWaitedForOnlySoLong) {
+  Semaphore go_on;
+  Thread thread({"test-hangs"}, [&] { go_on.wait(); });
+  EXPECT_FALSE(thread.joinWithin(std::chrono::milliseconds(20)));
+  go_on.post();
+  EXPECT_TRUE(thread.joinWithin(std::chrono::seconds(20)));
+  EXPECT_TRUE(thread.joinWithin(std::chrono::milliseconds(0))) << "it is joined";
 }
 
 TEST(Thread, HasItsNameAndPriority) {
@@ -177,6 +189,41 @@ TEST(LockMemory, UnderALimitDoesNotClaimWhatIsMappedLater) {
     const MemoryLock lock = lockMemory();
     if (lock.future) return 1;
     return lock.present == (lock.refused == 0) ? 0 : 3;
+  });
+  EXPECT_EQ(code, 0);
+}
+
+TEST(ThreadStacks, AreOfOneMiBOnceShortened) {
+  const int code = withoutPrivilege([] {
+    shortenThreadStacks();
+    std::size_t bytes = 0;
+    Thread thread({"test-stack"}, [&] {
+      pthread_attr_t attributes;
+      if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
+      pthread_attr_getstacksize(&attributes, &bytes);
+      pthread_attr_destroy(&attributes);
+    });
+    thread.join();
+    return bytes == std::size_t{1} << 20 ? 0 : 1;
+  });
+  EXPECT_EQ(code, 0);
+}
+
+TEST(LockMemory, LeavesLargePiecesOfMemoryApart) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizers have a malloc of their own";
+#endif
+  const int code = withoutPrivilege([] {
+    (void)lockMemory();
+    constexpr std::size_t kMiB = std::size_t{1} << 20;
+    const std::size_t before = mallinfo2().hblkhd;
+    void* volatile model = std::malloc(8 * kMiB);
+    void* volatile buffer = std::malloc(kMiB + 4096);  // as large as one of DDS
+    const std::size_t apart = mallinfo2().hblkhd - before;
+    std::free(model);
+    std::free(buffer);
+    if (apart < 8 * kMiB || apart >= 9 * kMiB) return 1;
+    return mallinfo2().hblkhd == before ? 0 : 2;
   });
   EXPECT_EQ(code, 0);
 }

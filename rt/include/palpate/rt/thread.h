@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <future>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,12 +32,15 @@ class Thread {
   Thread& operator=(const Thread&) = delete;
 
   void join();
+  /// Joins a thread that ends within `patience`. @return whether it did; if not, it goes on, and the destructor waits for it
+  [[nodiscard]] bool joinWithin(std::chrono::milliseconds patience);
 
   /// true when the thread runs under SCHED_FIFO
   [[nodiscard]] bool realtime() const noexcept { return realtime_; }
 
  private:
   bool realtime_{false};
+  std::future<void> ended_;
   std::thread thread_;
 };
 

@@ -37,12 +37,13 @@ class Server {
   /// @throw RivalError (another server answers the same poses), record::RecordError, dds::DdsError, rt::RealtimeError (policy require), std::invalid_argument (parameters of the
   /// engine)
   Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig& config);
-  ~Server() { stop(); }
+  ~Server() { (void)stop(); }
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Sends zero force, then ends all threads. The second call does nothing.
-  void stop();
+  /// Sends zero force, then ends all threads, what is recorded first. The next call does nothing.
+  /// @return false: a thread hangs in DDS, and the process must end without destroying this, which would wait for it
+  [[nodiscard]] bool stop();
 
  private:
   void watchEndpoints();
