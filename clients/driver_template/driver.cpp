@@ -176,6 +176,9 @@ int run(const Arguments& arguments) {
   if (tool.leftOut() > 0)
     std::printf("%llu forces of another server were left out\n",
                 static_cast<unsigned long long>(tool.leftOut()));
+  if (tool.tooLate() > 0)
+    std::printf("%llu times the newest answer had come more than 50 ms after its pose, and was ignored\n",
+                static_cast<unsigned long long>(tool.tooLate()));
   const bool touched = answered > 0 && tool.nearest() == 0.0;
   if (answered > 0 && !touched) sayWhyNot(arguments, flags, tool.nearest());
   std::printf("largest force %.4f N; %ld periods with a force\n", largest, answered);

@@ -254,6 +254,7 @@ TEST_P(Delayed, AnswersThatArriveMoreThan50MsAfterTheirPoseAreIgnored) {
     (void)renderer.at(nullptr, now, kNoLimit);
   }
   EXPECT_EQ(renderer.at(nullptr, now, kNoLimit).gain, gain);
+  EXPECT_EQ(renderer.tooLate(), gain == 1.0 ? 0U : static_cast<std::uint64_t>(kMost - delay_ms));
 }
 
 INSTANTIATE_TEST_SUITE_P(By, Delayed,

@@ -38,6 +38,7 @@ TEST(HapticC, DoesTheSame) {
   EXPECT_EQ(force.server_id, 4U);
   EXPECT_EQ(force.session, 1U);
   EXPECT_EQ(palpate_haptic_left_out(tool), 0U);
+  EXPECT_EQ(palpate_haptic_too_late(tool), 0U);
   EXPECT_EQ(pose.buttons, 5U);
   EXPECT_EQ(pose.orientation[3], 1.0);
   EXPECT_EQ(palpate_haptic_read_at(tool, deeper, &force), PALPATE_HAPTIC_OK);
@@ -54,6 +55,7 @@ TEST(HapticC, AnswersBadArgumentsWithACode) {
   EXPECT_EQ(palpate_haptic_wait_for_server(nullptr, 1.0), PALPATE_HAPTIC_INVALID_ARGUMENT);
   EXPECT_EQ(palpate_haptic_tip_radius(nullptr), 0.0);
   EXPECT_EQ(palpate_haptic_left_out(nullptr), 0U);
+  EXPECT_EQ(palpate_haptic_too_late(nullptr), 0U);
   palpate_haptic_close(nullptr);
   palpate_haptic_default_options(nullptr);
 

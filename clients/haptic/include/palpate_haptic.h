@@ -99,6 +99,9 @@ PALPATE_HAPTIC_C_API int palpate_haptic_read_at(palpate_haptic* tool, const doub
 /* Forces of other servers for this tool that were left out so far; 0 for null. */
 PALPATE_HAPTIC_C_API uint64_t palpate_haptic_left_out(const palpate_haptic* tool);
 
+/* Reads whose newest answer was ignored, since it arrived more than 50 ms after its pose was sent; 0 for null. */
+PALPATE_HAPTIC_C_API uint64_t palpate_haptic_too_late(const palpate_haptic* tool);
+
 /* How near the tip's centre came to the organ at rest, m: 0 once it touched it; infinity before the first answer, and for null. */
 PALPATE_HAPTIC_C_API double palpate_haptic_nearest(const palpate_haptic* tool);
 

@@ -54,7 +54,11 @@ bool ForceRenderer::isTooLate(const Answer& answer) const noexcept PALPATE_NONBL
 bool ForceRenderer::answered(const Answer& answer) noexcept PALPATE_NONBLOCKING {
   const bool sane = isFinite(answer.force) && isFinite(answer.stiffness) && isFinite(answer.anchor) &&
                     isFinite(answer.proxy);
-  if (!sane || (has_answer_ && answer.pose_seq < answer_.pose_seq) || isTooLate(answer)) return false;
+  if (!sane || (has_answer_ && answer.pose_seq < answer_.pose_seq)) return false;
+  if (isTooLate(answer)) {
+    ++too_late_;
+    return false;
+  }
   if (answer.session != answer_.session) gain_ = 0.0;
   answer_ = answer;
   has_answer_ = true;

@@ -61,6 +61,9 @@ class ForceRenderer {
   /// How near the organ answered poses came, m: 0 after a contact, infinity before an answer to a remembered pose.
   [[nodiscard]] double nearest() const noexcept PALPATE_NONBLOCKING { return nearest_; }
 
+  /// Calls of answered() with an answer that arrived more than kTooLate after its pose was sent.
+  [[nodiscard]] std::uint64_t tooLate() const noexcept PALPATE_NONBLOCKING { return too_late_; }
+
  private:
   struct SentPose {
     std::uint64_t seq{0};
@@ -80,6 +83,7 @@ class ForceRenderer {
   double age_{0.0};  // s
   double gain_{0.0};
   std::uint64_t newest_sent_{0};
+  std::uint64_t too_late_{0};
   std::uint64_t rises_from_{0};  // the answered pose from which on the force may rise
   double nearest_{std::numeric_limits<double>::infinity()};  // m
   std::int64_t read_ns_{0};                                  // when at() was called last; 0: never

@@ -92,6 +92,7 @@ class HapticTool::Impl {
   }
 
   [[nodiscard]] std::uint64_t leftOut() const noexcept { return tool_.hold().leftOut().count; }
+  [[nodiscard]] std::uint64_t tooLate() const noexcept { return renderer_.tooLate(); }
   [[nodiscard]] double nearest() const noexcept { return renderer_.nearest(); }
   [[nodiscard]] double tipRadius() const noexcept { return tip_radius_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::string securityWarning() const {
@@ -225,6 +226,10 @@ Force HapticTool::forceAt(const Vec3& position) noexcept {
 
 std::uint64_t HapticTool::leftOut() const noexcept {
   return impl_->leftOut();
+}
+
+std::uint64_t HapticTool::tooLate() const noexcept {
+  return impl_->tooLate();
 }
 
 double HapticTool::nearest() const noexcept {

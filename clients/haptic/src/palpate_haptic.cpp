@@ -124,6 +124,10 @@ uint64_t palpate_haptic_left_out(const palpate_haptic* tool) {
   return tool == nullptr ? 0 : tool->tool.leftOut();
 }
 
+uint64_t palpate_haptic_too_late(const palpate_haptic* tool) {
+  return tool == nullptr ? 0 : tool->tool.tooLate();
+}
+
 double palpate_haptic_nearest(const palpate_haptic* tool) {
   return tool == nullptr ? std::numeric_limits<double>::infinity() : tool->tool.nearest();
 }

@@ -104,6 +104,10 @@ class PALPATE_HAPTIC_API HapticTool {
   /// Forces of other servers for this tool that were left out so far. Not 0: stop one of the servers.
   [[nodiscard]] std::uint64_t leftOut() const noexcept;
 
+  /// Reads whose newest answer was ignored, since it arrived more than 50 ms after its pose was sent: some after a pause of driver or
+  /// server; where they grow with each read, the network is too slow for a force. From the thread that reads.
+  [[nodiscard]] std::uint64_t tooLate() const noexcept;
+
   /// How near the tip's centre came to the organ at rest, m: 0 once it touched it, infinity before the first answer. For a line at a
   /// driver's end: poses in millimetres never come near.
   [[nodiscard]] double nearest() const noexcept;
