@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <thread>
 
 #include "authority_folder.h"
 #include "palpate/client/error.h"
@@ -72,6 +73,21 @@ TEST_F(ParameterAnswer, OfTwoServersOfOneIdIsRefused) {
         << error.what();
   }
   EXPECT_EQ(ask(2, 5s).revision, 5U) << "asked of one run";
+}
+
+TEST_F(ParameterAnswer, OfASecondServerIsWaitedForAWhile) {
+  Server second(identity_);
+  auto asked = std::async(std::launch::async, [&] { return ask(0, 20s); });
+  std::this_thread::sleep_for(500ms);  // until all have met
+  const auto first = std::chrono::steady_clock::now();
+  server_.answer(1, 3, false);
+  std::this_thread::sleep_for(100ms);
+  second.answer(2, 5, false);
+  if (std::chrono::steady_clock::now() - first > 150ms) {
+    asked.wait();
+    GTEST_SKIP() << "this machine is too busy to answer within 150 ms";
+  }
+  EXPECT_THROW((void)asked.get(), ClientError);
 }
 
 TEST_F(ParameterAnswer, OfNoServerIsAnError) {

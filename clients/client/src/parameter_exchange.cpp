@@ -61,23 +61,28 @@ std::string missing(std::uint32_t server_id, const dds::Participant& participant
   return mismatch.empty() ? text + kNoServerHint : text + "; " + mismatch;
 }
 
-constexpr auto kLinger = std::chrono::milliseconds(50);  // for another server of the same id
+constexpr auto kSettle =
+    std::chrono::milliseconds(50);  // from the first server that is found to the first request
+constexpr auto kRepeat = std::chrono::milliseconds(200);
+constexpr auto kLinger =
+    std::chrono::milliseconds(200);  // after the first answer, for another server of the same id
 
-// @param ask  called every few milliseconds
+// @param linger  how long to listen after the first answer
+// @param ask     called every few milliseconds until then
 dds::ServerParameters waitForAnswer(const dds::Participant& participant, std::uint32_t server_id,
-                                    std::chrono::milliseconds patience, const Fits& fits,
-                                    const std::function<void()>& ask) {
+                                    std::chrono::milliseconds patience, std::chrono::milliseconds linger,
+                                    const Fits& fits, const std::function<void()>& ask) {
   const dds::Reader<dds::ServerParameters> answers(participant);
   Clock::time_point end = Clock::now() + patience;
   std::optional<Clock::time_point> answered;
   Answers found;
   while (Clock::now() <= end && !stopRequested()) {
-    ask();
+    if (!answered) ask();  // a request that was answered may be somebody else's to change by now
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     found.take(answers, fits);
     if (std::exchange(found.pending, false)) end = Clock::now() + patience;
     if (found.newest && !answered) answered = Clock::now();
-    if (answered && Clock::now() - *answered >= kLinger) break;
+    if (answered && Clock::now() - *answered >= linger) break;
   }
   if (found.newest) return onlyAnswer(found);
   if (stopRequested()) throw ClientError("interrupted while waiting for a server");
@@ -88,6 +93,8 @@ dds::ServerParameters waitForAnswer(const dds::Participant& participant, std::ui
 
 dds::ServerParameters exchangeParameters(const dds::Participant& participant, dds::ParameterRequest request,
                                          std::chrono::milliseconds patience) {
+  const auto linger =
+      request.session == 0 ? kLinger : std::chrono::milliseconds(0);  // only one run can answer
   if (!participant.mayWrite(dds::TopicTraits<dds::ParameterRequest>::kName)) {
     if (request.fields != 0 || request.model[0] != '\0')
       throw ClientError("the identity " + participant.identity()->name() + " has the role " +
@@ -97,21 +104,21 @@ dds::ServerParameters exchangeParameters(const dds::Participant& participant, dd
       return answer.server_id == request.server_id &&
              (request.session == 0 || answer.session == request.session);
     };
-    return waitForAnswer(participant, request.server_id, patience, of_server, [] {});
+    return waitForAnswer(participant, request.server_id, patience, linger, of_server, [] {});
   }
   dds::Writer<dds::ParameterRequest> requests(participant);
   request.request_id = firstRequestId();
   Clock::time_point next = Clock::now();
   const auto ask = [&] {
-    if (requests.matched() == 0) next = Clock::now() + kLinger;
+    if (requests.matched() == 0) next = Clock::now() + kSettle;
     if (Clock::now() < next) return;
     (void)requests.write(request);
-    next = Clock::now() + std::chrono::milliseconds(200);
+    next = Clock::now() + kRepeat;
   };
   const Fits to_us = [&](const dds::ServerParameters& answer) {
     return answer.request_id == request.request_id;
   };
-  return waitForAnswer(participant, request.server_id, patience, to_us, ask);
+  return waitForAnswer(participant, request.server_id, patience, linger, to_us, ask);
 }
 
 }  // namespace palpate::client

@@ -8,7 +8,8 @@
 
 namespace palpate::client {
 
-/// Sends a request every 200 ms, under one new request_id, until the server answers.
+/// Sends a request every 200 ms, under one new request_id, until the server answers, and listens for 200 ms more for a second server of
+/// the same id, unless the request names a session.
 /// A participant whose role may send none gets what is in force, if that is all that is asked (fields 0, no model): the newest
 /// answer is kept for late readers.
 /// @param[in] request  server_id, fields and values, or model
