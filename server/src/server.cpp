@@ -125,15 +125,15 @@ Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig
   tellOfContact();
   try {
     startThreads(config);
+    startup.awake = awake_ && awake_->held();
+    startup.threads = rt::threadsOfThisProcess();
+    for (const std::string& line : startupTable(startup)) spdlog::info(line);
+    for (const std::string& line : remedies(startup)) spdlog::warn(line);
+    tellServiceManager(config);
   } catch (...) {
     (void)stop();
     throw;
   }
-  startup.awake = awake_ && awake_->held();
-  startup.threads = rt::threadsOfThisProcess();
-  for (const std::string& line : startupTable(startup)) spdlog::info(line);
-  for (const std::string& line : remedies(startup)) spdlog::warn(line);
-  tellServiceManager(config);
 }
 
 void Server::watchEndpoints() {
