@@ -20,23 +20,27 @@ class ParameterAnswer : public ::testing::Test {
  protected:
   // A server, as far as this needs one.
   struct Server {
-    explicit Server(const dds::Identity& identity)
-        : participant(palpate::testing::exclusiveDomain(), identity) {}
+    explicit Server(const dds::Identity& identity, std::uint32_t id = 0)
+        : server_id(id), participant(palpate::testing::exclusiveDomain(), identity) {}
     void answer(std::uint64_t session, std::uint64_t revision, bool pending) {
       dds::ServerParameters said{};
+      said.server_id = server_id;
       said.session = session;
       said.revision = revision;
       said.pending = pending;
       EXPECT_TRUE(answers.write(said));
     }
+    std::uint32_t server_id{0};
     dds::Participant participant;
     dds::Writer<dds::ServerParameters> answers{participant};
   };
 
-  [[nodiscard]] dds::ServerParameters ask(std::uint64_t session, std::chrono::milliseconds patience) const {
+  [[nodiscard]] dds::ServerParameters ask(std::uint64_t session, std::chrono::milliseconds patience,
+                                          std::uint32_t server_id = 0) const {
     const dds::Participant viewer(palpate::testing::exclusiveDomain(),
                                   dds::Identity::load(authority_.of("viewer")));
     dds::ParameterRequest question{};
+    question.server_id = server_id;
     question.session = session;
     return exchangeParameters(viewer, question, patience);
   }
@@ -75,19 +79,23 @@ TEST_F(ParameterAnswer, OfTwoServersOfOneIdIsRefused) {
   EXPECT_EQ(ask(2, 5s).revision, 5U) << "asked of one run";
 }
 
+// Where the machine is busy the second answer may come later than it was sent: then with servers that nobody has heard before.
 TEST_F(ParameterAnswer, OfASecondServerIsWaitedForAWhile) {
-  Server second(identity_);
-  auto asked = std::async(std::launch::async, [&] { return ask(0, 20s); });
-  std::this_thread::sleep_for(500ms);  // until all have met
-  const auto first = std::chrono::steady_clock::now();
-  server_.answer(1, 3, false);
-  std::this_thread::sleep_for(100ms);
-  second.answer(2, 5, false);
-  if (std::chrono::steady_clock::now() - first > 150ms) {
-    asked.wait();
-    GTEST_SKIP() << "this machine is too busy to answer within 150 ms";
+  bool refused = false;
+  for (std::uint32_t id = 1; id <= 5 && !refused; ++id) {
+    Server first(identity_, id), second(identity_, id);
+    auto asked = std::async(std::launch::async, [&] { return ask(0, 20s, id); });
+    std::this_thread::sleep_for(500ms);  // until all have met
+    first.answer(1, 3, false);
+    std::this_thread::sleep_for(100ms);
+    second.answer(2, 5, false);
+    try {
+      (void)asked.get();
+    } catch (const ClientError&) {
+      refused = true;
+    }
   }
-  EXPECT_THROW((void)asked.get(), ClientError);
+  EXPECT_TRUE(refused);
 }
 
 TEST_F(ParameterAnswer, OfNoServerIsAnError) {
