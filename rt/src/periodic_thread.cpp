@@ -93,6 +93,11 @@ void PeriodicThread::stop() {
   thread_->join();
 }
 
+bool PeriodicThread::joinWithin(std::chrono::milliseconds patience) {
+  stopping_.store(true, std::memory_order_relaxed);
+  return thread_->joinWithin(patience);
+}
+
 void PeriodicThread::run(std::int64_t period_ns, Function function, void* context, const LateListener& late,
                          const Rehearsal& rehearsal) noexcept {
   id_.store(gettid(), std::memory_order_relaxed);

@@ -39,7 +39,6 @@ void Events::run() noexcept {
       channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
     if (!stopping) publishIfDue(now_ns);
   }
-  info("stopping: zero force was sent");
   status_.publish(health_, dds::server_state::kStopping);
 }
 

@@ -42,17 +42,32 @@ dds::ToolForce toWire(const Facts& facts, const ForceRecord& record) noexcept {
   return force;
 }
 
+bool ForcePublisher::sendAll() noexcept {
+  bool sent = true;
+  ForceRecord record;
+  while (channels_.forces.pop(record)) {
+    if (!writer_.write(toWire(facts_, record))) {
+      channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
+      sent = false;
+    }
+    (void)channels_.force_delays.push(rt::monotonicNow() - record.handed_ns);
+  }
+  return sent;
+}
+
 void ForcePublisher::run() noexcept {
   bool stopping = false;
   while (!stopping) {
     channels_.force_ready.wait();
     stopping = channels_.stopping.load(std::memory_order_acquire);  // SYNC STOP
-    ForceRecord record;
-    while (channels_.forces.pop(record)) {
-      if (!writer_.write(toWire(facts_, record)))
-        channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
-      (void)channels_.force_delays.push(rt::monotonicNow() - record.handed_ns);
+    const bool zero =
+        channels_.zero_force_made.load(std::memory_order_acquire);  // SYNC ZERO, before the ring is looked at
+    const bool sent = sendAll();
+    if (zero && sent && !zero_told_) {
+      channels_.zero_force_sent.post();
+      zero_told_ = true;
     }
+    channels_.force_rounds.fetch_add(1, std::memory_order_relaxed);
     if (channels_.surface_waits.exchange(false, std::memory_order_relaxed)) channels_.surface_ready.post();
   }
 }

@@ -70,22 +70,29 @@ std::string describeRealtime(rt::RealtimePolicy policy, bool realtime) {
          std::to_string(kTickPriority);
 }
 
-// Waits for threads that write to DDS, of which one may hang in it. Less than the service manager's TimeoutStopSec, 10 s, by what zero
-// force takes, and than kLastComputation of one that spins.
+// How long a stop waits for the tick, for what is recorded, and for those who write to DDS together: with what zero force takes less
+// than TimeoutStopSec of the unit, 10 s, and each less than kLastComputation of one that spins.
+constexpr std::chrono::seconds kTickEnds{1}, kRecordingEnds{3}, kSendersEnd{2};
+
+// Waits for threads, of which one may hang, in DDS or at a disk.
 class Patience {
  public:
-  [[nodiscard]] bool endOf(const std::unique_ptr<rt::Thread>& thread, const char* name) const {
+  explicit Patience(std::chrono::seconds longest) : longest_(longest) {}
+
+  // @param thread  rt::Thread or rt::PeriodicThread, or null
+  template <class Thread>
+  [[nodiscard]] bool endOf(const std::unique_ptr<Thread>& thread, const char* name) const {
     using std::chrono::milliseconds;
     const auto left = std::chrono::duration_cast<milliseconds>(until_ - Clock::now());
     if (!thread || thread->joinWithin(std::max(left, milliseconds(0)))) return true;
-    spdlog::critical("thread {} hangs: the server ends without it after {} s", name, kLongest.count());
+    spdlog::critical("thread {} hangs: the server ends without it after {} s", name, longest_.count());
     return false;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kLongest{3};
-  Clock::time_point until_{Clock::now() + kLongest};
+  std::chrono::seconds longest_;
+  Clock::time_point until_{Clock::now() + longest_};
 };
 
 }  // namespace
@@ -205,18 +212,21 @@ void Server::tellServiceManager(const ServerConfig& config) {
                 static_cast<int>(config.domain), config.rate);
   service_.tell(text.data());
   if (service_.patience().count() == 0) return;
-  watchdog_.emplace(service_, *tick_thread_, static_cast<std::uint32_t>(config.domain));
+  watchdog_.emplace(service_, *tick_thread_, channels_.force_rounds,
+                    static_cast<std::uint32_t>(config.domain));
   watchdog_thread_ = std::make_unique<rt::Thread>(rt::ThreadOptions{"watchdog", 0, config.realtime, {}},
                                                   [this] { watchdog_->run(); });
 }
 
 bool Server::stop() {
+  bool ended = true;
   if (tick_thread_) {
-    sendZeroForce();
-    service_.tell("STOPPING=1\nSTATUS=no forces any more");
     if (watchdog_) watchdog_->stopping();
-    tick_thread_->stop();
-    spdlog::info("page faults in ticks: {}", tick_thread_->pageFaults());
+    ended = sendZeroForce();
+    service_.tell(ended ? "STOPPING=1\nSTATUS=no forces any more"
+                        : "STOPPING=1\nSTATUS=zero force could not be sent");
+    ended = Patience(kTickEnds).endOf(tick_thread_, "tick") && ended;
+    if (ended) spdlog::info("page faults in ticks: {}", tick_thread_->pageFaults());
   }
   channels_.stopping.store(true, std::memory_order_release);  // SYNC STOP
   channels_.force_ready.post();
@@ -225,25 +235,33 @@ bool Server::stop() {
   late_thread_.reset();  // its last word is for events
   channels_.events_ready.post();
   if (recorder_thread_) {
-    recorder_thread_.reset();
-    spdlog::info(recorder_->summary());
+    const bool recorded = Patience(kRecordingEnds).endOf(recorder_thread_, "recorder");
+    if (recorded) spdlog::info(recorder_->summary());
+    if (recorded) recorder_thread_.reset();
+    ended = ended && recorded;
   }
-  const Patience patience;
-  const bool forces = patience.endOf(force_thread_, "force-out");
-  const bool fields = patience.endOf(surface_thread_, "surface-out");
-  const bool events = patience.endOf(events_thread_, "events");
+  const Patience patience(kSendersEnd);
+  for (const auto& [thread, name] :
+       {std::pair(&force_thread_, "force-out"), std::pair(&surface_thread_, "surface-out"),
+        std::pair(&events_thread_, "events")})
+    ended = patience.endOf(*thread, name) && ended;
   if (watchdog_) watchdog_->end();
   watchdog_thread_.reset();
   watchdog_.reset();
-  tick_thread_.reset();
-  return forces && fields && events;
+  if (ended) tick_thread_.reset();
+  return ended;
 }
 
-void Server::sendZeroForce() {
+bool Server::sendZeroForce() {
   // The ramp, the zero ticks at the slowest rate, and a host that stalls.
   const auto longest_ns = static_cast<std::int64_t>(1e9 * (ramp_time_ + 3.0));
   channels_.shutting_down.store(true, std::memory_order_relaxed);
-  if (!channels_.zero_force_sent.waitFor(longest_ns)) spdlog::error("zero force could not be confirmed");
+  if (channels_.zero_force_sent.waitFor(longest_ns)) {
+    spdlog::info("stopping: zero force was sent");
+    return true;
+  }
+  spdlog::error("stopping: zero force could not be sent, ticks or forces stand still");
+  return false;
 }
 
 }  // namespace palpate::server

@@ -45,8 +45,12 @@ const char* ServiceWatchdog::fault(std::int64_t now_ns) {
   const std::uint64_t cycles = tick_.cycles();
   const bool ticks = cycles != cycles_;
   cycles_ = cycles;
+  const std::uint64_t rounds = rounds_.load(std::memory_order_relaxed);
+  const bool sends = rounds != last_rounds_;
+  last_rounds_ = rounds;
   const bool takes = receive_.takes(now_ns);
   if (!ticks) return "ticks stand still";
+  if (!sends) return "forces are not sent";
   return takes ? nullptr : "what comes in over DDS is not taken";
 }
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/server/surface_publisher.h"
 
+#include <algorithm>
+
+#include "palpate/rt/clock.h"
+#include "palpate/rt/thread_reading.h"
+
 namespace palpate::server {
 
 void SurfacePublisher::run() noexcept {
@@ -13,9 +18,18 @@ void SurfacePublisher::run() noexcept {
     const std::uint32_t readers = displacement_.readers();
     channels_.field_readers.store(readers, std::memory_order_relaxed);
     if (readers == 0 && engine_ != nullptr) engine_->shown.forget();
-    if (channels_.surface.update()) publish(channels_.surface.front());
+    const std::int64_t before = rt::readThisThread().cpu_ns;
+    const bool published = channels_.surface.update();
+    if (published) publish(channels_.surface.front());
     letGo(in_use);
+    if (published) rest(rt::readThisThread().cpu_ns - before);
   }
+}
+
+// Where real-time threads take all of a processor, the kernel stops them all for 50 ms in each second, the tick too.
+void SurfacePublisher::rest(std::int64_t computed_ns) noexcept {
+  constexpr std::int64_t kLongest = 100'000'000;  // ns
+  rt::sleepUntil(rt::monotonicNow() + std::min(computed_ns, kLongest));
 }
 
 // An engine before the one in use is not looked at any more: its last surface was taken just now, or replaced.

@@ -43,7 +43,7 @@ std::int64_t Tick::run(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
   followPoses(cycle);
   // 7. How it went, for log and status.
   reportTick(cycle);
-  // 8. While the server stops: report when all forces are zero.
+  // 8. While the server stops: say when all forces are zero.
   reportZeroForce();
   return shift_ns_;
 }
@@ -266,7 +266,8 @@ bool Tick::allForcesAreZero() const noexcept PALPATE_NONBLOCKING {
 void Tick::reportZeroForce() noexcept PALPATE_NONBLOCKING {
   if (input_.shutting_down != 1) return;
   zero_ticks_ = allForcesAreZero() ? zero_ticks_ + 1 : 0;
-  if (zero_ticks_ == kZeroTicks) channels_.zero_force_sent.post();
+  if (zero_ticks_ == kZeroTicks)
+    channels_.zero_force_made.store(true, std::memory_order_release);  // SYNC ZERO
 }
 
 }  // namespace palpate::server

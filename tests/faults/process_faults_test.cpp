@@ -123,7 +123,7 @@ TEST_F(ProcessFault, AStoppedToolGetsNoForceFirst) {
       kRamps);
 }
 
-// @param[in] stuck  "tick" or "recv"
+// @param[in] stuck  as stuck_thread.h has it
 void ProcessFault::restartLikeSystemd(const char* stuck) {
   constexpr milliseconds kPatience{3000};  // WatchdogSec of the unit
   std::unique_ptr<PlayedManager> manager;
@@ -157,6 +157,10 @@ TEST_F(ProcessFault, AStuckTickLeavesNoForceAndIsStartedAgain) {
 
 TEST_F(ProcessFault, AStuckReceiveThreadLeavesNoForceAndIsStartedAgain) {
   restartLikeSystemd("recv");
+}
+
+TEST_F(ProcessFault, AThreadThatIsStuckSendingForcesLeavesNoneAndIsStartedAgain) {
+  restartLikeSystemd("force-out");
 }
 
 TEST_F(ProcessFault, AWallClockThatStepsTakesNoForce) {

@@ -145,10 +145,10 @@ Fault::Complaint Fault::complaint(const Outcome& outcome, Force wanted, double l
   constexpr double kDips = 10.0, kStays = 30.0;  // ms without a processor that let a force fall, or keep it
   const std::int64_t now_ns = rt::monotonicNow();
   const auto during = [&](std::string text, double explained_by) {
-    return Complaint{std::move(text), explained_by, from_ns, now_ns};
+    return Complaint{std::move(text), explained_by, from_ns, now_ns, false};
   };
-  if (outcome.largest > 1.0 + kRight) return during("a force larger than before", kNever);
-  if (outcome.smallest < 0.0) return during("a force that pulls", kNever);
+  if (outcome.largest > 1.0 + kRight) return {"a force larger than before", kNever, from_ns, now_ns, true};
+  if (outcome.smallest < 0.0) return {"a force that pulls", kNever, from_ns, now_ns, true};
   if (const std::string more = also_ ? also_() : std::string(); !more.empty()) return during(more, kNever);
   if (wanted == Force::kZero && !outcome.zero_ms) return during("the force was never zero", kStays);
   const bool stays = outcome.smallest >= 1.0 - kRight;
@@ -158,13 +158,13 @@ Fault::Complaint Fault::complaint(const Outcome& outcome, Force wanted, double l
     return during("the force neither went on nor was zero at once", kDips);
   if (wanted == Force::kZero && zero_ms > kZeroWithin + kOnTheWay)
     return {"zero after " + std::to_string(zero_ms) + " ms", zero_ms - kZeroWithin - kOnTheWay, from_ns,
-            from_ns + static_cast<std::int64_t>(1e6 * zero_ms)};
+            from_ns + static_cast<std::int64_t>(1e6 * zero_ms), false};
   if (outcome.again_ms.value_or(kNever) > lasts)
     return during("the force was not right again within " + std::to_string(lasts) + " ms",
                   kBusy * ms(now_ns - from_ns));
   if (outcome.recording_lacks_ms.value_or(0.0) > kRecordingLacks)
     return {"the recording lacks " + std::to_string(*outcome.recording_lacks_ms) + " ms",
-            kBusy * ms(kRecorded), from_ns - kRecorded, end_ns};
+            kBusy * ms(kRecorded), from_ns - kRecorded, end_ns, false};
   return {};
 }
 
@@ -196,6 +196,10 @@ void Fault::expect(const std::string& fault, Force wanted, const std::function<v
     if (server_zero_ms_) outcome.zero_ms = server_zero_ms_;
     const Complaint complaint = this->complaint(outcome, wanted, lasts, from_ns, end_ns);
     if (complaint.text.empty()) return tell(outcome);
+    if (complaint.harms) {
+      tell(outcome);
+      FAIL() << fault << ": " << complaint.text << "\n" << server_->log();
+    }
     const double stalled = stalls_->between(complaint.from_ns, complaint.until_ns);
     if (stalled < complaint.explained_by) ++misses;
     complaints += complaint.text + " (stalled for " + std::to_string(stalled) + " ms); ";

@@ -45,7 +45,8 @@ class Fault : public ::testing::Test {
   void waitUntilSettled();
 
   /// Makes a fault, waits until the force is right again, and tells what came of it. A try that missed a bound is made again: it counts
-  /// when this machine's own stalls do not explain it, and three that count are a failure. Where no try can be judged, the test skips.
+  /// when this machine's own stalls do not explain it, and three that count are a failure. Where no try can be judged, the test skips. A
+  /// force that grows or pulls is a failure at once.
   /// @param[in] inject  returns at the fault's end
   /// @param[in] lasts   how long the force may stay away after that, ms
   enum class Force { kGoesOn, kZero, kEither };
@@ -78,6 +79,7 @@ class Fault : public ::testing::Test {
     double explained_by{};  // ms of this machine's stalls
     std::int64_t from_ns{};
     std::int64_t until_ns{};
+    bool harms{false};  // a force that nobody may ever feel: no other try makes it good
   };
 
   [[nodiscard]] bool isRight(const Sample& sample) const;

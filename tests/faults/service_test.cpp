@@ -8,8 +8,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <thread>
 
+#include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
@@ -27,10 +29,10 @@ constexpr milliseconds kPatience{1000};
 constexpr milliseconds kLong{30'000};
 constexpr char kSign[] = "WATCHDOG=1";
 
-// Poses of a tool that is far away, so that something comes in.
+// Poses of a tool that is far away, so that something comes in, and goes out.
 class Tool {
  public:
-  explicit Tool(std::uint32_t domain) : participant_(domain), poses_(participant_) {
+  explicit Tool(std::uint32_t domain) : participant_(domain), forces_(participant_), poses_(participant_) {
     sender_ = std::thread([this] {
       dds::ToolPose pose{};
       pose.position[2] = 1.0;
@@ -41,6 +43,12 @@ class Tool {
       }
     });
   }
+  // Whether a force came within 10 s.
+  [[nodiscard]] bool isAnswered() const {
+    for (int i = 0; i < 500; ++i, std::this_thread::sleep_for(milliseconds(20)))
+      if (dds::ToolForce force; forces_.take(std::span(&force, 1)) > 0) return true;
+    return false;
+  }
   ~Tool() {
     stopping_ = true;
     sender_.join();
@@ -50,6 +58,7 @@ class Tool {
 
  private:
   dds::Participant participant_;
+  dds::Reader<dds::ToolForce> forces_;
   dds::Writer<dds::ToolPose> poses_;
   std::atomic<bool> stopping_{false};
   std::thread sender_;
@@ -123,6 +132,35 @@ TEST_F(Service, GivesNoSignOfLifeWhenPosesAreNotTaken) {
   const Tool tool(domain_);
   EXPECT_TRUE(manager.waitFor(kSign, kLong)) << "poses that are taken";
   expectNoSignWhileStuck(manager, "what comes in over DDS is not taken");
+}
+
+TEST_F(Service, GivesNoSignOfLifeWhenForcesAreNotSent) {
+  PlayedManager manager(kPatience);
+  ASSERT_NO_FATAL_FAILURE(start(manager, "force-out"));
+  const Tool tool(domain_);
+  ASSERT_TRUE(tool.isAnswered()) << server_->log();
+  expectNoSignWhileStuck(manager, "forces are not sent");
+}
+
+// Who reads the log has to know whether the device was told.
+TEST_F(Service, EndsAndSaysSoWhereZeroForceCannotBeSent) {
+  for (const char* const stuck : {"force-out", "tick"}) {
+    PlayedManager manager(milliseconds(0));
+    ASSERT_NO_FATAL_FAILURE(start(manager, stuck));
+    const Tool tool(domain_);
+    ASSERT_TRUE(tool.isAnswered()) << server_->log();
+    server_->signal(SIGUSR2);
+    std::this_thread::sleep_for(milliseconds(100));
+    server_->signal(SIGTERM);
+    EXPECT_TRUE(manager.waitFor("STATUS=zero force could not be sent", kLong)) << server_->log();
+    EXPECT_EQ(server_->waitForExit(std::chrono::seconds(20)), 1) << server_->log();
+    EXPECT_NE(server_->log().find("stopping: zero force could not be sent"), std::string::npos)
+        << server_->log();
+    EXPECT_NE(server_->log().find(std::string("thread ") + stuck + " hangs: the server ends without it"),
+              std::string::npos)
+        << server_->log();
+    EXPECT_EQ(server_->log().find("zero force was sent"), std::string::npos) << server_->log();
+  }
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loaded before all other libraries of palpate-server (LD_PRELOAD): the tick, or DDS's receive threads, wait for as long as they are
-// told to, as at a lock that nobody gives back.
+// Loaded before all other libraries of palpate-server (LD_PRELOAD): the tick, DDS's receive threads, or one that sends by DDS, wait for
+// as long as they are told to, as at a lock that nobody gives back.
 #include "stuck_thread.h"
 
 #include <dlfcn.h>
@@ -20,9 +20,11 @@ namespace {
 
 using Post = int(sem_t*);
 using Receive = ssize_t(int, msghdr*, int);
+using Send = ssize_t(int, const msghdr*, int);
 
 Post* next_post = nullptr;
 Receive* next_receive = nullptr;
+Send* next_send = nullptr;
 std::string_view victim;
 std::atomic<bool> stuck{false};
 
@@ -41,6 +43,7 @@ void onSignal(int signal) {
 __attribute__((constructor)) void prepare() noexcept {
   find("sem_post", next_post);
   find("recvmsg", next_receive);
+  find("sendmsg", next_send);
   if (const char* const wanted = std::getenv(kStuckVariable)) victim = wanted;
   std::signal(SIGUSR1, onSignal);
   std::signal(SIGUSR2, onSignal);
@@ -70,4 +73,11 @@ extern "C" ssize_t recvmsg(int socket, msghdr* message, int flags) {
   if (next_receive == nullptr) prepare();
   waitIfStuck();
   return next_receive(socket, message, flags);
+}
+
+extern "C" ssize_t sendmsg(int socket, const msghdr* message, int flags) {
+  using namespace palpate::faults;
+  if (next_send == nullptr) prepare();
+  waitIfStuck();
+  return next_send(socket, message, flags);
 }

@@ -3,7 +3,8 @@
 
 namespace palpate::faults {
 
-/// How the library stuck_thread is told which threads of palpate-server get stuck: "tick", or "recv" for those in which DDS receives.
+/// How the library stuck_thread is told which threads of palpate-server get stuck: "tick"; "recv" for those in which DDS receives;
+/// "force-out", within DDS.
 /// From SIGUSR2 until SIGUSR1.
 inline constexpr char kStuckVariable[] = "PALPATE_STUCK_THREAD";
 

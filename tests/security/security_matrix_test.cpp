@@ -173,8 +173,10 @@ TEST_F(SecurityMatrix, RightRolesWork) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
   };
   run("palpate-list", {}, "viewer");
+  run("palpate-watch", {"--seconds", "0.5"}, "viewer");
   run("palpate-parameters", {"--friction", "0.2"}, "operator");
   run("palpate-latency", {"--tool", "2", "--seconds", "1", "--assert", "received>100"}, "driver");
+  run("palpate-tool", {"--tool", "2", "--seconds", "1"}, "driver");
   siege_->expectUndisturbed();
 }
 
@@ -199,6 +201,10 @@ TEST_F(SecurityMatrix, AProgramWithoutAnIdentityIsRefusedAndNamed) {
 
 TEST_F(SecurityMatrix, AnotherAuthoritysDriverIsRefusedAndSaidSo) {
   expectRefused({siege_->rogue().of("driver")}, kNotLetIn, {kPoses});
+}
+
+TEST_F(SecurityMatrix, AnotherAuthoritysServerIsRefusedAndSaidSo) {
+  expectRefused({siege_->rogue().of("server")}, kNotLetIn, {kForces});
 }
 
 // The certificate is good. What it may do it has signed itself, and believes it.

@@ -205,6 +205,7 @@ TEST_F(Swap, ARefusedOneLeavesEverythingAsItIsAndSaysWhy) {
     ASSERT_EQ(force.model_hash, status->model_hash);
     ASSERT_EQ(force.flags & dds::flag::kModelChanging, 0U);
   }
+  EXPECT_EQ(gaps(client_->forces()), 0U) << "answers that are missing";
   EXPECT_TRUE(logs("model refused: broken.h5: ")) << "of many in a second one is logged";
 }
 

@@ -290,7 +290,7 @@ TEST_F(TickTest, TellsWhenZeroForceWasSent) {
   (void)takeForces();
   channels_->shutting_down = true;
   int ticks = 0;
-  while (!channels_->zero_force_sent.tryWait() && ticks < 1000) {
+  while (!channels_->zero_force_made.load() && ticks < 1000) {
     send(poseAtDepth(0, 0.001));
     runOneTick();
     ++ticks;

@@ -26,6 +26,7 @@ SILENCE = 50e3
 AT_RISK = ("tool 0", "tool 1")
 TOLD = ("lost", "late", "received", "sent", "superseded", "left_out", "model_changes", "overruns", "late_ticks")
 FEWEST_SECONDS = 4.0
+MOST_POSES = 4000.0  # per s, of palpate-latency
 
 
 def quiet_part(seconds):
@@ -71,7 +72,7 @@ class Scene:
         places = [",".join(f"{x:.6f}" for x in place) for place in stage.places]
         seconds = f"{self._seconds + SETTLED:.2f}"
         lines = {"tool 0": ["palpate-device", "--tool", 0, "--motion", MOTIONS[n % 3], f"--at={places[0]}"],
-                 "tool 1": ["palpate-latency", "--tool", 1, "--wait", 30],
+                 "tool 1": ["palpate-latency", "--tool", 1, "--wait", 30, "--rate", min(stage.rate, MOST_POSES)],
                  "tool 2": ["palpate-tool", "--tool", 2, "--script", SCRIPTS[n % 3], f"--at={places[1]}"],
                  "tool 3": ["palpate-tool", "--tool", 3, "--script", "poke", "--pokes", round(self._seconds), f"--at={places[2]}"]}
         started = {}

@@ -23,7 +23,7 @@ class Stage:
     """@throw Failure naming a missing program or file, or saying why the server does not begin"""
 
     def __init__(self, options, tools):
-        self.bin, self.out = options.bin, options.output
+        self.bin, self.out, self.rate = options.bin, options.output, options.rate
         self.hostile = None if options.no_hostile else options.bin.parent / "tests/hostile_peer"
         for file in [options.model, *options.swap, *(self.bin / name for name in PROGRAMS), *([self.hostile] if self.hostile else [])]:
             if not file.exists():

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 
@@ -98,6 +99,8 @@ class PeriodicThread {
 
   /// Lets the running cycle end, then joins. At most one period.
   void stop();
+  /// The same where that takes no longer than `patience`. @return whether it did; if not, the destructor waits for it
+  [[nodiscard]] bool joinWithin(std::chrono::milliseconds patience);
 
   [[nodiscard]] bool realtime() const noexcept { return thread_->realtime(); }
 

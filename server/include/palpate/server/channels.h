@@ -115,10 +115,14 @@ struct Channels {
   // Force-out and surface-out -> events. Counters; relaxed, they order nothing.
   std::atomic<std::uint64_t> failed_writes{0};
 
-  // Main -> tick: send zero force. Tick -> main: it was sent. Flag relaxed: it orders nothing, the semaphore
-  // does.
+  // Main -> tick: send zero force; relaxed, it orders nothing. Tick -> force-out: all of it is in the ring; SYNC ZERO, release and
+  // acquire. Force-out -> main: it was sent.
   std::atomic<bool> shutting_down{false};
+  std::atomic<bool> zero_force_made{false};
   rt::Semaphore zero_force_sent;
+
+  // Force-out -> watchdog: how often it sent all that the ring had. Relaxed, it orders nothing.
+  std::atomic<std::uint64_t> force_rounds{0};
 
   // Main -> force-out, surface-out, late-watch, events, once the tick has ended: finish what is queued, and return.
   // SYNC STOP: stored with release before the thread's semaphore is posted, loaded with acquire after

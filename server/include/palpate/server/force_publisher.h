@@ -11,7 +11,7 @@ namespace palpate::server {
 /// The record as a DDS sample of this server. Real-time: yes.
 [[nodiscard]] dds::ToolForce toWire(const Facts& facts, const ForceRecord& record) noexcept;
 
-/// Sends every force that the tick wrote.
+/// Sends every force that the tick wrote, and says when the last ones of a server that stops, zero all, were sent.
 class ForcePublisher {
  public:
   /// The references must outlive the publisher. @throw dds::DdsError
@@ -25,9 +25,13 @@ class ForcePublisher {
   void show(dds::EndpointWatch& watch) const { watch.add(writer_); }
 
  private:
+  /// What the ring has. @return whether DDS took all of it
+  [[nodiscard]] bool sendAll() noexcept;
+
   Channels& channels_;
   const Facts& facts_;
   dds::Writer<dds::ToolForce> writer_;
+  bool zero_told_{false};
 };
 
 }  // namespace palpate::server

@@ -42,7 +42,8 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   /// Sends zero force, then ends all threads, what is recorded first. The next call does nothing.
-  /// @return false: a thread hangs in DDS, and the process must end without destroying this, which would wait for it
+  /// @return false: zero force could not be sent, or a thread hangs, and the process must end without destroying this, which would
+  /// wait for it
   [[nodiscard]] bool stop();
 
  private:
@@ -52,7 +53,7 @@ class Server {
   void tellOfContact() const;
   void startThreads(const ServerConfig& config);
   void tellServiceManager(const ServerConfig& config);
-  void sendZeroForce();
+  [[nodiscard]] bool sendZeroForce();
 
   Facts facts_;
   std::unique_ptr<Engine> first_;  // until the exchange has it

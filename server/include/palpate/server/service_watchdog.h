@@ -11,18 +11,19 @@
 
 namespace palpate::server {
 
-/// Gives the service manager its sign of life, a quarter of its patience apart, as long as ticks go on and what comes in over DDS is
-/// taken; the manager kills and restarts a server that gives none (docs/decisions/service_watchdog.md). Real-time: no.
+/// Gives the service manager its sign of life, a quarter of its patience apart, as long as ticks go on, forces are sent and what comes
+/// in over DDS is taken; the manager kills and restarts a server that gives none (docs/decisions/service_watchdog.md). Real-time: no.
 class ServiceWatchdog {
  public:
-  /// Both must outlive it.
-  ServiceWatchdog(const ServiceManager& manager, const rt::PeriodicThread& tick, std::uint32_t domain)
-      : manager_(manager), tick_(tick), receive_(domain) {}
+  /// All must outlive it. @param rounds  Channels::force_rounds
+  ServiceWatchdog(const ServiceManager& manager, const rt::PeriodicThread& tick,
+                  const std::atomic<std::uint64_t>& rounds, std::uint32_t domain)
+      : manager_(manager), tick_(tick), rounds_(rounds), receive_(domain) {}
 
   /// Body of the watchdog thread; returns after end().
   void run() noexcept;
 
-  /// From now on ticks and poses may end: signs of life are given all the same, the manager bounds a stop by another time.
+  /// From now on ticks, forces and poses may end: signs of life are given all the same, the manager bounds a stop by another time.
   void stopping() noexcept { stopping_.store(true, std::memory_order_relaxed); }
   void end() noexcept;
 
@@ -32,8 +33,9 @@ class ServiceWatchdog {
 
   const ServiceManager& manager_;
   const rt::PeriodicThread& tick_;
+  const std::atomic<std::uint64_t>& rounds_;
   ReceiveWatch receive_;
-  std::uint64_t cycles_{0};
+  std::uint64_t cycles_{0}, last_rounds_{0};
   bool told_{false};  // of a fault that is not over
   std::atomic<bool> stopping_{false};
   std::atomic<bool> ended_{false};  // both are flags, relaxed: the semaphore orders

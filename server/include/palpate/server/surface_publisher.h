@@ -12,7 +12,8 @@
 namespace palpate::server {
 
 /// Evaluates and sends the surface's displacement where the tick hands over what it is made of. Tells the tick whether
-/// anybody reads it, and whether it overflowed.
+/// anybody reads it, and whether it overflowed. After each field it rests for as long as that took to compute and send, so that it
+/// has at most half of a processor (docs/decisions/surface_rate.md).
 class SurfacePublisher {
  public:
   /// Channels and facts must outlive the publisher. @throw dds::DdsError
@@ -28,6 +29,7 @@ class SurfacePublisher {
  private:
   void publish(const SurfaceSample& sample) noexcept;
   void letGo(std::uint64_t in_use) noexcept;
+  static void rest(std::int64_t computed_ns) noexcept;
 
   Channels& channels_;
   const Facts& facts_;
