@@ -194,14 +194,14 @@ class Scene:
 
     def _back_to_the_first_model(self):
         """Memory is judged on one organ. @return whether it is back; the server rests between two models"""
-        for _ in range(8 if len(self._stage.models) > 1 and self._server_lives() else 0):
-            try:
-                self._stage.asked(["palpate-parameters", "--model", self._stage.models[0], "--wait", 10], 20.0)
-                self._pass(0.5)
-                return True
-            except Failure:
-                self._pass(0.5)
-        return len(self._stage.models) == 1
+        if len(self._stage.models) == 1:
+            return True
+        try:
+            self._stage.ask_for(self._stage.models[0])
+        except Failure:
+            return False
+        self._pass(0.5)
+        return True
 
     # -- samples
 

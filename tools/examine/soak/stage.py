@@ -16,6 +16,10 @@ from . import samples
 
 PROGRAMS = ("palpate-server", "palpate-viewer", "palpate-latency", "palpate-tool", "palpate-device", "palpate-watch",
             "palpate-parameters", "palpate-list")
+# Of a field's readers none shows more than 60 a second. With each tick they would cost a machine more than all else does here.
+SURFACE_RATE = 60
+EXCHANGES = 20     # of organs, before anything is judged: what they leave in the allocator grows until then (docs/measured.md, Soak)
+LONG_RUN = 600.0   # s; a shorter one has no time for them
 LOGS = ("server", "viewer", "tools", "hostile", "visitors", "questions", "asked")
 
 
@@ -37,7 +41,7 @@ class Stage:
         self.domain = _shell(tools, "free_domain").strip()
         self.models = self._folder_of_models([options.model, *options.swap])
         self.server = processes.start([self.bin / "palpate-server", "--model", options.model, "--models", self.folder,
-                                       "--domain", self.domain, "--rate", options.rate], self.out / "server.log", self.env)
+                                       "--domain", self.domain, "--rate", options.rate, "--surface-rate", SURFACE_RATE], self.out / "server.log", self.env)
         try:
             self.top, self.places, self.tip_radius = self._look_at_the_organ()
         except Failure as error:
@@ -49,6 +53,19 @@ class Stage:
         if self.tick is None:
             raise Failure("palpate-server has no tick thread")
         self.viewer, self.port = self._start_viewer()
+        for i in range(EXCHANGES if len(self.models) > 1 and options.seconds >= LONG_RUN else 0):
+            self.ask_for(self.models[(i + 1) % len(self.models)])
+
+    def ask_for(self, model):
+        """Again where another one is on its way. @throw Failure when the server does not take it"""
+        for tries_left in range(7, -1, -1):
+            try:
+                self.asked(["palpate-parameters", "--model", model, "--wait", 10], 20.0)
+                return
+            except Failure:
+                if tries_left == 0 or self.server.poll() is not None:
+                    raise
+                time.sleep(0.5)
 
     def _folder_of_models(self, files):
         """Names within the server's folder of models; a link that leads out of it would be refused."""
