@@ -39,6 +39,8 @@ void Events::run() noexcept {
       channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
     if (!stopping) publishIfDue(now_ns);
   }
+  info(channels_.zero_force_out.load(std::memory_order_relaxed) ? "stopping: zero force was sent"
+                                                                : "stopping: zero force could not be sent");
   status_.publish(health_, dds::server_state::kStopping);
 }
 

@@ -42,17 +42,13 @@ dds::ToolForce toWire(const Facts& facts, const ForceRecord& record) noexcept {
   return force;
 }
 
-bool ForcePublisher::sendAll() noexcept {
-  bool sent = true;
+void ForcePublisher::sendAll() noexcept {
   ForceRecord record;
   while (channels_.forces.pop(record)) {
-    if (!writer_.write(toWire(facts_, record))) {
-      channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
-      sent = false;
-    }
+    taken_ = writer_.write(toWire(facts_, record));
+    if (!taken_) channels_.failed_writes.fetch_add(1, std::memory_order_relaxed);
     (void)channels_.force_delays.push(rt::monotonicNow() - record.handed_ns);
   }
-  return sent;
 }
 
 void ForcePublisher::run() noexcept {
@@ -62,8 +58,8 @@ void ForcePublisher::run() noexcept {
     stopping = channels_.stopping.load(std::memory_order_acquire);  // SYNC STOP
     const bool zero =
         channels_.zero_force_made.load(std::memory_order_acquire);  // SYNC ZERO, before the ring is looked at
-    const bool sent = sendAll();
-    if (zero && sent && !zero_told_) {
+    sendAll();
+    if (zero && taken_ && !zero_told_) {
       channels_.zero_force_sent.post();
       zero_told_ = true;
     }

@@ -116,11 +116,8 @@ int serve(int argc, char** argv) {
   spdlog::info("serving on DDS domain {} at {} Hz", config->domain, config->rate);
   // 5. Until a signal says stop,
   const int signal = waitForSignal();
-  // 6. zero force first, then everything else, the log too. Where a thread spins or hangs no destructor may wait for it.
-  if (signal == SIGXCPU || !server.stop()) {
-    spdlog::shutdown();
-    std::_Exit(program::kFailed);
-  }
+  // 6. zero force first, then everything else. Where a thread spins or hangs no destructor may wait for it.
+  if (signal == SIGXCPU || !server.stop()) std::_Exit(program::kFailed);
   spdlog::info("signal {}: stopped", signal);
   return program::kDone;
 }

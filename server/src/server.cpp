@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -70,9 +72,9 @@ std::string describeRealtime(rt::RealtimePolicy policy, bool realtime) {
          std::to_string(kTickPriority);
 }
 
-// How long a stop waits for the tick, for what is recorded, and for those who write to DDS together: with what zero force takes less
-// than TimeoutStopSec of the unit, 10 s, and each less than kLastComputation of one that spins.
-constexpr std::chrono::seconds kTickEnds{1}, kRecordingEnds{3}, kSendersEnd{2};
+// How long a stop waits for the tick, for what is recorded (a disk may stall for as long as the ring of ticks lasts), and for those who
+// write to DDS together: with zero force, at most 4 s, less than TimeoutStopSec of the unit.
+constexpr std::chrono::seconds kTickEnds{1}, kRecordingEnds{5}, kSendersEnd{1};
 
 // Waits for threads, of which one may hang, in DDS or at a disk.
 class Patience {
@@ -137,9 +139,10 @@ Server::Server(const std::shared_ptr<const MetaModel>& model, const ServerConfig
     for (const std::string& line : startupTable(startup)) spdlog::info(line);
     for (const std::string& line : remedies(startup)) spdlog::warn(line);
     tellServiceManager(config);
-  } catch (...) {
-    (void)stop();
-    throw;
+  } catch (const std::exception& error) {
+    if (stop()) throw;
+    spdlog::critical("{}", error.what());  // a thread hangs, which destructors would wait for
+    std::_Exit(EXIT_FAILURE);
   }
 }
 
@@ -222,24 +225,25 @@ bool Server::stop() {
   bool ended = true;
   if (tick_thread_) {
     if (watchdog_) watchdog_->stopping();
-    ended = sendZeroForce();
-    service_.tell(ended ? "STOPPING=1\nSTATUS=no forces any more"
-                        : "STOPPING=1\nSTATUS=zero force could not be sent");
-    ended = Patience(kTickEnds).endOf(tick_thread_, "tick") && ended;
-    if (ended) spdlog::info("page faults in ticks: {}", tick_thread_->pageFaults());
+    const bool sent = sendZeroForce();
+    channels_.zero_force_out.store(sent, std::memory_order_relaxed);
+    service_.tell(sent ? "STOPPING=1\nSTATUS=no forces any more"
+                       : "STOPPING=1\nSTATUS=zero force could not be sent");
+    const bool joined = Patience(kTickEnds).endOf(tick_thread_, "tick");
+    if (joined) spdlog::info("page faults in ticks: {}", tick_thread_->pageFaults());
+    ended = sent && joined;
   }
   channels_.stopping.store(true, std::memory_order_release);  // SYNC STOP
   channels_.force_ready.post();
   channels_.surface_ready.post();
   channels_.late_watch_ready.post();
-  late_thread_.reset();  // its last word is for events
+  late_thread_.reset();  // its last word is for events; it waits for nobody
   channels_.events_ready.post();
-  if (recorder_thread_) {
-    const bool recorded = Patience(kRecordingEnds).endOf(recorder_thread_, "recorder");
-    if (recorded) spdlog::info(recorder_->summary());
-    if (recorded) recorder_thread_.reset();
-    ended = ended && recorded;
+  if (recorder_thread_ && Patience(kRecordingEnds).endOf(recorder_thread_, "recorder")) {
+    recorder_thread_.reset();
+    spdlog::info(recorder_->summary());
   }
+  ended = ended && !recorder_thread_;
   const Patience patience(kSendersEnd);
   for (const auto& [thread, name] :
        {std::pair(&force_thread_, "force-out"), std::pair(&surface_thread_, "surface-out"),
@@ -256,12 +260,7 @@ bool Server::sendZeroForce() {
   // The ramp, the zero ticks at the slowest rate, and a host that stalls.
   const auto longest_ns = static_cast<std::int64_t>(1e9 * (ramp_time_ + 3.0));
   channels_.shutting_down.store(true, std::memory_order_relaxed);
-  if (channels_.zero_force_sent.waitFor(longest_ns)) {
-    spdlog::info("stopping: zero force was sent");
-    return true;
-  }
-  spdlog::error("stopping: zero force could not be sent, ticks or forces stand still");
-  return false;
+  return channels_.zero_force_sent.waitFor(longest_ns);
 }
 
 }  // namespace palpate::server

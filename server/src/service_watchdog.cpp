@@ -25,10 +25,11 @@ void ServiceWatchdog::run() noexcept {
   while (!ended_.load(std::memory_order_relaxed)) {
     (void)ended_ready_.waitFor(look_ns);
     const std::int64_t now_ns = rt::monotonicNow();
-    const char* const fault = stopping_.load(std::memory_order_relaxed) ? nullptr : this->fault(now_ns);
+    const bool stopping = stopping_.load(std::memory_order_relaxed);
+    const char* const fault = stopping ? nullptr : this->fault(now_ns);
     if (fault == nullptr && now_ns - fed_ns >= patience_ns / 4) {
-      manager_.tell(told_ ? "WATCHDOG=1\nSTATUS=serving again" : "WATCHDOG=1");
-      told_ = false;
+      manager_.tell(told_ && !stopping ? "WATCHDOG=1\nSTATUS=serving again" : "WATCHDOG=1");
+      told_ = told_ && stopping;
       fed_ns = now_ns;
     }
     if (fault != nullptr && !told_ && now_ns - fed_ns >= patience_ns / 2) tellOf(fault);

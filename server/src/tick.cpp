@@ -265,7 +265,9 @@ bool Tick::allForcesAreZero() const noexcept PALPATE_NONBLOCKING {
 
 void Tick::reportZeroForce() noexcept PALPATE_NONBLOCKING {
   if (input_.shutting_down != 1) return;
-  zero_ticks_ = allForcesAreZero() ? zero_ticks_ + 1 : 0;
+  // Not those that found no room in the ring.
+  zero_ticks_ = allForcesAreZero() && dropped_ == dropped_before_ ? zero_ticks_ + 1 : 0;
+  dropped_before_ = dropped_;
   if (zero_ticks_ == kZeroTicks)
     channels_.zero_force_made.store(true, std::memory_order_release);  // SYNC ZERO
 }

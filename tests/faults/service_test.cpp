@@ -9,7 +9,10 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "palpate/idl/reader.h"
 #include "palpate/idl/writer.h"
@@ -145,14 +148,22 @@ TEST_F(Service, GivesNoSignOfLifeWhenForcesAreNotSent) {
 // Who reads the log has to know whether the device was told.
 TEST_F(Service, EndsAndSaysSoWhereZeroForceCannotBeSent) {
   for (const char* const stuck : {"force-out", "tick"}) {
-    PlayedManager manager(milliseconds(0));
+    PlayedManager manager(kPatience);
     ASSERT_NO_FATAL_FAILURE(start(manager, stuck));
     const Tool tool(domain_);
     ASSERT_TRUE(tool.isAnswered()) << server_->log();
     server_->signal(SIGUSR2);
-    std::this_thread::sleep_for(milliseconds(100));
+    EXPECT_TRUE(manager.waitFor(
+        std::string(stuck) == "tick" ? "STATUS=ticks stand still" : "STATUS=forces are not sent", kLong))
+        << server_->log();
     server_->signal(SIGTERM);
-    EXPECT_TRUE(manager.waitFor("STATUS=zero force could not be sent", kLong)) << server_->log();
+    std::vector<std::string> told;
+    while (std::find(told.begin(), told.end(), "STATUS=zero force could not be sent") == told.end() &&
+           server_->running())
+      for (std::string& line : manager.linesOf(milliseconds(100))) told.push_back(std::move(line));
+    EXPECT_EQ(std::count(told.begin(), told.end(), "STATUS=zero force could not be sent"), 1)
+        << server_->log();
+    EXPECT_EQ(std::count(told.begin(), told.end(), "STATUS=serving again"), 0) << server_->log();
     EXPECT_EQ(server_->waitForExit(std::chrono::seconds(20)), 1) << server_->log();
     EXPECT_NE(server_->log().find("stopping: zero force could not be sent"), std::string::npos)
         << server_->log();

@@ -71,7 +71,7 @@ TEST_F(SpinningServer, IsStoppedWhereTheThreadThatSendsFieldsHangs) {
   server_->signal(SIGTERM);
   EXPECT_EQ(server_->waitForExit(std::chrono::seconds(20)), 1) << server_->log();
   for (const char* const said : {"page faults in ticks: ", "recorded ",
-                                 "thread surface-out hangs: the server ends without it after 2 s"})
+                                 "thread surface-out hangs: the server ends without it after 1 s"})
     EXPECT_NE(server_->log().find(said), std::string::npos) << said << "\n" << server_->log();
   record::RecordReader recorded(recording.path());
   for (record::RecordedTick tick; recorded.next(tick);) continue;  // throws where the end is missing

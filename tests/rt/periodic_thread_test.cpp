@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <ctime>
 #include <stdexcept>
 
@@ -72,6 +73,19 @@ std::int64_t logCycle(void* context, const Cycle& cycle) noexcept {
 PALPATE_TRUSTED_BEGIN
 constexpr PeriodicThread::Function kLogCycle = logCycle;
 PALPATE_TRUSTED_END
+
+TEST(PeriodicThread, WhoseCycleDoesNotEndIsWaitedForOnlySoLong) {
+  std::atomic<bool> go_on{false};
+  const auto spin = [](void* context, const Cycle&) noexcept PALPATE_NONBLOCKING -> std::int64_t {
+    while (!static_cast<std::atomic<bool>*>(context)->load()) {
+    }
+    return 0;
+  };
+  PeriodicThread thread({"test-spins"}, kPeriod, spin, &go_on);
+  EXPECT_FALSE(thread.joinWithin(std::chrono::milliseconds(20)));
+  go_on = true;
+  EXPECT_TRUE(thread.joinWithin(std::chrono::seconds(20)));
+}
 
 TEST(PeriodicThread, MissedPeriodsAreCountedAndNeverBunched) {
   Log log;

@@ -282,7 +282,7 @@ TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
   EXPECT_EQ(run(20), 4U);
 }
 
-TEST_F(TickTest, TellsWhenZeroForceWasSent) {
+TEST_F(TickTest, TellsWhenZeroForceIsInTheRing) {
   for (int i = 0; i < 100; ++i) {
     send(poseAtDepth(0, 0.001));
     runOneTick();

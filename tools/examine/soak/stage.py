@@ -53,8 +53,10 @@ class Stage:
         if self.tick is None:
             raise Failure("palpate-server has no tick thread")
         self.viewer, self.port = self._start_viewer()
-        for i in range(EXCHANGES if len(self.models) > 1 and options.seconds >= LONG_RUN else 0):
-            self.ask_for(self.models[(i + 1) % len(self.models)])
+        if len(self.models) > 1 and options.seconds >= LONG_RUN:
+            for i in range(EXCHANGES):
+                self.ask_for(self.models[(i + 1) % len(self.models)])
+            self.ask_for(self.models[0])
 
     def ask_for(self, model):
         """Again where another one is on its way. @throw Failure when the server does not take it"""

@@ -116,15 +116,16 @@ struct Channels {
   std::atomic<std::uint64_t> failed_writes{0};
 
   // Main -> tick: send zero force; relaxed, it orders nothing. Tick -> force-out: all of it is in the ring; SYNC ZERO, release and
-  // acquire. Force-out -> main: it was sent.
+  // acquire. Force-out -> main: it was sent. Main -> events: whether it was, before `stopping`; relaxed.
   std::atomic<bool> shutting_down{false};
   std::atomic<bool> zero_force_made{false};
   rt::Semaphore zero_force_sent;
+  std::atomic<bool> zero_force_out{true};
 
-  // Force-out -> watchdog: how often it sent all that the ring had. Relaxed, it orders nothing.
+  // Force-out -> watchdog: how often it emptied the ring. Relaxed, it orders nothing.
   std::atomic<std::uint64_t> force_rounds{0};
 
-  // Main -> force-out, surface-out, late-watch, events, once the tick has ended: finish what is queued, and return.
+  // Main -> force-out, surface-out, late-watch, events, once the tick has ended, or hangs: finish what is queued, and return.
   // SYNC STOP: stored with release before the thread's semaphore is posted, loaded with acquire after
   // waiting.
   std::atomic<bool> stopping{false};

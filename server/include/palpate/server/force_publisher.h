@@ -25,12 +25,13 @@ class ForcePublisher {
   void show(dds::EndpointWatch& watch) const { watch.add(writer_); }
 
  private:
-  /// What the ring has. @return whether DDS took all of it
-  [[nodiscard]] bool sendAll() noexcept;
+  /// What the ring has.
+  void sendAll() noexcept;
 
   Channels& channels_;
   const Facts& facts_;
   dds::Writer<dds::ToolForce> writer_;
+  bool taken_{true};  // whether DDS took the newest record
   bool zero_told_{false};
 };
 

@@ -41,7 +41,7 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Sends zero force, then ends all threads, what is recorded first. The next call does nothing.
+  /// Sends zero force, then ends all threads, what is recorded first. After true the next call does nothing.
   /// @return false: zero force could not be sent, or a thread hangs, and the process must end without destroying this, which would
   /// wait for it
   [[nodiscard]] bool stop();
