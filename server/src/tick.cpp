@@ -121,6 +121,7 @@ void Tick::countRejectedPoses() noexcept PALPATE_NONBLOCKING {
 }
 
 void Tick::writeForces(const rt::Cycle& cycle) noexcept PALPATE_NONBLOCKING {
+  all_in_ring_ = true;
   for (std::size_t tool = 0; tool < ledgers_.size(); ++tool) {
     if (!seen(tool)) continue;
     Ledger& ledger = ledgers_[tool];
@@ -166,7 +167,9 @@ void Tick::push(ForceRecord& record, const rt::Cycle& cycle) noexcept PALPATE_NO
   record.overruns = cycle.overruns;
   record.handed_ns = rt::monotonicNow();
   // A full ring is a lost sample like any other: the receiver sees the gap in seq.
-  if (!channels_.forces.push(record)) ++dropped_;
+  if (channels_.forces.push(record)) return;
+  ++dropped_;
+  all_in_ring_ = false;
 }
 
 // The tick nearest to the surface's own grid, so that any rate holds on average.
@@ -266,8 +269,7 @@ bool Tick::allForcesAreZero() const noexcept PALPATE_NONBLOCKING {
 void Tick::reportZeroForce() noexcept PALPATE_NONBLOCKING {
   if (input_.shutting_down != 1) return;
   // Not those that found no room in the ring.
-  zero_ticks_ = allForcesAreZero() && dropped_ == dropped_before_ ? zero_ticks_ + 1 : 0;
-  dropped_before_ = dropped_;
+  zero_ticks_ = allForcesAreZero() && all_in_ring_ ? zero_ticks_ + 1 : 0;
   if (zero_ticks_ == kZeroTicks)
     channels_.zero_force_made.store(true, std::memory_order_release);  // SYNC ZERO
 }

@@ -145,7 +145,7 @@ Fault::Complaint Fault::complaint(const Outcome& outcome, Force wanted, double l
   constexpr double kDips = 10.0, kStays = 30.0;  // ms without a processor that let a force fall, or keep it
   const std::int64_t now_ns = rt::monotonicNow();
   const auto during = [&](std::string text, double explained_by) {
-    return Complaint{std::move(text), explained_by, from_ns, now_ns, false};
+    return Complaint{std::move(text), explained_by, from_ns, now_ns};
   };
   if (outcome.largest > 1.0 + kRight) return {"a force larger than before", kNever, from_ns, now_ns, true};
   if (outcome.smallest < 0.0) return {"a force that pulls", kNever, from_ns, now_ns, true};
@@ -158,13 +158,13 @@ Fault::Complaint Fault::complaint(const Outcome& outcome, Force wanted, double l
     return during("the force neither went on nor was zero at once", kDips);
   if (wanted == Force::kZero && zero_ms > kZeroWithin + kOnTheWay)
     return {"zero after " + std::to_string(zero_ms) + " ms", zero_ms - kZeroWithin - kOnTheWay, from_ns,
-            from_ns + static_cast<std::int64_t>(1e6 * zero_ms), false};
+            from_ns + static_cast<std::int64_t>(1e6 * zero_ms)};
   if (outcome.again_ms.value_or(kNever) > lasts)
     return during("the force was not right again within " + std::to_string(lasts) + " ms",
                   kBusy * ms(now_ns - from_ns));
   if (outcome.recording_lacks_ms.value_or(0.0) > kRecordingLacks)
     return {"the recording lacks " + std::to_string(*outcome.recording_lacks_ms) + " ms",
-            kBusy * ms(kRecorded), from_ns - kRecorded, end_ns, false};
+            kBusy * ms(kRecorded), from_ns - kRecorded, end_ns};
   return {};
 }
 

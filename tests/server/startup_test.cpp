@@ -119,6 +119,7 @@ TEST(ServiceFiles, TheUnitGrantsWhatTheThreadsWant) {
   EXPECT_EQ(values["[Service]Type"], "notify");
   EXPECT_GE(std::stoi(values["[Service]WatchdogSec"]), 1);
   EXPECT_EQ(values["[Service]Restart"], "on-failure");
+  EXPECT_EQ(values["[Unit]StartLimitIntervalSec"], "0") << "it is started again however often it ends";
   EXPECT_EQ(values["[Service]ExecStart"].find('@'), std::string::npos) << "a place that was not filled in";
 }
 

@@ -282,28 +282,6 @@ TEST_F(TickTest, AfterAStallTheSurfaceIsNotWrittenInABunch) {
   EXPECT_EQ(run(20), 4U);
 }
 
-TEST_F(TickTest, TellsWhenZeroForceIsInTheRing) {
-  for (int i = 0; i < 100; ++i) {
-    send(poseAtDepth(0, 0.001));
-    runOneTick();
-  }
-  (void)takeForces();
-  channels_->shutting_down = true;
-  int ticks = 0;
-  while (!channels_->zero_force_made.load() && ticks < 1000) {
-    send(poseAtDepth(0, 0.001));
-    runOneTick();
-    ++ticks;
-  }
-  EXPECT_LE(ticks, 50) << "30 ms of ramp and ten ticks of zero";
-  const auto forces = takeForces();
-  ASSERT_GE(forces.size(), 10U);
-  for (auto last = forces.end() - 10; last != forces.end(); ++last) {
-    EXPECT_EQ(last->result.force, (std::array<double, 3>{}));
-    EXPECT_NE(last->result.flags & kShuttingDown, 0U);
-  }
-}
-
 TEST_F(TickTest, AllocatesNothingWhateverComes) {
   channels_->recording = std::make_unique<rt::SpscQueue<SessionTick, 16384>>();
   dds::ToolPose bad = poseAtDepth(1, 0.001);

@@ -41,7 +41,8 @@ class Stage:
         self.domain = _shell(tools, "free_domain").strip()
         self.models = self._folder_of_models([options.model, *options.swap])
         self.server = processes.start([self.bin / "palpate-server", "--model", options.model, "--models", self.folder,
-                                       "--domain", self.domain, "--rate", options.rate, "--surface-rate", SURFACE_RATE], self.out / "server.log", self.env)
+                                       "--domain", self.domain, "--rate", options.rate, "--surface-rate", SURFACE_RATE],
+                                      self.out / "server.log", self.env)
         try:
             self.top, self.places, self.tip_radius = self._look_at_the_organ()
         except Failure as error:

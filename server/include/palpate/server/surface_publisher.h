@@ -12,8 +12,8 @@
 namespace palpate::server {
 
 /// Evaluates and sends the surface's displacement where the tick hands over what it is made of. Tells the tick whether
-/// anybody reads it, and whether it overflowed. After each field it rests for as long as that took to compute and send, so that it
-/// has at most half of a processor (docs/decisions/surface_rate.md).
+/// anybody reads it, and whether it overflowed. After each field it rests for as long as that took to compute and send, 0.1 s at
+/// most, so that it has at most half of a processor (docs/decisions/surface_rate.md).
 class SurfacePublisher {
  public:
   /// Channels and facts must outlive the publisher. @throw dds::DdsError

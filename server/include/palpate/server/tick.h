@@ -109,8 +109,9 @@ class Tick {
   std::uint64_t shown_engine_{0};  // whose it was
   FieldPace field_pace_;
   std::uint64_t rejected_{0};
-  std::uint64_t dropped_{0}, dropped_before_{0};
-  int zero_ticks_{0};  // in a row, while shutting down
+  std::uint64_t dropped_{0};
+  bool all_in_ring_{true};  // the forces of this tick
+  int zero_ticks_{0};       // in a row, while shutting down
 };
 
 }  // namespace palpate::server
