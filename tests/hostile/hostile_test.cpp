@@ -3,6 +3,7 @@
 // from palpate.idl alone, with DDS's default QoS.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 #include <set>
@@ -44,20 +45,30 @@ class Hostility : public ::testing::Test {
     return before;
   }
 
-  // Each kind of wrong in turn, while the tool that behaves plays for `seconds`. A second that lacks answers is the machine's,
-  // unless one within a second of it lacks them each time, or more than a tenth do.
+  // Each kind of wrong in turn, while the tool that behaves plays for `seconds`, up to four times. A second that lacks answers is the
+  // machine's, unless one within a second of it lacks them each time, or more than a tenth do each time. Where they do without
+  // anybody who does wrong too, it cannot be judged.
   void playAndJudge(double each, int seconds) {
+    const std::size_t many = static_cast<std::size_t>(seconds) / 10;
     std::set<int> lacking = play(each, seconds);
-    for (int again = 0; again < 2 && !lacking.empty() && !HasFailure(); ++again) {
+    std::size_t least = lacking.size();
+    for (int again = 0; again < 3 && !(lacking.empty() && least <= many) && !HasFailure(); ++again) {
       const std::set<int> others = play(each, seconds);
+      least = std::min(least, others.size());
       std::erase_if(lacking, [&](int second) {
         return !others.contains(second - 1) && !others.contains(second) && !others.contains(second + 1);
       });
     }
+    if (HasFailure()) return;
+    if (!lacking.empty() || least > many)
+      if (const std::size_t alone = play(0.0, seconds).size(); alone > many)
+        GTEST_SKIP() << "the machine keeps a tool from its answers in " << alone << " of " << seconds << " s";
     EXPECT_TRUE(lacking.empty()) << "about second " << *lacking.begin() << " of each play";
+    EXPECT_LE(least, many) << "seconds that lack answers, in each play";
   }
 
  private:
+  // @param[in] each  s of each kind of wrong; 0: of none
   // @return the seconds in which fewer than 900 answers came
   std::set<int> play(double each, int seconds) {
     ServerProcess server(
@@ -66,16 +77,17 @@ class Hostility : public ::testing::Test {
     auto good = arguments({std::to_string(seconds)});
     good.push_back(kForceLimit);
     ChildProcess tool(program("well_behaved_peer"), good, {.out = report.descriptor()});
-    const auto hostile = runProgram(program("hostile_peer"), arguments({"all", std::to_string(each)}));
-    EXPECT_EQ(hostile.exit_code, 0);
-    EXPECT_EQ(linesOf(hostile.out).size(), 34U) << hostile.out;
-    EXPECT_TRUE(tool.running()) << "it was to behave longer than the others did not";
-    EXPECT_EQ(tool.waitForExit(std::chrono::seconds(seconds)), 0) << report.text();
+    if (each > 0.0) {
+      const auto hostile = runProgram(program("hostile_peer"), arguments({"all", std::to_string(each)}));
+      EXPECT_EQ(hostile.exit_code, 0);
+      EXPECT_EQ(linesOf(hostile.out).size(), 34U) << hostile.out;
+      EXPECT_TRUE(tool.running()) << "it was to behave longer than the others did not";
+    }
+    EXPECT_EQ(tool.waitForExit(std::chrono::seconds(2 * seconds)), 0) << report.text();
     EXPECT_TRUE(server.running()) << server.log();
     server.signal(SIGTERM);
     EXPECT_EQ(server.waitForExit(), 0) << server.log();
     const std::set<int> lacking = lackingOf(report.text());
-    EXPECT_LE(lacking.size(), static_cast<std::size_t>(seconds / 10)) << report.text() << server.log();
     if (!lacking.empty()) std::cout << "answers are lacking:\n" << report.text() << server.log();
     return lacking;
   }

@@ -104,13 +104,17 @@ TEST_F(FeedOfManyServers, AServerThatTakesAnotherModelIsFollowedWithItsNewSurfac
 }
 
 TEST_F(FeedOfManyServers, OtherServersHoweverManyDoNotHideTheOneThatIsFollowed) {
-  sayAll({1, 7, "aa", 500});
+  const Run held{1, 7, "aa", 500};
+  sayAll(held);
   for (std::uint32_t i = 0; i < 3 * Surfaces::kMostKept; ++i) {
     saySurface({2, 100 + i, "cc", i});
     sayStatus({2, 100 + i, "cc", i});
     (void)feed_.poll(rt::monotonicNow(), 0);
   }
-  EXPECT_FALSE(until([&] { return state() != "serving"; }));
+  EXPECT_FALSE(until([&] {
+    sayStatus(held);  // as a server does: one that is silent for long is gone
+    return state() != "serving";
+  }));
 }
 
 TEST_F(FeedOfManyServers, NothingOfARunIsLeftInTheNextRunOfItsServer) {
