@@ -18,8 +18,6 @@ PROGRAMS = ("palpate-server", "palpate-viewer", "palpate-latency", "palpate-tool
             "palpate-parameters", "palpate-list")
 # Of a field's readers none shows more than 60 a second. With each tick they would cost a machine more than all else does here.
 SURFACE_RATE = 60
-EXCHANGES = 20     # of organs, before anything is judged: what they leave in the allocator grows until then (docs/measured.md, Soak)
-LONG_RUN = 600.0   # s; a shorter one has no time for them
 LOGS = ("server", "viewer", "tools", "hostile", "visitors", "questions", "asked")
 
 
@@ -54,10 +52,6 @@ class Stage:
         if self.tick is None:
             raise Failure("palpate-server has no tick thread")
         self.viewer, self.port = self._start_viewer()
-        if len(self.models) > 1 and options.seconds >= LONG_RUN:
-            for i in range(EXCHANGES):
-                self.ask_for(self.models[(i + 1) % len(self.models)])
-            self.ask_for(self.models[0])
 
     def ask_for(self, model):
         """Again where another one is on its way. @throw Failure when the server does not take it"""
