@@ -7,7 +7,7 @@
 
 namespace palpate::client {
 
-bool prepareToSend(const ToolClient& tool) {
+SendingPriority::SendingPriority(const ToolClient& tool) {
   constexpr int kPriority = 60;
   constexpr int kReceivePriority = 65;
   if (!tool.waitForServer(std::chrono::seconds(5))) {
@@ -16,7 +16,11 @@ bool prepareToSend(const ToolClient& tool) {
                       (mismatch.empty() ? "" : ": " + mismatch));
   }
   (void)rt::raiseThreadsNamed(dds::kReceiveThreads, kReceivePriority);
-  return rt::raiseThisThread(kPriority) == 0;
+  granted_ = rt::raiseThisThread(kPriority) == 0;
+}
+
+SendingPriority::~SendingPriority() {
+  if (granted_) rt::lowerThisThread();
 }
 
 std::string leftOutText(const LeftOut& left_out, const StatusBoard& statuses) {

@@ -54,8 +54,8 @@ class Disturbance {
 class Exchange {
  public:
   Exchange(const dds::Participant& participant, std::uint32_t tool_id, const client::ServerRun& server)
-      : tool_(participant, tool_id, &onForce, &arrived_, server), pacer_(kPeriodNs) {
-    if (!client::prepareToSend(tool_)) std::cerr << client::kNotRealtime;
+      : tool_(participant, tool_id, &onForce, &arrived_, server), priority_(tool_), pacer_(kPeriodNs) {
+    if (!priority_.granted()) std::cerr << client::kNotRealtime;
     pacer_ = rt::Pacer(kPeriodNs);
   }
 
@@ -119,6 +119,7 @@ class Exchange {
 
   Arrived arrived_;
   client::ToolClient tool_;
+  client::SendingPriority priority_;
   rt::Pacer pacer_;
   AnswerLine<dds::ToolForce> line_;
   Disturbance disturbance_;

@@ -92,7 +92,8 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   const device::Path path = gentlePress(spot, options);
   SenderStats unmeasured;
   SenderStats stats;
-  stats.realtime = client::prepareToSend(*tool);
+  std::optional<client::SendingPriority> priority(std::in_place, *tool);
+  stats.realtime = priority->granted();
   rt::Pacer pacer(std::llround(1e9 / options.rate_hz));
   send(*tool, path, 0.0, kApproachSeconds, pacer, unmeasured);
   stats.start_ms = millisecondsSince1970();
@@ -104,6 +105,7 @@ SenderStats measure(const dds::Participant& participant, const client::Spot& spo
   dds::ToolForce newest{};
   stats.server_left = tool->latest(newest) && (newest.flags & dds::flag::kShuttingDown) != 0;
   send(*tool, path, kApproachSeconds, 0.0, pacer, unmeasured);
+  priority.reset();
   stats.left_out = tool->hold().leftOut();
   stats.model_changes = tool->modelChanges();
   stats.left_out_text = client::leftOutText(stats.left_out, statuses);

@@ -62,8 +62,11 @@ Recording play(const dds::Participant& participant, std::uint32_t tool_id, const
   {
     const client::StatusBoard statuses(participant);
     client::ToolClient tool(participant, tool_id, &AnswerLog::onForce, &log, server);
-    if (!client::prepareToSend(tool)) std::cerr << client::kNotRealtime;
-    sendAlong(path, tool, log, sent, recording);
+    {
+      const client::SendingPriority priority(tool);
+      if (!priority.granted()) std::cerr << client::kNotRealtime;
+      sendAlong(path, tool, log, sent, recording);
+    }
     std::this_thread::sleep_for(20ms);  // the last answers are on their way
     recording.left_out = tool.hold().leftOut();
     recording.left_out_text = client::leftOutText(recording.left_out, statuses);

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <thread>
 
@@ -179,9 +180,12 @@ Playback playRecording(const dds::Participant& participant, const RecordedSessio
     const client::StatusBoard statuses(participant);
     const Senders senders = sendersOf(participant, session, as, server);
     playback.realtime = true;
-    for (const auto& sender : senders)
-      playback.realtime = client::prepareToSend(*sender->client) && playback.realtime;
-    sendAll(session, senders, playback);
+    {
+      std::deque<client::SendingPriority> priorities;
+      for (const auto& sender : senders)
+        playback.realtime = priorities.emplace_back(*sender->client).granted() && playback.realtime;
+      sendAll(session, senders, playback);
+    }
     playback.interrupted = client::stopRequested();
     std::this_thread::sleep_for(20ms);  // the last answers are on their way
     for (const auto& sender : senders) {

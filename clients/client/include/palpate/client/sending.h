@@ -8,16 +8,27 @@
 
 namespace palpate::client {
 
-/// What a program says when prepareToSend() returns false.
+/// What a program says when SendingPriority::granted() is false.
 inline constexpr const char* kNotRealtime =
     "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
 
-/// Waits until a server takes the tool's poses, then raises the calling thread and the receiving threads. They stay below
-/// the server's threads, so that a client on the same machine does not delay it (docs/design.md, Threads).
-/// @return whether the calling thread got its priority
-/// @throw ClientError  no server within 5 s
-/// Real-time: no.
-[[nodiscard]] bool prepareToSend(const ToolClient& tool);
+/// While it lives the thread that made it may send: a server takes the tool's poses, and that thread and the receiving ones have
+/// real-time priorities, below the server's, so that a client on the same machine does not delay it (docs/design.md, Threads). Then
+/// the thread is an ordinary one again: what a program computes of the answers keeps no other from a processor. Real-time: no.
+class SendingPriority {
+ public:
+  /// @throw ClientError  no server within 5 s
+  explicit SendingPriority(const ToolClient& tool);
+  ~SendingPriority();
+  SendingPriority(const SendingPriority&) = delete;
+  SendingPriority& operator=(const SendingPriority&) = delete;
+
+  /// Whether the system granted the thread its priority.
+  [[nodiscard]] bool granted() const noexcept { return granted_; }
+
+ private:
+  bool granted_{false};
+};
 
 /// "12 forces of another server were left out: server 3, ...\n"; empty: none were. Real-time: no.
 [[nodiscard]] std::string leftOutText(const LeftOut& left_out, const StatusBoard& statuses);
