@@ -21,11 +21,6 @@ int raiseThisThread(int priority) noexcept {
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
 }
 
-void lowerThisThread() noexcept {
-  const sched_param none{};
-  (void)pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
-}
-
 std::size_t raiseThreadsNamed(std::span<const std::string_view> names, int priority) {
   std::size_t raised = 0;
   std::error_code gone;  // a thread may end while we walk

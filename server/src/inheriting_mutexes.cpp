@@ -3,30 +3,14 @@
 // then. Such a thread can lose its processor meanwhile, and force-out would wait for it. In palpate-server every mutex that is
 // made without attributes passes on the priority of whoever waits for it (docs/decisions/shared_locks.md). Not a source of the
 // server's parts: it is for the process as a whole.
-#include <dlfcn.h>
 #include <pthread.h>
 
-#include <cstring>
-
-namespace palpate::server {
-namespace {
-
-using MutexInit = int(pthread_mutex_t*, const pthread_mutexattr_t*);
-
-MutexInit* libcsMutexInit() noexcept {
-  void* const found = dlsym(RTLD_NEXT, "pthread_mutex_init");
-  MutexInit* init = nullptr;
-  static_assert(sizeof found == sizeof init);
-  std::memcpy(&init, &found, sizeof found);
-  return init;
-}
-
-}  // namespace
-}  // namespace palpate::server
+#include "libcs_function.h"
 
 // In the place of libc's, for libraries too: what an executable defines goes first.
 extern "C" int pthread_mutex_init(pthread_mutex_t* mutex, const pthread_mutexattr_t* attributes) noexcept {
-  static palpate::server::MutexInit* const init = palpate::server::libcsMutexInit();
+  using MutexInit = int(pthread_mutex_t*, const pthread_mutexattr_t*);
+  static auto* const init = palpate::server::libcsFunction<MutexInit>("pthread_mutex_init");
   if (attributes != nullptr) return init(mutex, attributes);
   pthread_mutexattr_t passes_on;
   pthread_mutexattr_init(&passes_on);

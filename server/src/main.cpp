@@ -18,6 +18,7 @@
 #include "palpate/server/model_loader.h"
 #include "palpate/server/server.h"
 #include "palpate/server/startup.h"
+#include "palpate/server/urgent_mappings.h"
 #include "tools/program/certificate_line.h"
 #include "tools/program/exit_code.h"
 #include "tools/program/json.h"
@@ -49,6 +50,7 @@ bool judgeSpinning() {
   bool forces = false;
   for (const rt::ThreadFacts& thread : rt::spinningThreads(std::chrono::milliseconds(50))) {
     const int wanted = wantedPriority(thread.name);
+    if (wanted == 0 && thread.fifo_priority == kMappingPriority) continue;  // an ordinary one that maps memory
     const bool lower = wanted == kReceivePriority || wanted == kSurfacePriority;
     spdlog::critical(
         "thread {} computes at real-time priority {} without a sleep for {} ms: {}", thread.name,

@@ -20,6 +20,7 @@
 #include "palpate/rt/memory.h"
 #include "palpate/rt/spin_guard.h"
 #include "palpate/server/startup.h"
+#include "palpate/server/urgent_mappings.h"
 
 namespace palpate::server {
 namespace {
@@ -173,6 +174,7 @@ void Server::settleRealtime(rt::RealtimePolicy policy) {
   } else {
     spdlog::warn("real time: {}", facts_.realtime_detail);
   }
+  urgent_mappings.store(facts_.realtime, std::memory_order_relaxed);
   if (!facts_.realtime) return;
   events_.raiseReceiveThreads();
   if (const int error = rt::limitRealtimeWithoutSleep(kLongestComputation, kLastComputation); error != 0)

@@ -1,42 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whoever maps or unmaps holds the lock of the address space meanwhile, with locked memory for as long as its pages take to come. The thread
-// that loads models gives way to all others: on a busy machine it stood for a second with that lock, behind it ordinary threads
-// that grew malloc's heap and held malloc's locks, and behind those force-out. In palpate-server a thread that maps or unmaps has a
-// real-time priority for so long, the lowest (docs/decisions/shared_locks.md). Not a source of the server's parts: it is for the process as
-// a whole.
-#include <dlfcn.h>
+// A thread that maps, unmaps or locks memory holds the lock of the address space meanwhile, for as long as the pages
+// take to come. The thread that loads models gives way to all others: on a busy machine it stood for a second with
+// that lock, behind it ordinary threads that grew malloc's heaps and held malloc's locks, and behind those force-out.
+// In palpate-server an ordinary thread has a real-time priority for so long, the lowest (docs/decisions/shared_locks.md).
+// Not a source of the server's parts: it is for the process as a whole.
+#include "palpate/server/urgent_mappings.h"
+
 #include <sched.h>
 #include <sys/mman.h>
 
+#include <cerrno>
 #include <cstddef>
-#include <cstring>
+#include <ctime>
+
+#include "libcs_function.h"
 
 namespace palpate::server {
 namespace {
 
-using Map = void*(void*, std::size_t, int, int, int, off_t);
-using Unmap = int(void*, std::size_t);
+// Less takes no time. More would be told of as a thread that spins (docs/decisions/spinning.md).
+constexpr std::size_t kLeast = std::size_t{64} * 1024;
+constexpr std::size_t kMost = std::size_t{64} * 1024 * 1024;
 
-template <class Function>
-Function* libcs(const char* name) noexcept {
-  void* const found = dlsym(RTLD_NEXT, name);
-  Function* function = nullptr;
-  static_assert(sizeof found == sizeof function);
-  std::memcpy(&function, &found, sizeof found);
-  return function;
+bool isRaised() noexcept {
+  sched_param has{};
+  return sched_getscheduler(0) == SCHED_FIFO && sched_getparam(0, &has) == 0 && has.sched_priority == kMappingPriority;
 }
 
-// Where no real-time priority is granted the thread keeps its own. Its niceness outlives the change.
+// Where no real-time priority is granted the thread keeps its own. Its niceness outlives the change, and so does errno.
 class Urgent {
  public:
-  Urgent() noexcept {
+  explicit Urgent(std::size_t bytes) noexcept {
+    if (bytes < kLeast || bytes > kMost || !urgent_mappings.load(std::memory_order_relaxed)) return;
+    const int error = errno;
     sched_param lowest{};
-    lowest.sched_priority = 1;
+    lowest.sched_priority = kMappingPriority;
     raised_ = sched_getscheduler(0) == SCHED_OTHER && sched_setscheduler(0, SCHED_FIFO, &lowest) == 0;
+    errno = error;
   }
   ~Urgent() {
+    if (!raised_ || !isRaised()) return;  // others may have raised it for good
+    // The kernel adds up what a thread computes at such a priority until it has slept at it (RLIMIT_RTTIME).
+    constexpr timespec kBriefly{0, 20'000};
+    clock_nanosleep(CLOCK_MONOTONIC, 0, &kBriefly, nullptr);
     const sched_param none{};
-    if (raised_) sched_setscheduler(0, SCHED_OTHER, &none);
+    sched_setscheduler(0, SCHED_OTHER, &none);
   }
   Urgent(const Urgent&) = delete;
   Urgent& operator=(const Urgent&) = delete;
@@ -51,13 +59,22 @@ class Urgent {
 // In the place of libc's, for libraries too: what an executable defines goes first. malloc has ways of its own.
 extern "C" void* mmap(void* address, std::size_t bytes, int protection, int flags, int file,
                       off_t offset) noexcept {
-  static auto* const next = palpate::server::libcs<palpate::server::Map>("mmap");
-  const palpate::server::Urgent urgent;
+  using Map = void*(void*, std::size_t, int, int, int, off_t);
+  static auto* const next = palpate::server::libcsFunction<Map>("mmap");
+  const palpate::server::Urgent urgent(bytes);
   return next(address, bytes, protection, flags, file, offset);
 }
 
 extern "C" int munmap(void* address, std::size_t bytes) noexcept {
-  static auto* const next = palpate::server::libcs<palpate::server::Unmap>("munmap");
-  const palpate::server::Urgent urgent;
+  using Unmap = int(void*, std::size_t);
+  static auto* const next = palpate::server::libcsFunction<Unmap>("munmap");
+  const palpate::server::Urgent urgent(bytes);
+  return next(address, bytes);
+}
+
+extern "C" int mlock(const void* address, std::size_t bytes) noexcept {
+  using Lock = int(const void*, std::size_t);
+  static auto* const next = palpate::server::libcsFunction<Lock>("mlock");
+  const palpate::server::Urgent urgent(bytes);
   return next(address, bytes);
 }

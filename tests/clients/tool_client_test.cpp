@@ -2,8 +2,12 @@
 #include "palpate/client/tool_client.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+
+#include <thread>
 
 #include "palpate/client/error.h"
+#include "palpate/client/sending.h"
 #include "palpate/testing/test_domain.h"
 
 namespace palpate::client {
@@ -72,6 +76,19 @@ TEST(ToolClient, HoldsOnToTheServerThatAnsweredFirst) {
   (void)ends.tool.publish({0, 0, 0});
   ASSERT_EQ(ends.poses.take({&pose, 1}), 1U);
   EXPECT_EQ(pose.server_id, 3U) << "its poses name it";
+}
+
+// What a program writes of the answers at a sender's priority keeps others' senders from their processor.
+TEST(ToolClient, WhoHasSentIsAsUrgentAsBefore) {
+  std::thread([] {
+    Ends ends;
+    {
+      const SendingPriority priority(ends.tool);
+      if (!priority.granted()) GTEST_SKIP() << "SCHED_FIFO is not granted here";
+      EXPECT_EQ(sched_getscheduler(0), SCHED_FIFO);
+    }
+    EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+  }).join();
 }
 
 TEST(ToolClient, ARestartedClientDoesNotFallBehindItsPast) {

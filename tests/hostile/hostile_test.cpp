@@ -3,7 +3,6 @@
 // from palpate.idl alone, with DDS's default QoS.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <csignal>
 #include <iostream>
 #include <set>
@@ -45,26 +44,28 @@ class Hostility : public ::testing::Test {
     return before;
   }
 
-  // Each kind of wrong in turn, while the tool that behaves plays for `seconds`, up to four times. A second that lacks answers is the
-  // machine's, unless one within a second of it lacks them each time, or more than a tenth do each time. Where they do without
-  // anybody who does wrong too, it cannot be judged.
+  // Each kind of wrong in turn, while the tool that behaves plays for `seconds`, up to four times. A second that lacks
+  // answers is the machine's, unless one within a second of it lacks them each time, or more than a tenth do in all
+  // plays but one. Where more do without anybody who does wrong too, it cannot be judged.
   void playAndJudge(double each, int seconds) {
     const std::size_t many = static_cast<std::size_t>(seconds) / 10;
     std::set<int> lacking = play(each, seconds);
-    std::size_t least = lacking.size();
-    for (int again = 0; again < 3 && !(lacking.empty() && least <= many) && !HasFailure(); ++again) {
+    std::size_t good = lacking.size() <= many ? 1 : 0;
+    const auto holds = [&] { return lacking.empty() && good >= 2; };
+    if (lacking.empty()) return;
+    for (int again = 0; again < 3 && !holds() && !HasFailure(); ++again) {
       const std::set<int> others = play(each, seconds);
-      least = std::min(least, others.size());
+      good += others.size() <= many ? 1 : 0;
       std::erase_if(lacking, [&](int second) {
         return !others.contains(second - 1) && !others.contains(second) && !others.contains(second + 1);
       });
     }
     if (HasFailure()) return;
-    if (!lacking.empty() || least > many)
+    if (!holds())
       if (const std::size_t alone = play(0.0, seconds).size(); alone > many)
         GTEST_SKIP() << "the machine keeps a tool from its answers in " << alone << " of " << seconds << " s";
-    EXPECT_TRUE(lacking.empty()) << "about second " << *lacking.begin() << " of each play";
-    EXPECT_LE(least, many) << "seconds that lack answers, in each play";
+    if (!lacking.empty()) ADD_FAILURE() << "about second " << *lacking.begin() << " of each play";
+    EXPECT_GE(good, 2U) << "plays in which at most a tenth of the seconds lacks answers";
   }
 
  private:

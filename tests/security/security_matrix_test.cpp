@@ -177,6 +177,17 @@ TEST_F(SecurityMatrix, RightRolesWork) {
   run("palpate-parameters", {"--friction", "0.2"}, "operator");
   run("palpate-latency", {"--tool", "2", "--seconds", "1", "--assert", "received>100"}, "driver");
   run("palpate-tool", {"--tool", "2", "--seconds", "1"}, "driver");
+  run("palpate-device", {"--tool", "2", "--motion", "press", "--seconds", "2"}, "driver");
+  const palpate::testing::TemporaryFolder page;
+  (void)page.write("index.html", "<!doctype html>");
+  const palpate::testing::CaughtOutput said;
+  const palpate::testing::ChildProcess viewer(
+      "palpate-viewer",
+      siege_->onDomain({"--port", "0", "--page", page.path().string()}, identityOf("viewer")),
+      {said.descriptor(), said.descriptor()});
+  for (int i = 0; i < 50 * kPatience && said.text().find("surface of model") == std::string::npos; ++i)
+    pause(20);
+  EXPECT_NE(said.text().find("surface of model"), std::string::npos) << said.text();
   siege_->expectUndisturbed();
 }
 

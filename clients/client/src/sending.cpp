@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/client/sending.h"
 
+#include <pthread.h>
+
 #include "palpate/client/error.h"
 #include "palpate/idl/receive_threads.h"
 #include "palpate/rt/scheduling.h"
@@ -16,11 +18,12 @@ SendingPriority::SendingPriority(const ToolClient& tool) {
                       (mismatch.empty() ? "" : ": " + mismatch));
   }
   (void)rt::raiseThreadsNamed(dds::kReceiveThreads, kReceivePriority);
+  pthread_getschedparam(pthread_self(), &policy_, &parameters_);
   granted_ = rt::raiseThisThread(kPriority) == 0;
 }
 
 SendingPriority::~SendingPriority() {
-  if (granted_) rt::lowerThisThread();
+  if (granted_) pthread_setschedparam(pthread_self(), policy_, &parameters_);
 }
 
 std::string leftOutText(const LeftOut& left_out, const StatusBoard& statuses) {

@@ -54,10 +54,13 @@ class Disturbance {
 class Exchange {
  public:
   Exchange(const dds::Participant& participant, std::uint32_t tool_id, const client::ServerRun& server)
-      : tool_(participant, tool_id, &onForce, &arrived_, server), priority_(tool_), pacer_(kPeriodNs) {
-    if (!priority_.granted()) std::cerr << client::kNotRealtime;
+      : tool_(participant, tool_id, &onForce, &arrived_, server), pacer_(kPeriodNs) {
+    if (!priority_.emplace(tool_).granted()) std::cerr << client::kNotRealtime;
     pacer_ = rt::Pacer(kPeriodNs);
   }
+
+  /// Nothing is sent any more.
+  void end() { priority_.reset(); }
 
   void send(std::size_t step, const Point& position) {
     position_ = position;
@@ -119,7 +122,7 @@ class Exchange {
 
   Arrived arrived_;
   client::ToolClient tool_;
-  client::SendingPriority priority_;
+  std::optional<client::SendingPriority> priority_;
   rt::Pacer pacer_;
   AnswerLine<dds::ToolForce> line_;
   Disturbance disturbance_;
@@ -182,6 +185,7 @@ Recording run(const dds::Participant& participant, std::uint32_t tool_id, HeldDe
     note(device, acts, exchange.stalled(), recording);
     goes_on = exchange.await(schedule.answered(i + 1), recording);
   }
+  exchange.end();
   recording.left_out = exchange.tool().hold().leftOut();
   recording.model_changes = exchange.tool().modelChanges();
   std::cerr << client::leftOutText(recording.left_out, statuses);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // palpate-viewer: shows an organ in browsers and lets them touch it.
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -120,7 +121,15 @@ void warnOfOpenDoors(const WebOptions& web) {
         web.access.listen);
 }
 
+// A viewer runs for weeks, while others come and go: of one heap and of buffers of DDS (1 MiB each) that are mapped apart more goes
+// back than of a heap for each thread. None of its threads has to be in time.
+void keepMemoryTogether() {
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_MMAP_THRESHOLD, 512 * 1024);
+}
+
 int body(int argc, char** argv) {
+  keepMemoryTogether();
   // 1. What to do.
   program::CommandLine line(
       "palpate-viewer",

@@ -28,9 +28,6 @@ class RealtimeError : public std::runtime_error {
 /// Real-time: no. Threads: acts on the caller.
 [[nodiscard]] int raiseThisThread(int priority) noexcept;
 
-/// Makes the calling thread an ordinary one again (SCHED_OTHER). Real-time: no. Threads: acts on the caller.
-void lowerThisThread() noexcept;
-
 /// Puts the threads of this process whose name (/proc/self/task/N/comm) is one of `names` under SCHED_FIFO.
 /// It reaches threads that a library made: Cyclone DDS takes no priority for its receive threads.
 /// @param[in] names     exact names, as the kernel keeps them: at most 15 characters

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sched.h>
+
 #include <string>
 
 #include "palpate/client/status_board.h"
@@ -12,11 +14,12 @@ namespace palpate::client {
 inline constexpr const char* kNotRealtime =
     "note: no real-time priority for sending poses (needs CAP_SYS_NICE or an rtprio limit)\n";
 
-/// While it lives the thread that made it may send: a server takes the tool's poses, and that thread and the receiving ones have
-/// real-time priorities, below the server's, so that a client on the same machine does not delay it (docs/design.md, Threads). Then
-/// the thread is an ordinary one again: what a program computes of the answers keeps no other from a processor. Real-time: no.
+/// The priority with which a thread sends poses, below the server's threads, so that a client on the same machine does
+/// not delay it (docs/design.md, Threads). The thread that made it ends it and is then as before: what a program
+/// computes of the answers keeps no other from a processor. Real-time: no.
 class SendingPriority {
  public:
+  /// Waits until a server takes the tool's poses, then raises the calling thread and, for good, the receiving ones.
   /// @throw ClientError  no server within 5 s
   explicit SendingPriority(const ToolClient& tool);
   ~SendingPriority();
@@ -27,6 +30,8 @@ class SendingPriority {
   [[nodiscard]] bool granted() const noexcept { return granted_; }
 
  private:
+  int policy_{0};
+  sched_param parameters_{};  // and policy: before
   bool granted_{false};
 };
 
