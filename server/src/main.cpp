@@ -50,7 +50,8 @@ bool judgeSpinning() {
   bool forces = false;
   for (const rt::ThreadFacts& thread : rt::spinningThreads(std::chrono::milliseconds(50))) {
     const int wanted = wantedPriority(thread.name);
-    if (wanted == 0 && thread.fifo_priority == kMappingPriority) continue;  // an ordinary one that maps memory
+    if (wanted == 0 && thread.fifo_priority == kMappingPriority)
+      continue;  // an ordinary one that maps memory
     const bool lower = wanted == kReceivePriority || wanted == kSurfacePriority;
     spdlog::critical(
         "thread {} computes at real-time priority {} without a sleep for {} ms: {}", thread.name,

@@ -24,7 +24,8 @@ constexpr std::size_t kMost = std::size_t{64} * 1024 * 1024;
 
 bool isRaised() noexcept {
   sched_param has{};
-  return sched_getscheduler(0) == SCHED_FIFO && sched_getparam(0, &has) == 0 && has.sched_priority == kMappingPriority;
+  return sched_getscheduler(0) == SCHED_FIFO && sched_getparam(0, &has) == 0 &&
+         has.sched_priority == kMappingPriority;
 }
 
 // Where no real-time priority is granted the thread keeps its own. Its niceness outlives the change, and so does errno.
