@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -28,7 +29,9 @@ class Mappings {
   void* add(std::size_t bytes) noexcept {
     Mapping* const free = std::find_if(mappings_.begin(), mappings_.end(), [](Mapping& mapping) {
       void* nobodys = nullptr;
-      return mapping.begin.compare_exchange_strong(nobodys, &mapping, std::memory_order_relaxed);  // taken
+      // Taken; its size may be written, since whoever freed it has read that.
+      return mapping.begin.compare_exchange_strong(nobodys, &mapping, std::memory_order_acquire,
+                                                   std::memory_order_relaxed);
     });
     if (free == mappings_.end()) return nullptr;
     void* const begin = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -61,7 +64,7 @@ class Mappings {
 constinit Mappings mappings;
 
 bool isOfAPage(const void* memory) noexcept {
-  return reinterpret_cast<std::uintptr_t>(memory) % kPage == 0;  // NOLINT: an address is asked about
+  return std::bit_cast<std::uintptr_t>(memory) % kPage == 0;
 }
 
 void* fromMalloc(std::size_t bytes, std::size_t alignment) {

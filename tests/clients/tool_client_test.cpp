@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 
+#include <array>
 #include <thread>
+#include <utility>
 
 #include "palpate/client/error.h"
 #include "palpate/client/sending.h"
@@ -82,8 +84,9 @@ TEST(ToolClient, HoldsOnToTheServerThatAnsweredFirst) {
 TEST(ToolClient, WhoHasSentIsAsUrgentAsBefore) {
   std::thread([] {
     Ends ends;
+    const ToolClient other(ends.participant, 3);
     {
-      const SendingPriority priority(ends.tool);
+      const SendingPriority priority(std::array{&std::as_const(ends.tool), &other});
       if (!priority.granted()) GTEST_SKIP() << "SCHED_FIFO is not granted here";
       EXPECT_EQ(sched_getscheduler(0), SCHED_FIFO);
     }

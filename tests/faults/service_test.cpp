@@ -90,14 +90,16 @@ class Service : public ::testing::Test {
     ASSERT_TRUE(manager.waitFor(kSign, kLong)) << server_->log();
     server_->signal(SIGUSR2);
     std::vector<std::string> lines = manager.linesOf(milliseconds(400));  // with the look before
-    std::ptrdiff_t signs = 1;
-    for (int i = 0; i < 2 && signs > 0; ++i) {
+    std::ptrdiff_t signs = 1, looks = 0;
+    for (; looks < 2 && signs > 0; ++looks) {
       const std::vector<std::string> more = manager.linesOf(2 * kPatience);
       signs = std::count(more.begin(), more.end(), kSign);
       lines.insert(lines.end(), more.begin(), more.end());
     }
     EXPECT_EQ(signs, 0) << server_->log();
-    EXPECT_GE(std::count(lines.begin(), lines.end(), "STATUS=" + told), 1) << server_->log();
+    const std::ptrdiff_t times = std::count(lines.begin(), lines.end(), "STATUS=" + told);
+    EXPECT_GE(times, 1) << server_->log();
+    EXPECT_LE(times, looks) << server_->log();
     EXPECT_NE(server_->log().find(told + ": the service manager gets no sign of life"), std::string::npos);
     server_->signal(SIGUSR1);
     EXPECT_TRUE(manager.waitFor("STATUS=serving again", kLong)) << server_->log();

@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,7 +23,7 @@ bool isMapped(void* page) {
 }
 
 bool isOfAPage(const void* memory) {
-  return reinterpret_cast<std::uintptr_t>(memory) % kPage == 0;  // NOLINT: an address is asked about
+  return std::bit_cast<std::uintptr_t>(memory) % kPage == 0;
 }
 
 TEST(MappedTables, LargePiecesGoBackToTheSystemAndSmallOnesStay) {
@@ -35,7 +36,7 @@ TEST(MappedTables, LargePiecesGoBackToTheSystemAndSmallOnesStay) {
     EXPECT_FALSE(isMapped(large)) << bytes;
   }
   void* const small = ::operator new(kLarge - 1);
-  void* const page = static_cast<char*>(small) - reinterpret_cast<std::uintptr_t>(small) % kPage;  // NOLINT
+  void* const page = static_cast<char*>(small) - std::bit_cast<std::uintptr_t>(small) % kPage;
   ::operator delete(small);
   EXPECT_TRUE(isMapped(page)) << "malloc keeps it";
 }
@@ -58,8 +59,7 @@ TEST(MappedTables, EveryFormOfNewEndsInIt) {
   EXPECT_FALSE(isMapped(of_bytes));
   EXPECT_FALSE(isMapped(of_rows));
   const auto small = std::make_unique<Row>();
-  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(small.get()) % alignof(Row),
-            0U);  // NOLINT: an address is asked about
+  EXPECT_EQ(std::bit_cast<std::uintptr_t>(small.get()) % alignof(Row), 0U);
 }
 
 TEST(MappedTables, MoreThanThereIsRoomForAreMallocs) {

@@ -9,11 +9,12 @@
 
 namespace palpate::client {
 
-SendingPriority::SendingPriority(const ToolClient& tool) {
+SendingPriority::SendingPriority(std::span<const ToolClient* const> tools) {
   constexpr int kPriority = 60;
   constexpr int kReceivePriority = 65;
-  if (!tool.waitForServer(std::chrono::seconds(5))) {
-    const std::string mismatch = tool.mismatch();
+  for (const ToolClient* const tool : tools) {
+    if (tool->waitForServer(std::chrono::seconds(5))) continue;
+    const std::string mismatch = tool->mismatch();
     throw ClientError("the server takes no poses or sends no forces (waited 5 s)" +
                       (mismatch.empty() ? "" : ": " + mismatch));
   }

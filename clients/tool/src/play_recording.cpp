@@ -5,9 +5,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "answer_log.h"
 #include "palpate/client/error.h"
@@ -179,11 +179,11 @@ Playback playRecording(const dds::Participant& participant, const RecordedSessio
   {
     const client::StatusBoard statuses(participant);
     const Senders senders = sendersOf(participant, session, as, server);
-    playback.realtime = true;
     {
-      std::deque<client::SendingPriority> priorities;
-      for (const auto& sender : senders)
-        playback.realtime = priorities.emplace_back(*sender->client).granted() && playback.realtime;
+      std::vector<const client::ToolClient*> tools;
+      for (const auto& sender : senders) tools.push_back(&*sender->client);
+      const client::SendingPriority priority(tools);
+      playback.realtime = priority.granted();
       sendAll(session, senders, playback);
     }
     playback.interrupted = client::stopRequested();

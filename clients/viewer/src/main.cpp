@@ -121,8 +121,9 @@ void warnOfOpenDoors(const WebOptions& web) {
         web.access.listen);
 }
 
-// A viewer runs for weeks, while others come and go: of one heap and of buffers of DDS (1 MiB each) that are mapped apart more goes
-// back than of a heap for each thread. None of its threads has to be in time.
+// A viewer runs for weeks, while others come and go: one heap, and buffers of DDS (1 MiB each) mapped apart, give more
+// back than a heap for each thread. The price: the thread that sends a page's poses may wait for others at the heap's
+// lock. These come by a browser, which is less punctual than that.
 void keepMemoryTogether() {
   mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, 512 * 1024);

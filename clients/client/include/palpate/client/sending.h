@@ -3,6 +3,8 @@
 
 #include <sched.h>
 
+#include <array>
+#include <span>
 #include <string>
 
 #include "palpate/client/status_board.h"
@@ -19,9 +21,10 @@ inline constexpr const char* kNotRealtime =
 /// computes of the answers keeps no other from a processor. Real-time: no.
 class SendingPriority {
  public:
-  /// Waits until a server takes the tool's poses, then raises the calling thread and, for good, the receiving ones.
-  /// @throw ClientError  no server within 5 s
-  explicit SendingPriority(const ToolClient& tool);
+  /// Waits until a server takes the poses of all these tools, which the calling thread sends, then raises it and, for
+  /// good, the receiving ones. @throw ClientError  no server within 5 s
+  explicit SendingPriority(std::span<const ToolClient* const> tools);
+  explicit SendingPriority(const ToolClient& tool) : SendingPriority(std::array{&tool}) {}
   ~SendingPriority();
   SendingPriority(const SendingPriority&) = delete;
   SendingPriority& operator=(const SendingPriority&) = delete;
