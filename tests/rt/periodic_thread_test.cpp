@@ -9,6 +9,7 @@
 #include <chrono>
 #include <ctime>
 #include <stdexcept>
+#include <thread>
 
 #include "palpate/rt/clock.h"
 #include "palpate/rt/semaphore.h"
@@ -75,15 +76,20 @@ constexpr PeriodicThread::Function kLogCycle = logCycle;
 PALPATE_TRUSTED_END
 
 TEST(PeriodicThread, WhoseCycleDoesNotEndIsWaitedForOnlySoLong) {
-  std::atomic<bool> go_on{false};
-  const auto spin = [](void* context, const Cycle&) noexcept PALPATE_NONBLOCKING -> std::int64_t {
-    while (!static_cast<std::atomic<bool>*>(context)->load()) {
+  struct Spin {
+    std::atomic<bool> began{false}, go_on{false};
+  } spin;
+  const auto cycle = [](void* context, const Cycle&) noexcept PALPATE_NONBLOCKING -> std::int64_t {
+    auto& state = *static_cast<Spin*>(context);
+    state.began = true;
+    while (!state.go_on) {
     }
     return 0;
   };
-  PeriodicThread thread({"test-spins"}, kPeriod, spin, &go_on);
+  PeriodicThread thread({"test-spins"}, kPeriod, cycle, &spin);
+  while (!spin.began) std::this_thread::yield();  // a thread told to stop before its first cycle makes none
   EXPECT_FALSE(thread.joinWithin(std::chrono::milliseconds(20)));
-  go_on = true;
+  spin.go_on = true;
   EXPECT_TRUE(thread.joinWithin(std::chrono::seconds(20)));
 }
 
