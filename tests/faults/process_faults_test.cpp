@@ -206,7 +206,7 @@ TEST_F(ProcessFault, AHogAboveTheTickLeavesNoForceOrTheTickMovesAway) {
   if (cpus.size() < 2) GTEST_SKIP() << "one processor: a hog would keep the device from it too";
   if (!hog(cpus.back(), milliseconds(1)))
     GTEST_SKIP() << "SCHED_FIFO is not granted here: nothing can be put above the tick";
-  stalls_ = std::make_unique<Stalls>(std::span(cpus).first(1));
+  stalls_ = std::make_unique<palpate::testing::Stalls>(std::span(cpus).first(1));
   startDevice({std::to_string(cpus.front())});
   ASSERT_NO_FATAL_FAILURE(start({"--tick-cpu", std::to_string(cpus.back())}));
   expect(
@@ -262,6 +262,7 @@ TEST_F(ProcessFault, AFullDiskTakesNoForceAndWhatWasRecordedStays) {
   prepare_ = [&] {
     server_.reset();
     std::filesystem::remove(filler);
+    std::filesystem::remove(server_arguments_.back());  // of a try that was not judged
     server_arguments_.back() = (disk / (std::to_string(++files) + ".rec")).string();
     startServer();
   };

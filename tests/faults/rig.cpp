@@ -43,7 +43,7 @@ Fault::Fault() : trace_file_(memfd_create("palpate-fault-trace", MFD_CLOEXEC)) {
     memory = mmap(nullptr, sizeof(Trace), PROT_READ | PROT_WRITE, MAP_SHARED, trace_file_, 0);
   if (memory == MAP_FAILED) throw std::runtime_error("no memory for a trace");
   trace_ = static_cast<Trace*>(memory);
-  stalls_ = std::make_unique<Stalls>(rt::usableCpus());
+  stalls_ = std::make_unique<palpate::testing::Stalls>(rt::usableCpus());
 }
 
 Fault::~Fault() {
@@ -83,13 +83,14 @@ bool Fault::bothRun() const {
   return server_->running() && device_->running();
 }
 
-// The size of the force that stays within a hundredth for kSettled.
+// The size of the force that stays within a hundredth for kSettled from now on: before, another server may have been there.
 void Fault::waitUntilSettled() {
   const std::int64_t from_ns = rt::monotonicNow();
   constexpr double kPatience = 6'000.0;  // ms
   for (; ms(rt::monotonicNow() - from_ns) < kPatience && bothRun(); wait(milliseconds(10))) {
-    const std::vector<Sample> samples = samplesSince(rt::monotonicNow() - kSettled);
-    if (samples.size() < 100) continue;
+    const std::int64_t since_ns = rt::monotonicNow() - kSettled;
+    const std::vector<Sample> samples = samplesSince(since_ns);
+    if (since_ns < from_ns || samples.size() < 100) continue;
     const auto [least, most] = std::minmax_element(
         samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.force < b.force; });
     before_ = most->force;

@@ -13,9 +13,9 @@
 #include "fault_table.h"
 #include "palpate/rt/clock.h"
 #include "palpate/testing/server_process.h"
+#include "palpate/testing/stalls.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
-#include "stalls.h"
 #include "trace.h"
 
 namespace palpate::faults {
@@ -66,7 +66,7 @@ class Fault : public ::testing::Test {
       server_zero_ms_;             // the server's force, as inject() found it: judged in the device's place
   std::function<void()> prepare_;  // before each try
   std::function<std::string()> also_;  // @return a complaint about what was read
-  std::unique_ptr<Stalls> stalls_;
+  std::unique_ptr<palpate::testing::Stalls> stalls_;
   std::vector<std::string> server_arguments_;
   std::unique_ptr<ServerProcess> server_;
   palpate::testing::CaughtOutput device_log_;

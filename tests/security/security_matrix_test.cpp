@@ -94,15 +94,17 @@ class Siege : public SecuredServer {
     const std::vector<dds::ToolForce> forces = client_->forces();
     ASSERT_GT(forces.size(), 1000U) << server_->log();
     EXPECT_EQ(gaps(forces), 0U);
-    std::size_t late = 0;
+    std::size_t late = 0, zero = 0;
     for (const dds::ToolForce& force : forces) {
       ASSERT_NE(force.session, palpate::testing::kIntrudersSession);
       ASSERT_EQ(force.flags & dds::flag::kTwoPublishers, 0U);
       if ((force.flags & (dds::flag::kStalePose | dds::flag::kRamping)) != 0)
         ++late;
-      else
-        ASSERT_GT(sizeOf(force.force), 0.0);
+      else if (sizeOf(force.force) == 0.0)
+        ++zero;
     }
+    EXPECT_EQ(zero, 0U) << "of " << forces.size() << " answers, " << late << " late; the last has flags "
+                        << forces.back().flags;
     EXPECT_LT(10 * late, forces.size()) << server_->log();
     EXPECT_EQ(server_->log().find("friction 0.01"), std::string::npos) << server_->log();
     EXPECT_EQ(server_->log().find("tool 1: first pose"), std::string::npos) << server_->log();

@@ -90,20 +90,25 @@ class ServerEndToEnd : public ::testing::Test {
     return along(target_.position, target_.normal, kTipRadius - depth);
   }
 
-  // From above the surface down to `depth`, and held there until the force has settled. `settled_` is an answer from
-  // then, of a tick before which the machine had not stood still.
+  // From above the surface down to `depth`, and held there until the force has settled.
   void press(double depth) {
     client_->startSending(atDepth(-0.002));
     pause(20);
     client_->moveTo(atDepth(depth), 150);
     pause(150);
     client_->forget();
-    pause(50);
+    settle();
+  }
+
+  // `settled_` is an answer to a pose that is sent from now on, of a tick before which the machine had not stood still.
+  void settle() {
+    constexpr std::uint64_t kPoses = 50;  // until one at rest
     constexpr std::uint32_t kMachineStoodStill = dds::flag::kTickOverrun | dds::flag::kStalePose |
                                                  dds::flag::kRamping | dds::flag::kForceRateLimited |
                                                  dds::flag::kPoseOutOfOrder;
-    const auto answer =
-        client_->waitFor([](const dds::ToolForce& f) { return (f.flags & kMachineStoodStill) == 0; });
+    const auto answer = client_->waitFor([from = client_->sent() + kPoses](const dds::ToolForce& f) {
+      return f.pose_seq >= from && (f.flags & kMachineStoodStill) == 0;
+    });
     ASSERT_TRUE(answer.has_value()) << server_->log();
     settled_ = *answer;
   }

@@ -48,6 +48,8 @@ class TestClient {
   void moveTo(const Point& position, int milliseconds);
   /// One pose as it is; seq and stamp are filled in when zero.
   void send(dds::ToolPose pose);
+  /// seq of the last pose that was sent.
+  [[nodiscard]] std::uint64_t sent() const { return seq_; }
   [[nodiscard]] dds::ToolPose poseAt(const Point& position) const;
 
   [[nodiscard]] std::vector<dds::ToolForce> forces() const;
@@ -92,7 +94,7 @@ class TestClient {
   std::vector<dds::ToolForce> forces_;
   std::vector<dds::ToolForce> other_forces_;
   Point position_{};
-  std::uint64_t seq_{0};
+  std::atomic<std::uint64_t> seq_{0};
   std::atomic<bool> sending_{false};
   std::thread sender_;
 

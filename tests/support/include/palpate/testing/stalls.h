@@ -8,18 +8,23 @@
 #include <thread>
 #include <vector>
 
-namespace palpate::faults {
+namespace palpate::testing {
 
-/// How long ordinary work had to wait for a processor: a thread on each, which sleeps for a while and looks how late it woke.
+/// How long work had to wait for a processor: a thread on each, which sleeps for a while and looks how late it woke.
 class Stalls {
  public:
-  explicit Stalls(std::span<const int> cpus);
+  /// @param[in] cpus      their numbers
+  /// @param[in] priority  SCHED_FIFO priority of the work, in [1, 99]; 0: ordinary work. Where this process may not have that priority,
+  ///                      nothing is seen
+  explicit Stalls(std::span<const int> cpus, int priority = 0);
   ~Stalls();
   Stalls(const Stalls&) = delete;
   Stalls& operator=(const Stalls&) = delete;
 
   /// Lateness between two times of CLOCK_MONOTONIC, summed, on the processor that had most of it; ms.
   [[nodiscard]] double between(std::int64_t from_ns, std::int64_t until_ns) const;
+  /// The longest that is not over before a time of CLOCK_MONOTONIC, ms.
+  [[nodiscard]] double longestSince(std::int64_t from_ns) const;
 
  private:
   struct Late {
@@ -28,7 +33,7 @@ class Stalls {
     std::int64_t woke_ns;
   };
 
-  void watch(std::size_t cpu, int number);
+  void watch(std::size_t cpu, int number, int priority);
 
   mutable std::mutex mutex_;
   std::vector<Late> late_;
@@ -36,4 +41,4 @@ class Stalls {
   std::vector<std::thread> threads_;  // last: they use the other members
 };
 
-}  // namespace palpate::faults
+}  // namespace palpate::testing

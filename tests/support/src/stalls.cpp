@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stalls.h"
+#include "palpate/testing/stalls.h"
 
 #include <algorithm>
 #include <array>
 
 #include "palpate/rt/clock.h"
 #include "palpate/rt/process_threads.h"
+#include "palpate/rt/scheduling.h"
 
-namespace palpate::faults {
+namespace palpate::testing {
 namespace {
 
 constexpr std::int64_t kPeriod = 1'000'000;  // ns
@@ -15,9 +16,9 @@ constexpr std::int64_t kOrdinary = 300'000;  // ns, what a machine without other
 
 }  // namespace
 
-Stalls::Stalls(std::span<const int> cpus) {
+Stalls::Stalls(std::span<const int> cpus, int priority) {
   for (std::size_t cpu = 0; cpu < cpus.size(); ++cpu)
-    threads_.emplace_back([this, cpu, number = cpus[cpu]] { watch(cpu, number); });
+    threads_.emplace_back([this, cpu, number = cpus[cpu], priority] { watch(cpu, number, priority); });
 }
 
 Stalls::~Stalls() {
@@ -25,9 +26,10 @@ Stalls::~Stalls() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void Stalls::watch(std::size_t cpu, int number) {
+void Stalls::watch(std::size_t cpu, int number, int priority) {
   const std::array<int, 1> cpus{number};
   (void)rt::useCpus(cpus);
+  if (priority > 0 && rt::raiseThisThread(priority) != 0) return;
   while (!stopping_) {
     const std::int64_t due_ns = rt::monotonicNow() + kPeriod;
     rt::sleepUntil(due_ns);
@@ -47,4 +49,12 @@ double Stalls::between(std::int64_t from_ns, std::int64_t until_ns) const {
   return sums.empty() ? 0.0 : 1e-6 * static_cast<double>(*std::max_element(sums.begin(), sums.end()));
 }
 
-}  // namespace palpate::faults
+double Stalls::longestSince(std::int64_t from_ns) const {
+  std::int64_t longest = 0;
+  const std::lock_guard lock(mutex_);
+  for (const Late& late : late_)
+    if (late.woke_ns >= from_ns) longest = std::max(longest, late.woke_ns - late.due_ns);
+  return 1e-6 * static_cast<double>(longest);
+}
+
+}  // namespace palpate::testing
