@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <malloc.h>
 #include <spdlog/cfg/env.h>
 #include <spdlog/spdlog.h>
 
@@ -8,6 +9,7 @@
 #include <cstring>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "command_line.h"
@@ -35,10 +37,26 @@ sigset_t stopSignals() {
   return signals;
 }
 
+// What DDS takes from malloc (docs/decisions/memory_locking.md). It receives into buffers of a MiB, where something small takes the
+// place of one that was given back, and the next needs a MiB more; what the environment says of them holds. And each of its threads
+// has a heap of its own, which needs almost a MiB at once when many peers come or go: it has that from the beginning.
+void steadyMemoryOfDds() {
+  std::string settings =
+      "<CycloneDDS><Domain><Sizing>"
+      "<ReceiveBufferSize>256 KiB</ReceiveBufferSize>"
+      "</Sizing></Domain></CycloneDDS>";
+  if (const char* const given = std::getenv("CYCLONEDDS_URI"); given != nullptr && *given != 0)
+    settings += std::string(",") + given;
+  setenv("CYCLONEDDS_URI", settings.c_str(), 1);
+  constexpr int kHeap = 1024 * 1024;
+  mallopt(M_TOP_PAD, kHeap);
+}
+
 void prepareProcess() {
   const sigset_t signals = stopSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   rt::shortenThreadStacks();
+  steadyMemoryOfDds();
   std::signal(SIGPIPE, SIG_IGN);  // the reader of our log may close its end; the server goes on
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("palpate-server", std::make_shared<LogSink>()));
   spdlog::cfg::load_env_levels();  // SPDLOG_LEVEL=debug

@@ -31,6 +31,7 @@ class SecuredServer : public ServerEndToEnd {
     more.insert(more.end(), {"--security", authority_.of("server")});
     ASSERT_NO_FATAL_FAILURE(start(more));
     ASSERT_NO_FATAL_FAILURE(press(0.002));
+    ASSERT_GT(sizeOf(settled_.force), 0.0) << "flags " << settled_.flags << "\n" << server_->log();
     client_->forget();
   }
 

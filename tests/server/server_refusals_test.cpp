@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
 
 #include "palpate/testing/run_program.h"
 #include "palpate/testing/server_process.h"
@@ -49,6 +52,35 @@ TEST(ServerProgram, SaysHowTheMachineSuitsWithoutAModel) {
   const auto report = nlohmann::json::parse(told.out);
   EXPECT_EQ(report["checks"].size(), 8U);
   EXPECT_EQ(told.exit_code, report["grants_realtime"].get<bool>() ? 0 : 3);
+}
+
+TEST(ServerProgram, ReceivesIntoSmallBuffersUnlessTheEnvironmentSaysOtherwise) {
+  const std::uint32_t domain = palpate::testing::exclusiveDomain();
+  const palpate::testing::TemporaryFile model("buffers.h5");
+  palpate::testing::writeSyntheticModel(model.path());
+  const std::string before = getenv("CYCLONEDDS_URI");
+  for (const auto& [given, wanted] :
+       {std::pair{"", "256 KiB"},
+        {"<Sizing><ReceiveBufferSize>2 MiB</ReceiveBufferSize></Sizing>", "2 MiB"}}) {
+    const palpate::testing::TemporaryFile trace("buffers.log");
+    setenv("CYCLONEDDS_URI",
+           (before + ",<CycloneDDS><Domain><Tracing><Category>config</Category><OutputFile>" +
+            trace.path().string() + "</OutputFile></Tracing>" + given + "</Domain></CycloneDDS>")
+               .c_str(),
+           1);
+    ServerProcess server({"--model", model.path().string(), "--domain", std::to_string(domain)});
+    const auto used = [&] {
+      std::ifstream file(trace.path());
+      for (std::string line; std::getline(file, line);)
+        if (line.find(std::string("Sizing/ReceiveBufferSize/#text: ") + wanted) != std::string::npos)
+          return true;
+      return false;
+    };
+    for (int i = 0; i < 500 && server.running() && !used(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(used()) << server.log();
+  }
+  setenv("CYCLONEDDS_URI", before.c_str(), 1);
 }
 
 TEST_F(ServerRefuses, ATruncatedModel) {
