@@ -37,9 +37,8 @@ sigset_t stopSignals() {
   return signals;
 }
 
-// What DDS takes from malloc (docs/decisions/memory_locking.md). It receives into buffers of a MiB, where something small takes the
-// place of one that was given back, and the next needs a MiB more; what the environment says of them holds. And each of its threads
-// has a heap of its own, which needs almost a MiB at once when many peers come or go: it has that from the beginning.
+// What DDS's threads take from malloc grows early or not at all (docs/decisions/memory_locking.md): smaller receive buffers, unless the
+// environment says otherwise, and a MiB for each thread's heap from the beginning.
 void steadyMemoryOfDds() {
   std::string settings =
       "<CycloneDDS><Domain><Sizing>"

@@ -89,8 +89,9 @@ void Fault::waitUntilSettled() {
   constexpr double kPatience = 6'000.0;  // ms
   for (; ms(rt::monotonicNow() - from_ns) < kPatience && bothRun(); wait(milliseconds(10))) {
     const std::int64_t since_ns = rt::monotonicNow() - kSettled;
+    if (since_ns < from_ns) continue;
     const std::vector<Sample> samples = samplesSince(since_ns);
-    if (since_ns < from_ns || samples.size() < 100) continue;
+    if (samples.size() < 100) continue;
     const auto [least, most] = std::minmax_element(
         samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.force < b.force; });
     before_ = most->force;

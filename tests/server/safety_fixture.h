@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/testing/timed_tests.h"
 #include "server_fixture.h"
 
 namespace palpate::server::testing {
@@ -20,6 +21,7 @@ class Safety : public ServerEndToEnd {
     const auto forces = client_->forces();
     ASSERT_FALSE(forces.empty());
     for (const dds::ToolForce& force : forces) {
+      if (!isFinite(force) || sizeOf(force.force) > limit * (1.0 + 1e-9)) palpate::testing::countAlways();
       ASSERT_TRUE(isFinite(force));
       ASSERT_LE(sizeOf(force.force), limit * (1.0 + 1e-9));
     }

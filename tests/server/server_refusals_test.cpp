@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -20,6 +23,18 @@ namespace palpate::server::testing {
 namespace {
 
 using palpate::testing::ServerProcess;
+
+// CYCLONEDDS_URI, as long as it lives.
+class DdsSettings {
+ public:
+  explicit DdsSettings(const std::string& settings) { setenv("CYCLONEDDS_URI", settings.c_str(), 1); }
+  ~DdsSettings() { setenv("CYCLONEDDS_URI", before_.c_str(), 1); }
+  DdsSettings(const DdsSettings&) = delete;
+  DdsSettings& operator=(const DdsSettings&) = delete;
+
+ private:
+  const std::string before_ = getenv("CYCLONEDDS_URI");
+};
 
 class ServerRefuses : public ::testing::Test {
  protected:
@@ -58,16 +73,14 @@ TEST(ServerProgram, ReceivesIntoSmallBuffersUnlessTheEnvironmentSaysOtherwise) {
   const std::uint32_t domain = palpate::testing::exclusiveDomain();
   const palpate::testing::TemporaryFile model("buffers.h5");
   palpate::testing::writeSyntheticModel(model.path());
-  const std::string before = getenv("CYCLONEDDS_URI");
   for (const auto& [given, wanted] :
        {std::pair{"", "256 KiB"},
         {"<Sizing><ReceiveBufferSize>2 MiB</ReceiveBufferSize></Sizing>", "2 MiB"}}) {
     const palpate::testing::TemporaryFile trace("buffers.log");
-    setenv("CYCLONEDDS_URI",
-           (before + ",<CycloneDDS><Domain><Tracing><Category>config</Category><OutputFile>" +
-            trace.path().string() + "</OutputFile></Tracing>" + given + "</Domain></CycloneDDS>")
-               .c_str(),
-           1);
+    const DdsSettings settings(std::string(getenv("CYCLONEDDS_URI")) +
+                               ",<CycloneDDS><Domain><Tracing><Category>config</Category><OutputFile>" +
+                               trace.path().string() + "</OutputFile></Tracing>" + given +
+                               "</Domain></CycloneDDS>");
     ServerProcess server({"--model", model.path().string(), "--domain", std::to_string(domain)});
     const auto used = [&] {
       std::ifstream file(trace.path());
@@ -80,7 +93,6 @@ TEST(ServerProgram, ReceivesIntoSmallBuffersUnlessTheEnvironmentSaysOtherwise) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_TRUE(used()) << server.log();
   }
-  setenv("CYCLONEDDS_URI", before.c_str(), 1);
 }
 
 TEST_F(ServerRefuses, ATruncatedModel) {
@@ -202,17 +214,14 @@ TEST_F(ServerRefuses, AFlagOfTheFileCountsWhereTheCommandLineSaysNothing) {
 
 TEST_F(ServerRefuses, ADdsConfigurationThatCannotWork) {
   palpate::testing::writeSyntheticModel(file_);
-  const std::string before = getenv("CYCLONEDDS_URI");
-  setenv("CYCLONEDDS_URI",
-         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"nosuch0\"/>"
-         "</Interfaces></General></Domain></CycloneDDS>",
-         1);
+  const DdsSettings settings(
+      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"nosuch0\"/>"
+      "</Interfaces></General></Domain></CycloneDDS>");
   ServerProcess server({"--model", file_.string(), "--domain", "3"});
   EXPECT_EQ(server.waitForExit(), 1);
   EXPECT_NE(server.log().find("palpate-server: cannot create a DDS participant on domain 3"),
             std::string::npos)
       << server.log();
-  setenv("CYCLONEDDS_URI", before.c_str(), 1);
 }
 
 }  // namespace

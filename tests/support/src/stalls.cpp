@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/testing/stalls.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <array>
+#include <csignal>
 
 #include "palpate/rt/clock.h"
 #include "palpate/rt/process_threads.h"
@@ -27,6 +30,10 @@ Stalls::~Stalls() {
 }
 
 void Stalls::watch(std::size_t cpu, int number, int priority) {
+  pthread_setname_np(pthread_self(), "stalls");
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);  // they are for the tests
   const std::array<int, 1> cpus{number};
   (void)rt::useCpus(cpus);
   if (priority > 0 && rt::raiseThisThread(priority) != 0) return;

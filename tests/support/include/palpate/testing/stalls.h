@@ -23,7 +23,7 @@ class Stalls {
 
   /// Lateness between two times of CLOCK_MONOTONIC, summed, on the processor that had most of it; ms.
   [[nodiscard]] double between(std::int64_t from_ns, std::int64_t until_ns) const;
-  /// The longest that is not over before a time of CLOCK_MONOTONIC, ms.
+  /// The longest lateness that ended at or after a time of CLOCK_MONOTONIC, ms. One that goes on is not seen yet.
   [[nodiscard]] double longestSince(std::int64_t from_ns) const;
 
  private:
