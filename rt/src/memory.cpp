@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kPrefaulted = std::size_t{256} * 1024;  // of a stack
 constexpr std::size_t kThreadStack = std::size_t{1024} * 1024;
 constexpr std::size_t kPage = 4096;
-constexpr int kMappedApart = 2 * 1024 * 1024;  // bytes; DDS takes less for a message
+constexpr int kMappedApart = 2 * 1024 * 1024;  // bytes; DDS takes less for most messages
 
 // The effective capability decides, not the user: root in a container may lack it, a service may have it.
 bool mayLockWithoutLimit() noexcept {

@@ -37,8 +37,8 @@ sigset_t stopSignals() {
   return signals;
 }
 
-// What DDS's threads take from malloc grows early or not at all (docs/decisions/memory_locking.md): smaller receive buffers, unless the
-// environment says otherwise, and a MiB for each thread's heap from the beginning.
+// DDS's threads take most of their memory at the start, and lose less of it later (docs/decisions/memory_locking.md): a MiB for each
+// one's heap, and smaller receive buffers, unless the environment says otherwise.
 void steadyMemoryOfDds() {
   std::string settings =
       "<CycloneDDS><Domain><Sizing>"

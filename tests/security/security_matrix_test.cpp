@@ -99,10 +99,10 @@ class Siege : public SecuredServer {
     std::vector<dds::ToolForce> zero;
     for (const dds::ToolForce& force : forces) {
       if (force.session == palpate::testing::kIntrudersSession ||
-          (force.flags & dds::flag::kTwoPublishers) != 0)
+          (force.flags & dds::flag::kTwoPublishers) != 0) {
         palpate::testing::countAlways();
-      ASSERT_NE(force.session, palpate::testing::kIntrudersSession);
-      ASSERT_EQ(force.flags & dds::flag::kTwoPublishers, 0U);
+        FAIL() << "an answer of session " << force.session << ", with flags " << force.flags;
+      }
       if ((force.flags & (dds::flag::kStalePose | dds::flag::kRamping)) != 0)
         ++late;
       else if (sizeOf(force.force) == 0.0)

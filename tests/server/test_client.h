@@ -48,7 +48,7 @@ class TestClient {
   void moveTo(const Point& position, int milliseconds);
   /// One pose as it is; seq and stamp are filled in when zero.
   void send(dds::ToolPose pose);
-  /// seq of the last pose that got one here.
+  /// seq of the last pose that this client numbered.
   [[nodiscard]] std::uint64_t sent() const { return seq_; }
   [[nodiscard]] dds::ToolPose poseAt(const Point& position) const;
 

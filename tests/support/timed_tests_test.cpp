@@ -15,8 +15,13 @@ namespace {
 
 class TimedTests : public ::testing::Test {
  protected:
-  TimedTests() { setenv("PALPATE_TWIN_FOLDER", folder_.path().c_str(), 1); }
-  ~TimedTests() override {
+  TimedTests() {
+    forget();  // what this program was started with
+    setenv("PALPATE_TWIN_FOLDER", folder_.path().c_str(), 1);
+  }
+  ~TimedTests() override { forget(); }
+
+  static void forget() {
     for (const char* const variable :
          {"PALPATE_TWIN_FOLDER", "PALPATE_TEST_STOOD_STILL_MS", "GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"})
       unsetenv(variable);
@@ -61,12 +66,23 @@ TEST_F(TimedTests, CountAtOnceWhereOneSaysSo) {
 }
 
 TEST_F(TimedTests, CountAtOnceWhereTheirSuiteWasNotPrepared) {
-  EXPECT_EQ(run("PreparedTwin.*", "0"), 1);
-  EXPECT_LE(runsOf("FailsAtFirst"), 1U);
+  EXPECT_EQ(run("PreparedTwin.*:Twin.FailsAtFirst", "0"), 1);
+  EXPECT_EQ(runsOf("FailsAtFirst"), 1U);
 }
 
 TEST_F(TimedTests, RunAgainInTheEnvironmentThatTheProgramHad) {
   EXPECT_EQ(run("Twin.ChangesItsEnvironmentAndFailsAtFirst", "0"), 0) << said_;
+}
+
+TEST_F(TimedTests, CountAtOnceWhereTheFirstFailureEndsAll) {
+  setenv("GTEST_FAIL_FAST", "1", 1);
+  EXPECT_EQ(run("Twin.Passes:Twin.FailsAtFirst", "0"), 1);
+  unsetenv("GTEST_FAIL_FAST");
+}
+
+TEST_F(TimedTests, AreNotSkippedInTheirSecondRun) {
+  EXPECT_EQ(run("Twin.FailsAtFirstAndIsSkippedThen", "0"), 1);
+  EXPECT_EQ(runsOf("FailsAtFirstAndIsSkippedThen"), 2U);
 }
 
 TEST_F(TimedTests, OfAShardRunAgain) {

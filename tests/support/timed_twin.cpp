@@ -34,6 +34,10 @@ TEST(Twin, FailsOnceAndSaysThatItCounts) {
   palpate::testing::countAlways();
   FAIL();
 }
+TEST(Twin, FailsAtFirstAndIsSkippedThen) {
+  ASSERT_GT(begun(), 1U);
+  GTEST_SKIP();
+}
 TEST(Twin, ChangesItsEnvironmentAndFailsAtFirst) {
   EXPECT_EQ(std::getenv("PALPATE_TWIN_LEFT"), nullptr);
   setenv("PALPATE_TWIN_LEFT", "1", 1);
@@ -44,8 +48,6 @@ class PreparedTwin : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { FAIL(); }
 };
-TEST_F(PreparedTwin, FailsAtFirst) {
-  EXPECT_GT(begun(), 1U);
-}
+TEST_F(PreparedTwin, IsNeverReached) {}
 
 }  // namespace

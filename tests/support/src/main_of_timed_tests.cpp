@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// main() of tests that wait for answers within milliseconds (docs/decisions/timed_tests.md). Tests that failed while a processor stood
-// still run again, all in one process more, twice at most. One that failed although both went on counts at once, as does one that
-// says so (palpate/testing/timed_tests.h).
+// main() of tests that wait for answers within milliseconds: what fails while a processor stands still runs again
+// (docs/decisions/timed_tests.md).
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -26,11 +25,18 @@ namespace {
 constexpr double kStoodStill = 10.0;  // ms
 constexpr int kHighest = 99;          // above all threads of the programs under test
 constexpr int kRuns = 3;
-constexpr auto kLastBegin =
-    std::chrono::seconds(100);  // of a run after the first; ctest ends what takes too long
+constexpr double kLastBegin = 100.0;  // s after the first run began; ctest's time is for all of them
 constexpr const char* kRunsBefore = "PALPATE_TEST_RUNS_BEFORE";
+constexpr const char* kFirstBegan = "PALPATE_TEST_FIRST_BEGAN_S";
+// A processor that still stands is not seen yet.
+constexpr auto kUntilSeen = std::chrono::milliseconds(100);
 
-// What failed, and whether the machine went on in it or in what was prepared for its suite.
+double number(const char* variable, double otherwise) {
+  const char* const text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::atof(text);
+}
+
+// What failed, and whether the machine went on in it and in what was prepared for its suite.
 class Judge : public ::testing::EmptyTestEventListener {
  public:
   explicit Judge(double stood_still) : stood_still_(stood_still) {}
@@ -49,14 +55,14 @@ class Judge : public ::testing::EmptyTestEventListener {
   }
   void OnTestStart(const ::testing::TestInfo&) override {
     test_ns_ = rt::monotonicNow();
-    if (!prepared_) prepared_ms_ = stalls_.longestSince(suite_ns_);
+    if (!prepared_) prepared_ms_ = stalls_.longest(suite_ns_, test_ns_);
     prepared_ = true;
   }
   void OnTestEnd(const ::testing::TestInfo& test) override {
     if (!test.result()->Failed()) return;
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(100));  // a processor that still stands is not seen yet
-    const double ms = std::max(prepared_ms_, stalls_.longestSince(test_ns_));
+    const std::int64_t end_ns = rt::monotonicNow();
+    std::this_thread::sleep_for(kUntilSeen);
+    const double ms = std::max(prepared_ms_, stalls_.longest(test_ns_, end_ns));
     if (ms < stood_still_ || countsAlways(*test.result())) {
       counts_ = true;
       return;
@@ -78,7 +84,7 @@ class Judge : public ::testing::EmptyTestEventListener {
   const double stood_still_;
   const Stalls stalls_{rt::usableCpus(), kHighest};
   std::int64_t suite_ns_{0}, test_ns_{0};
-  bool prepared_{false};     // its suite; a test of it has begun
+  bool prepared_{false};     // the suite; a test of it has begun
   double prepared_ms_{0.0};  // the longest stall meanwhile
   double longest_{0.0};      // of excused tests, ms
   bool counts_{false};       // a failure that is not excused
@@ -86,28 +92,30 @@ class Judge : public ::testing::EmptyTestEventListener {
 };
 
 // What the process was started with: tests change their environment.
-struct Start {
-  Start(int argc, char** argv) : arguments(argv + 1, argv + argc) {
-    for (char** variable = environ; *variable != nullptr; ++variable) environment.emplace_back(*variable);
+class Start {
+ public:
+  Start(int argc, char** argv) : arguments_(argv + 1, argv + argc) {
+    for (char** variable = environ; *variable != nullptr; ++variable) environment_.emplace_back(*variable);
   }
+
+  [[nodiscard]] double secondsSinceTheFirst() const { return now() - first_s_; }
 
   [[nodiscard]] int again(const std::string& filter, int runs_before) {
     clearenv();
-    environment.emplace_back(kRunsBefore).append("=").append(std::to_string(runs_before));
-    for (std::string& variable : environment) putenv(variable.data());
+    for (std::string& variable : environment_) putenv(variable.data());
     for (const char* const half : {"GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"}) unsetenv(half);
-    arguments.push_back("--gtest_filter=" + filter);
-    return ChildProcess("/proc/self/exe", arguments, {}).waitForExit();
+    setenv(kRunsBefore, std::to_string(runs_before).c_str(), 1);
+    setenv(kFirstBegan, std::to_string(first_s_).c_str(), 1);
+    arguments_.push_back("--gtest_filter=" + filter);
+    return ChildProcess("/proc/self/exe", arguments_, {}).waitForExit();
   }
 
-  std::vector<std::string> arguments, environment;
-  std::chrono::steady_clock::time_point time = std::chrono::steady_clock::now();
-};
+ private:
+  [[nodiscard]] static double now() { return 1e-9 * static_cast<double>(rt::monotonicNow()); }
 
-double number(const char* variable, double otherwise) {
-  const char* const text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::atof(text);
-}
+  std::vector<std::string> arguments_, environment_;
+  const double first_s_ = number(kFirstBegan, now());
+};
 
 int run(Start& start) {
   if (::testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // no threads for that
@@ -115,9 +123,14 @@ int run(Start& start) {
   ::testing::UnitTest::GetInstance()->listeners().Append(judge);  // owns it
   const int runs = 1 + static_cast<int>(number(kRunsBefore, 0.0));
   const int code = RUN_ALL_TESTS();
+  if (runs > 1 && code == 0 && ::testing::UnitTest::GetInstance()->skipped_test_count() > 0) {
+    std::puts("a test that failed was skipped when it ran again: it counts as failed");
+    return 1;
+  }
   const std::string filter = judge->excused();
-  if (code == 0 || filter.empty() || runs >= kRuns) return code;
-  if (std::chrono::steady_clock::now() - start.time > kLastBegin) return code;
+  const bool some_left_out = ::testing::GTEST_FLAG(fail_fast);
+  if (code == 0 || filter.empty() || some_left_out) return code;
+  if (runs >= kRuns || start.secondsSinceTheFirst() > kLastBegin) return code;
   // The first word keeps ctest from cutting the output of a test that passes.
   std::printf(
       "CTEST_FULL_OUTPUT\na processor stood still for up to %.0f ms while these failed, so they run again: "
@@ -131,7 +144,7 @@ int run(Start& start) {
 }  // namespace palpate::testing
 
 int main(int argc, char** argv) {
-  palpate::testing::Start start(argc, argv);
+  static palpate::testing::Start start(argc, argv);  // it holds the environment until the process has ended
   ::testing::InitGoogleTest(&argc, argv);
   return palpate::testing::run(start);
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/testing/server_process.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+
+#include "palpate/testing/timed_tests.h"
 
 namespace palpate::testing {
 
@@ -19,5 +23,11 @@ std::vector<std::string> withShortListening(std::vector<std::string> arguments) 
 ServerProcess::ServerProcess(const std::vector<std::string>& arguments, int log_fd)
     : process_("palpate-server", withShortListening(arguments),
                {.err = log_fd >= 0 ? log_fd : log_.descriptor()}) {}
+
+ServerProcess::~ServerProcess() {
+  constexpr int kBySignal = 128;  // and its number
+  if (signalled_ || process_.running()) return;
+  if (process_.waitForExit(std::chrono::seconds(0)) > kBySignal) countAlways();
+}
 
 }  // namespace palpate::testing

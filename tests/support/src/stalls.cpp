@@ -50,18 +50,19 @@ void Stalls::watch(std::size_t cpu, int number, int priority) {
 double Stalls::between(std::int64_t from_ns, std::int64_t until_ns) const {
   std::vector<std::int64_t> sums(threads_.size());
   const std::lock_guard lock(mutex_);
-  for (const Late& late : late_)
-    sums[late.cpu] +=
-        std::max<std::int64_t>(0, std::min(late.woke_ns, until_ns) - std::max(late.due_ns, from_ns));
+  for (const Late& late : late_) sums[late.cpu] += within(late, from_ns, until_ns);
   return sums.empty() ? 0.0 : 1e-6 * static_cast<double>(*std::max_element(sums.begin(), sums.end()));
 }
 
-double Stalls::longestSince(std::int64_t from_ns) const {
+double Stalls::longest(std::int64_t from_ns, std::int64_t until_ns) const {
   std::int64_t longest = 0;
   const std::lock_guard lock(mutex_);
-  for (const Late& late : late_)
-    if (late.woke_ns >= from_ns) longest = std::max(longest, late.woke_ns - late.due_ns);
+  for (const Late& late : late_) longest = std::max(longest, within(late, from_ns, until_ns));
   return 1e-6 * static_cast<double>(longest);
+}
+
+std::int64_t Stalls::within(const Late& late, std::int64_t from_ns, std::int64_t until_ns) {
+  return std::max<std::int64_t>(0, std::min(late.woke_ns, until_ns) - std::max(late.due_ns, from_ns));
 }
 
 }  // namespace palpate::testing

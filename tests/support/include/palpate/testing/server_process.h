@@ -8,13 +8,21 @@
 
 namespace palpate::testing {
 
-/// palpate-server as its own process. The destructor kills it if it still runs.
+/// palpate-server as its own process. The destructor kills it if it still runs. A failed test does not run again where a
+/// signal that it did not send has ended the server (timed_tests.h).
 class ServerProcess {
  public:
   /// @param[in] log_fd  where its standard error goes, borrowed; -1: into log()
   explicit ServerProcess(const std::vector<std::string>& arguments, int log_fd = -1);
 
-  void signal(int number) const { process_.signal(number); }
+  ~ServerProcess();
+  ServerProcess(const ServerProcess&) = delete;
+  ServerProcess& operator=(const ServerProcess&) = delete;
+
+  void signal(int number) {
+    signalled_ = true;
+    process_.signal(number);
+  }
   /// @return exit code; 128 + n when signal n ended it; -1 when it still runs after the timeout
   [[nodiscard]] int waitForExit(std::chrono::seconds timeout = std::chrono::seconds(30)) {
     return process_.waitForExit(timeout);
@@ -28,6 +36,7 @@ class ServerProcess {
  private:
   CaughtOutput log_;
   ChildProcess process_;
+  bool signalled_{false};
 };
 
 }  // namespace palpate::testing

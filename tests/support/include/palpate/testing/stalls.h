@@ -23,8 +23,8 @@ class Stalls {
 
   /// Lateness between two times of CLOCK_MONOTONIC, summed, on the processor that had most of it; ms.
   [[nodiscard]] double between(std::int64_t from_ns, std::int64_t until_ns) const;
-  /// The longest lateness that ended at or after a time of CLOCK_MONOTONIC, ms. One that goes on is not seen yet.
-  [[nodiscard]] double longestSince(std::int64_t from_ns) const;
+  /// The longest lateness between two such times, on any processor, ms. One that goes on is not seen yet.
+  [[nodiscard]] double longest(std::int64_t from_ns, std::int64_t until_ns) const;
 
  private:
   struct Late {
@@ -33,6 +33,7 @@ class Stalls {
     std::int64_t woke_ns;
   };
 
+  [[nodiscard]] static std::int64_t within(const Late& late, std::int64_t from_ns, std::int64_t until_ns);
   void watch(std::size_t cpu, int number, int priority);
 
   mutable std::mutex mutex_;

@@ -7,7 +7,7 @@ namespace palpate::testing {
 
 inline constexpr const char* kCountsAlways = "counts_always";  ///< a property of a test
 
-/// This test fails, and no stall of the machine explains it: it does not run again (docs/decisions/timed_tests.md).
+/// Beside a failure that no stall of the machine explains: the test does not run again (docs/decisions/timed_tests.md).
 inline void countAlways() {
   ::testing::Test::RecordProperty(kCountsAlways, 1);
 }
