@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include "palpate/testing/server_process.h"
 #include "palpate/testing/synthetic_model.h"
 #include "palpate/testing/test_domain.h"
+#include "palpate/testing/timed_tests.h"
 #include "tools/modelfile/write_model.h"
 
 namespace palpate::server::testing {
@@ -93,6 +95,26 @@ TEST(ServerProgram, ReceivesIntoSmallBuffersUnlessTheEnvironmentSaysOtherwise) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_TRUE(used()) << server.log();
   }
+}
+
+// What a failed test asks before it runs again.
+TEST(ServerProgram, ThatASignalEndsMakesAFailureCountAlways) {
+  const palpate::testing::TemporaryFile model("ended.h5");
+  palpate::testing::writeSyntheticModel(model.path());
+  const ::testing::TestResult& result = *::testing::UnitTest::GetInstance()->current_test_info()->result();
+  const std::string domain = std::to_string(palpate::testing::exclusiveDomain());
+  for (const int own : {SIGKILL, SIGCONT}) {
+    ServerProcess server({"--model", model.path().string(), "--domain", domain});
+    server.signal(own);
+    if (own != SIGKILL) {
+      ASSERT_EQ(kill(server.pid(), SIGKILL), 0);
+    }
+    (void)server.waitForExit();
+    EXPECT_EQ(result.test_property_count(), 0)
+        << "not before it is gone, and not for a signal of the test's own";
+  }
+  ASSERT_EQ(result.test_property_count(), 1);
+  EXPECT_STREQ(result.GetTestProperty(0).key(), palpate::testing::kCountsAlways);
 }
 
 TEST_F(ServerRefuses, ATruncatedModel) {

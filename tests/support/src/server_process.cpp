@@ -26,8 +26,9 @@ ServerProcess::ServerProcess(const std::vector<std::string>& arguments, int log_
 
 ServerProcess::~ServerProcess() {
   constexpr int kBySignal = 128;  // and its number
-  if (signalled_ || process_.running()) return;
-  if (process_.waitForExit(std::chrono::seconds(0)) > kBySignal) countAlways();
+  if (process_.running()) return;
+  const int code = process_.waitForExit(std::chrono::seconds(0));
+  if (code > kBySignal && code != kBySignal + sent_) countAlways();
 }
 
 }  // namespace palpate::testing

@@ -20,7 +20,7 @@ class ServerProcess {
   ServerProcess& operator=(const ServerProcess&) = delete;
 
   void signal(int number) {
-    signalled_ = true;
+    sent_ = number;
     process_.signal(number);
   }
   /// @return exit code; 128 + n when signal n ended it; -1 when it still runs after the timeout
@@ -36,7 +36,7 @@ class ServerProcess {
  private:
   CaughtOutput log_;
   ChildProcess process_;
-  bool signalled_{false};
+  int sent_{0};  // the last signal
 };
 
 }  // namespace palpate::testing
