@@ -126,7 +126,9 @@ TEST(LoadDeathTest, NumbersInFewBytesWhoseCopyHasNoRoomAreRefusedInOneLine) {
 
 TEST(LoadDeathTest, AModelTakesAtMostHalfAsMuchMemoryBesideItsFile) {
   const TemporaryFile file("large.h5");
-  writeSyntheticModel(file.path(), {.subdivisions = 5, .modes = 200, .near_radius = 0.006});
+  modelfile::ModelData data = syntheticModel({.subdivisions = 5, .modes = 200, .near_radius = 0.006});
+  data.attributes.patch_radius = 0.003;  // 1.3 edges: 40 nodes in a patch
+  modelfile::writeModel(file.path(), data);
   EXPECT_GT(std::filesystem::file_size(file.path()), 64 * kMiB);
   EXPECT_EXIT(loadWithin(file.path()), ::testing::ExitedWithCode(0), "^$");
 }
