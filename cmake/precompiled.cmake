@@ -1,7 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # Headers that most sources include, read once a build instead of once a file. Sources name what they use all the same;
 # -DPALPATE_PRECOMPILE=OFF builds without and shows those that do not.
-option(PALPATE_PRECOMPILE "Precompile the headers that sources share" ON)
+# Off for clang with ccache, which finds nothing of another build folder again once clang's headers are precompiled.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+  set(palpate_precompile_default OFF)
+else()
+  set(palpate_precompile_default ON)
+endif()
+option(PALPATE_PRECOMPILE "Precompile the headers that sources share" ${palpate_precompile_default})
 set(PALPATE_STANDARD_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
   <optional> <span> <sstream> <string> <thread> <vector>)
 

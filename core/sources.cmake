@@ -3,6 +3,7 @@
 set(PALPATE_CORE_SOURCES
   base/kernels.cpp
   base/multi_index.cpp
+  base/whole_kernels.cpp
   data/array_reader.cpp
   data/digest.cpp
   data/face_checks.cpp

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-
-#include "core/base/types.h"
 
 namespace palpate {
 
@@ -16,46 +13,11 @@ namespace palpate {
 /// Takes it before the loop. Threads: any; no other kernel may run meanwhile for the first time.
 void chooseKernels() noexcept;
 
-/// Rows of whole numbers that follow each other, with a scale each: number i of row r is scale[r] * A[r * length + i].
-struct ScaledRows {
-  const std::int16_t* A;
-  const float* scale;
-  std::size_t count;
-  std::size_t length;
-};
-
-/// y += sum_r weight[r] * row r. y stays in the first-level cache while A streams past once. Real-time: yes.
-void addRows(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING;
-
 /// Sums that are taken at once: a row is read for all of them.
 inline constexpr std::size_t kTogether = 4;
 
-/// y[c] += sum_r weight[r][c] * row r. @param weight  [count][kTogether]  @param y  [kTogether][length]. Real-time: yes.
-void addRowsTogether(const ScaledRows& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING;
-
-/// Groups of rows of whole numbers, as many in each, here and there: `rows` rows of group number[i], i < count.
-struct PlacedGroups {
-  const std::int16_t* A;
-  const float* scale;
-  std::size_t rows;
-  std::size_t length;
-  const std::int32_t* number;
-  std::size_t count;
-};
-
-/// y[r] += sum_i weight[i] * row r of group i. @param y  [rows][length]. Real-time: yes.
-void addGroups(const PlacedGroups& groups, const double* weight, float* y) noexcept PALPATE_NONBLOCKING;
-
-/// Vectors of nodes lie kNodeFloats apart: kTogether of them, of which the fourth numbers have no meaning.
+/// Floats of a node: kTogether vectors, of which the fourth numbers have no meaning, or one matrix and no more.
 inline constexpr std::size_t kNodeFloats = 4 * kTogether;
-
-/// Numbers of three vectors of a node.
-inline constexpr std::size_t kThreeVectors = 12;
-
-/// u[node[i]] += weight * field[i], number by number, for three vectors of each node. @param field  [count][kThreeVectors], and
-/// four numbers behind  @param weight  of each number, and four zeros behind  @param u  [Ns][kNodeFloats]. Real-time: yes.
-void addVectors(const std::int16_t* field, const std::int32_t* node, std::size_t count,
-                const std::array<float, kNodeFloats>& weight, float* u) noexcept PALPATE_NONBLOCKING;
 
 /// u[node[i]][c] += factor * y[c][i]. @param y  [kTogether][count][3], and a number behind  @param u  [Ns][kNodeFloats].
 /// Real-time: yes.
@@ -66,12 +28,14 @@ void addVectors(const float* y, const std::int32_t* node, std::size_t count, flo
 void addScaled(const float* from, float factor, std::span<float> y) noexcept PALPATE_NONBLOCKING;
 
 /// Rows that lie here and there: number r is at A + length * row[r], r < count.
-struct PlacedFloats {
-  const float* A;
+template <class Numbers>
+struct PlacedRows {
+  Numbers A;
   std::size_t length;
   const std::int32_t* row;
   std::size_t count;
 };
+using PlacedFloats = PlacedRows<const float*>;
 
 /// y[c] = sum_r weight[r][c] * row r. @param weight  [count][kTogether]  @param y  [kTogether][length]. Real-time: yes.
 void mixRowsTogether(const PlacedFloats& rows, const float* weight, float* y) noexcept PALPATE_NONBLOCKING;

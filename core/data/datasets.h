@@ -66,7 +66,7 @@ inline constexpr Dataset<double> kContactDisplacement{"contact/displacement", {"
 inline constexpr Dataset<double> kLevelsZ{"levels/Z", {"C", "L + 1"}, ""};
 
 // Fields are whole numbers; a number is its block's scale times these, and has the scale's unit.
-inline constexpr Dataset<std::int16_t> kModesX{"modes/X", {"n", "3 Ns"}, ""};
+inline constexpr Dataset<std::int16_t> kModesX{"modes/X", {"3 Ns", "n"}, ""};
 inline constexpr Dataset<float> kModesXScale{"modes/X_scale", {"n"}, ""};
 inline constexpr Dataset<std::int16_t> kModesY{"modes/Y", {"M", "Cm", "nY"}, ""};
 inline constexpr Dataset<float> kModesYScale{"modes/Y_scale", {"M", "Cm"}, "m"};
@@ -82,7 +82,7 @@ inline constexpr Dataset<std::int16_t> kGreenY{"green/Y", {"G", "3", "n"}, ""};
 inline constexpr Dataset<float> kGreenYScale{"green/Y_scale", {"G", "3"}, "m/N"};
 inline constexpr Dataset<std::int64_t> kGreenOffset{"green/offset", {"G + 1"}, ""};
 inline constexpr Dataset<std::int32_t> kGreenNearNode{"green/near_node", {"sum Kg"}, ""};
-inline constexpr Dataset<std::int16_t> kGreenNear{"green/near", {"9 sum Kg"}, ""};
+inline constexpr Dataset<std::int16_t> kGreenNear{"green/near", {"sum Kg", "9"}, ""};
 inline constexpr Dataset<float> kGreenNearScale{"green/near_scale", {"G", "3"}, "m/N"};
 
 // What the middles of the edges between contact positions add to the mixture of these, orders of two and more of a

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/data/model_content.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <span>
@@ -39,13 +41,23 @@ const char* typeName(const RegionName&) {
 class ContentHash {
  public:
   template <class T>
-  void add(std::string line, const char* type, const std::vector<std::uint64_t>& shape,
+  void add(const std::string& name, const char* type, const std::vector<std::uint64_t>& shape,
            std::span<const T> values) {
-    (line += ' ') += type;
-    for (const std::uint64_t length : shape) line += ' ' + std::to_string(length);
-    line += '\n';
-    hash_.add(std::as_bytes(std::span<const char>(line)));
+    begin(name, type, shape);
     hash_.add(std::as_bytes(values));
+  }
+  /// As if each number had two bytes.
+  void add(const std::string& name, const char* type, const std::vector<std::uint64_t>& shape,
+           const WholeNumbers& values) {
+    begin(name, type, shape);
+    if (values.int8() == nullptr) return hash_.add(std::as_bytes(std::span(values.int16(), values.size())));
+    std::array<std::int16_t, 1024> some{};  // less than Sha256::kCopied, since it is gone when the page looks
+    static_assert(sizeof some < Sha256::kCopied);
+    for (std::size_t i = 0; i < values.size(); i += some.size()) {
+      const std::size_t count = std::min(some.size(), values.size() - i);
+      for (std::size_t k = 0; k < count; ++k) some[k] = static_cast<std::int16_t>(values[i + k]);
+      hash_.add(std::as_bytes(std::span<const std::int16_t>(some).first(count)));
+    }
   }
   void operator()(const char* name, const std::string& text) {
     add(name, "text", {text.size()}, std::span<const char>(text));
@@ -60,6 +72,13 @@ class ContentHash {
   [[nodiscard]] Digest finish() { return hash_.finish(); }
 
  private:
+  void begin(std::string line, const char* type, const std::vector<std::uint64_t>& shape) {
+    (line += ' ') += type;
+    for (const std::uint64_t length : shape) line += ' ' + std::to_string(length);
+    line += '\n';
+    hash_.add(std::as_bytes(std::span<const char>(line)));
+  }
+
   Sha256 hash_;
 };
 
@@ -100,7 +119,6 @@ LengthTable lengthsOf(const ModelAttributes& a, const ModelView& v) {
   size["G"] = v.green_node.size();
   size["G + 1"] = v.green_offset.size();
   size["sum Kg"] = v.green_near_node.size();
-  size["9 sum Kg"] = v.green_near.size();
   if (v.edge_offset.empty()) return size;
   size["E"] = v.edge_offset.size() - 1;
   size["E + 1"] = v.edge_offset.size();
@@ -121,7 +139,7 @@ Digest contentDigest(const ModelAttributes& a, const ModelView& v) {
   const LengthTable lengths = lengthsOf(a, v);
   ContentHash hash;
   forEachAttribute(a, hash);
-  forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, std::span<const T> values) {
+  forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, const auto& values) {
     hash.add(what.name(), typeName(T{}), shapeOf(what.shape, lengths), values);
   });
   return hash.finish();

@@ -15,7 +15,7 @@
 namespace palpate {
 
 /// Of the model file: what it holds and how.
-inline constexpr int kModelVersion = 3;
+inline constexpr int kModelVersion = 4;
 
 /// Attributes that answers depend on, as a file has them. visit(name, value) gets texts, doubles, int32s and
 /// arrays of doubles. @param[in] a  force_order as in the file, not 0
@@ -40,7 +40,8 @@ void forEachAttribute(const ModelAttributes& a, Visit&& visit) {
   if (a.parameters == Parameters::kForce) visit("reference_force", a.reference_force);
 }
 
-/// Datasets that a file of this kind has. visit(Dataset<T>, std::span<const T>)
+/// Datasets that a file of this kind has. visit(Dataset<T>, std::span<const T>), and of fields visit(Dataset<std::int16_t>,
+/// WholeNumbers).
 template <class Visit>
 void forEachDataset(const ModelAttributes& a, const ModelView& v, Visit&& visit) {
   visit(dataset::kSurfacePositions, v.surface_positions);

@@ -113,9 +113,9 @@ void readContact(const ModelSource& file, const ModelAttributes& a, Lengths& siz
 
 void readFields(const ModelSource& file, Lengths& size, ModelView& v) {
   size.define("3 Ns", 3 * size.value("Ns"));
-  v.modes_X = file.dataset(dataset::kModesX, size);
+  v.modes_X = file.wholeNumbers(dataset::kModesX, size);
   v.modes_X_scale = file.dataset(dataset::kModesXScale, size);
-  v.modes_Y = file.dataset(dataset::kModesY, size);
+  v.modes_Y = file.wholeNumbers(dataset::kModesY, size);
   if (size.value("nY") > size.value("n"))
     file.fail(dataset::kModesY.name() + " has " + std::to_string(size.value("nY")) +
               " modes, expected at most n = " + std::to_string(size.value("n")));
@@ -124,19 +124,18 @@ void readFields(const ModelSource& file, Lengths& size, ModelView& v) {
   v.near_offset = file.dataset(dataset::kNearOffset, size);
   v.near_node = file.dataset(dataset::kNearNode, size);
   size.define("3 Cm sum K", 3 * size.value("Cm") * size.value("sum K"));
-  v.near_field = file.dataset(dataset::kNearField, size);
+  v.near_field = file.wholeNumbers(dataset::kNearField, size);
   v.near_scale = file.dataset(dataset::kNearScale, size);
 }
 
 void readGreens(const ModelSource& file, Lengths& size, ModelView& v) {
   v.green_node = file.dataset(dataset::kGreenNode, size);
-  v.green_Y = file.dataset(dataset::kGreenY, size);
+  v.green_Y = file.wholeNumbers(dataset::kGreenY, size);
   v.green_Y_scale = file.dataset(dataset::kGreenYScale, size);
   size.define("G + 1", size.value("G") + 1);
   v.green_offset = file.dataset(dataset::kGreenOffset, size);
   v.green_near_node = file.dataset(dataset::kGreenNearNode, size);
-  size.define("9 sum Kg", 9 * size.value("sum Kg"));
-  v.green_near = file.dataset(dataset::kGreenNear, size);
+  v.green_near = file.wholeNumbers(dataset::kGreenNear, size);
   v.green_near_scale = file.dataset(dataset::kGreenNearScale, size);
 }
 
@@ -152,7 +151,7 @@ void readEdges(const ModelSource& file, Lengths& size, ModelView& v) {
   v.edge_offset = file.dataset(dataset::kEdgeOffset, size);
   v.edge_node = file.dataset(dataset::kEdgeNode, size);
   size.define("3 Ce sum Ke", 3 * size.value("Ce") * size.value("sum Ke"));
-  v.edge_field = file.dataset(dataset::kEdgeField, size);
+  v.edge_field = file.wholeNumbers(dataset::kEdgeField, size);
 }
 
 void readMesh(const ModelSource& file, Lengths& size, ModelView& v) {

@@ -76,41 +76,49 @@ std::vector<Length*> ModelSource::checked(const std::string& path, const std::ve
   fail("/" + path + " has shape " + (found.empty() ? "of no array" : is) + ", expected " + should);
 }
 
-template <typename T>
-std::span<const T> ModelSource::dataset(const Dataset<T>& what, Lengths& lengths) const {
-  const std::string path = what.path;
-  const ArrayShape found = shape(path, typeOf<T>());
+ModelSource::Stored ModelSource::stored(const std::string& path, NumberType wanted,
+                                        std::span<const char* const> symbols, Lengths& lengths) const {
+  const ArrayShape found = shape(path, wanted);
   const std::uint64_t limit = bytes() / bytesOf(found.type);
   std::uint64_t count = 1;
-  for (const Length* length : checked(path, found.lengths, what.shape, lengths)) {
+  for (const Length* length : checked(path, found.lengths, symbols, lengths)) {
     if (length->value != 0 && count > limit / length->value)
       fail("/" + path + " has more numbers than the file's " + std::to_string(bytes()) + " bytes can hold");
     count *= length->value;
   }
   const std::byte* const first = place(path, count * bytesOf(found.type));
-  if (count == 0 || first == nullptr) return {};
-  if (found.type != typeOf<T>()) return widened<T>(found.type, first, static_cast<std::size_t>(count));
-  return {static_cast<const T*>(static_cast<const void*>(first)), static_cast<std::size_t>(count)};
+  return {found.type, count == 0 ? nullptr : first, static_cast<std::size_t>(count)};
+}
+
+template <typename T>
+std::span<const T> ModelSource::dataset(const Dataset<T>& what, Lengths& lengths) const {
+  const Stored found = stored(what.path, typeOf<T>(), what.shape, lengths);
+  return found.first == nullptr || found.type == typeOf<T>() ? found.as<T>() : widened<T>(found);
+}
+
+WholeNumbers ModelSource::wholeNumbers(const Dataset<std::int16_t>& what, Lengths& lengths) const {
+  const Stored found = stored(what.path, NumberType::kI16, what.shape, lengths);
+  if (found.type == NumberType::kI8) return found.as<std::int8_t>();
+  return found.as<std::int16_t>();
 }
 
 /// A copy in as many bytes as tables want.
 template <typename T>
-std::span<const T> ModelSource::widened(NumberType stored, const std::byte* first, std::size_t count) const {
-  requireRoom(count * sizeof(T));
+std::span<const T> ModelSource::widened(const Stored& stored) const {
+  requireRoom(stored.count * sizeof(T));
   // Not cleared (array_reader.cpp).
-  copies_->push_back(std::unique_ptr<double[]>(new double[count * sizeof(T) / sizeof(double) + 1]));
+  copies_->push_back(std::unique_ptr<double[]>(new double[stored.count * sizeof(T) / sizeof(double) + 1]));
   T* const to = static_cast<T*>(static_cast<void*>(copies_->back().get()));
   if constexpr (std::is_arithmetic_v<T>)
-    asNumber(stored, [&]<class Stored>(Stored) {
-      const auto* const from = static_cast<const Stored*>(static_cast<const void*>(first));
-      std::transform(from, from + count, to, [](Stored number) { return static_cast<T>(number); });
+    asNumber(stored.type, [&]<class Number>(Number) {
+      const std::span<const Number> from = stored.as<Number>();
+      std::transform(from.begin(), from.end(), to, [](Number number) { return static_cast<T>(number); });
     });
-  return {to, count};
+  return {to, stored.count};
 }
 
 template std::span<const double> ModelSource::dataset(const Dataset<double>&, Lengths&) const;
 template std::span<const float> ModelSource::dataset(const Dataset<float>&, Lengths&) const;
-template std::span<const std::int16_t> ModelSource::dataset(const Dataset<std::int16_t>&, Lengths&) const;
 template std::span<const std::int32_t> ModelSource::dataset(const Dataset<std::int32_t>&, Lengths&) const;
 template std::span<const std::int64_t> ModelSource::dataset(const Dataset<std::int64_t>&, Lengths&) const;
 template std::span<const std::uint8_t> ModelSource::dataset(const Dataset<std::uint8_t>&, Lengths&) const;

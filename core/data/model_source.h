@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/whole_numbers.h"
 #include "core/data/datasets.h"
 
 namespace palpate {
@@ -75,6 +76,8 @@ class ModelSource {
   /// A dataset where it lies in memory, or a copy where it is stored in fewer bytes. Unknown lengths are filled in.
   template <typename T>
   [[nodiscard]] std::span<const T> dataset(const Dataset<T>& what, Lengths& lengths) const;
+  /// The same of numbers that are used as they are stored, in one byte or two.
+  [[nodiscard]] WholeNumbers wholeNumbers(const Dataset<std::int16_t>& what, Lengths& lengths) const;
   /// What keeps the copies; they live as long as any copy of it.
   [[nodiscard]] std::shared_ptr<const void> copies() const { return copies_; }
 
@@ -94,9 +97,20 @@ class ModelSource {
   virtual void requireRoom(std::uint64_t bytes) const { (void)bytes; }
   [[nodiscard]] std::vector<Length*> checked(const std::string& path, const std::vector<std::uint64_t>& found,
                                              std::span<const char* const> symbols, Lengths& lengths) const;
+  /// The numbers of an array, as they are stored.
+  struct Stored {
+    NumberType type{};
+    const std::byte* first{nullptr};  // null: there are none, or nobody looks at them
+    std::size_t count{0};
+    template <typename T>
+    [[nodiscard]] std::span<const T> as() const {
+      return {static_cast<const T*>(static_cast<const void*>(first)), first == nullptr ? 0 : count};
+    }
+  };
+  [[nodiscard]] Stored stored(const std::string& path, NumberType wanted,
+                              std::span<const char* const> symbols, Lengths& lengths) const;
   template <typename T>
-  [[nodiscard]] std::span<const T> widened(NumberType stored, const std::byte* first,
-                                           std::size_t count) const;
+  [[nodiscard]] std::span<const T> widened(const Stored& stored) const;
 
   std::string name_;
   using Copies = std::vector<std::unique_ptr<double[]>>;  // aligned for any number

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/base/multi_index.h"
+#include "core/base/whole_numbers.h"
 #include "core/data/datasets.h"
 
 namespace palpate {
@@ -92,24 +93,24 @@ struct ModelView {
   std::span<const double> contact_series_radius;  ///< [M] of a "displacement" model: r_max, m, at least d_max
   std::span<const double> levels_Z;               ///< [C][L+1] at t = 0, 1/L .. 1; "level" only
   std::size_t level_functions{0};                 ///< C of a "level" model, else 0
-  std::span<const std::int16_t> modes_X;          ///< [n][Ns][3] dimensionless, over their scale
+  WholeNumbers modes_X;                           ///< [Ns][3][n] dimensionless, over the mode's scale
   std::span<const float> modes_X_scale;           ///< [n]
-  std::span<const std::int16_t> modes_Y;          ///< [M][C][nY] scaled, over their scale
+  WholeNumbers modes_Y;                           ///< [M][C][nY] scaled, over their scale
   std::span<const float> modes_Y_scale;           ///< [M][C] m
   std::span<const std::int64_t> near_offset;      ///< [M+1] prefix sums of the near nodes' counts
   std::span<const std::int32_t> near_node;        ///< [sum K] surface nodes
-  std::span<const std::int16_t> near_field;       ///< per position [C][K_m][3], windowed, over their scale
+  WholeNumbers near_field;                        ///< per position [C][K_m][3], windowed, over their scale
   std::span<const float> near_scale;              ///< [M][C] m
   std::span<const std::int32_t> green_node;       ///< [G] surface nodes that carry load; "displacement" only
-  std::span<const std::int16_t> green_Y;          ///< [G][3][n] amplitudes by load, over their scale
+  WholeNumbers green_Y;                           ///< [G][3][n] amplitudes by load, over their scale
   std::span<const float> green_Y_scale;           ///< [G][3] m/N
   std::span<const std::int64_t> green_offset;     ///< [G+1] prefix sums of the near nodes' counts
   std::span<const std::int32_t> green_near_node;  ///< [sum K] surface nodes
-  std::span<const std::int16_t> green_near;       ///< per node [3][K][3], windowed, over their scale
+  WholeNumbers green_near;                        ///< [sum K][3 loads][3], windowed, over the load's scale
   std::span<const float> green_near_scale;        ///< [G][3] m/N
   std::span<const std::int64_t> edge_offset;      ///< [E+1] prefix sums of the near nodes' counts, or empty
   std::span<const std::int32_t> edge_node;        ///< [sum K] surface nodes
-  std::span<const std::int16_t> edge_field;       ///< per edge [Ce][K][3], over their scale
+  WholeNumbers edge_field;                        ///< per edge [Ce][K][3], over their scale
   std::span<const float> edge_scale;              ///< [E][Ce] m
   std::span<const double> mesh_nodes;             ///< [N][3] m
   std::span<const std::int32_t> mesh_tetrahedra;  ///< [V][4]

@@ -26,6 +26,9 @@ struct Digest {
 /// Computes a Digest piece by piece, by OpenSSL. @throw std::runtime_error  OpenSSL refuses
 class Sha256 {
  public:
+  /// Fewer bytes may be gone after add(); more have to stay until the digest is known, since a page hashes them later.
+  static constexpr std::size_t kCopied = 4096;
+
   Sha256();
   void add(std::span<const std::byte> bytes);
   /// Once, at the end.

@@ -27,6 +27,8 @@ class FieldThere {
     for (std::size_t k = 0; k < 3; ++k)
       if (nodes_.weight[k] > 0.0)
         parts_.modes.addNode(nodes_.node[k], static_cast<float>(nodes_.weight[k]), X_);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      parts_.modes.weigh(std::span(X_).subspan(axis * modes_, modes_));
     PatchStiffness::Value stiffness;
     parts_.stiffness.at(parts_.surface, s, stiffness);
     const Mat3 linear = compliance(s) * (parts_.reference * stiffness.K);

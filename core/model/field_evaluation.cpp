@@ -63,6 +63,7 @@ void sumAt(const MetaModel& model, std::span<const FieldSource> sources, FieldSc
       }
     });
   }
+  model.farField().weigh(scratch.amplitudes);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].triangle < 0) continue;
     const NodeMix nodes = model.surface().nodesAt(points[i]);
@@ -75,10 +76,10 @@ void sumAt(const MetaModel& model, std::span<const FieldSource> sources, FieldSc
 
 FieldScratch::FieldScratch(const MetaModel& model)
     : amplitudes(static_cast<std::size_t>(model.farField().modes())),
-      near_block(std::max(
-          {model.nearField().blockSize(), model.edgeField().blockSize(), model.linearField().blockSize()})),
+      near_block(std::max(model.nearField().blockSize(), model.edgeField().blockSize())),
       patch(model.patches().room()),
-      loads(model.linearField().room(patch.node.size())) {}
+      loads(model.linearField().room(patch.node.size())),
+      unit_near(LinearField::unitNear(static_cast<std::size_t>(model.surface().nodes()), loads)) {}
 
 Vec3 fieldFunctions(const MetaModel& model, const Vec3& parameter, double limit,
                     std::span<double> values) noexcept PALPATE_NONBLOCKING {
@@ -129,6 +130,7 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
     model.linearField().addAmplitudes(scratch.loads, source.gain * loadOf(model, source.s, at.parameter),
                                       scratch.amplitudes);
   }
+  model.farField().weigh(scratch.amplitudes);
   model.farField().expand(scratch.amplitudes, u);
   for (const FieldSource& source : sources) {
     if (!answer(model, source, values, at)) continue;
@@ -141,7 +143,7 @@ void evaluateField(const MetaModel& model, std::span<const FieldSource> sources,
     model.patches().at(source.s, false, scratch.patch);
     model.linearField().find(scratch.patch, scratch.loads);
     model.linearField().addNear(scratch.loads, source.gain * loadOf(model, source.s, at.parameter),
-                                scratch.near_block, u);
+                                scratch.unit_near, u);
   }
 }
 

@@ -33,9 +33,10 @@ void fieldGradients(const MetaModel& model, const Vec3& d, double limit,
 struct FieldScratch {
   explicit FieldScratch(const MetaModel& model);
   std::vector<float> amplitudes;  ///< [n] y, m
-  std::vector<float> near_block;  ///< the largest of the near fields
+  std::vector<float> near_block;  ///< the largest of positions and edges
   PatchNodes patch;               ///< of the tool that is being evaluated
   PatchSources loads;             ///< of its patch
+  UnitNear unit_near;             ///< near fields of these loads
 };
 
 /// One tool's part in a field.

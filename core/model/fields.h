@@ -17,8 +17,7 @@ namespace palpate {
 class Amplitudes {
  public:
   /// @param Y  [sources][rows][modes], of the first modes  @param scale  [sources][rows]
-  Amplitudes(std::span<const std::int16_t> Y, std::span<const float> scale, std::size_t rows,
-             std::size_t modes)
+  Amplitudes(const WholeNumbers& Y, std::span<const float> scale, std::size_t rows, std::size_t modes)
       : Y_(Y), scale_(scale), rows_(rows), modes_(modes) {}
 
   /// y += factor * sum_r weight[r] * row r. @param weight  [rows]  @param y  [n], at least `modes`. Real-time: yes.
@@ -34,50 +33,63 @@ class Amplitudes {
                    std::span<float> y) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  std::span<const std::int16_t> Y_;
+  WholeNumbers Y_;
   std::span<const float> scale_;
   std::size_t rows_, modes_;
 };
 
 /// The modes, u(X) = sum_k X_k(X) y_k, m (docs/design.md, Reproduction, Parts). Linear in y: the y of several tools add up
-/// before the one product with X. Borrows the model's arrays.
+/// before the one product with X. Modes are whole numbers over a scale each, node by node, so that one node's numbers lie
+/// together; what they are multiplied with has the scales in it (weigh()). Borrows the model's arrays.
 class SeparatedField {
  public:
   explicit SeparatedField(const ModelView& view);
 
-  [[nodiscard]] int modes() const noexcept { return modes_; }
-  /// u = X^T y, m. @param u  [Ns][3]. Cost O(n Ns). Real-time: yes.
+  [[nodiscard]] int modes() const noexcept { return static_cast<int>(scale_.size()); }
+  /// y_k *= scale_k. @param y  [n]. Real-time: yes.
+  void weigh(std::span<float> y) const noexcept PALPATE_NONBLOCKING;
+  /// u = X y, m. @param y  weigh()ed  @param u  [Ns][3]. Cost O(n Ns). Real-time: yes.
   void expand(std::span<const float> y, std::span<float> u) const noexcept PALPATE_NONBLOCKING;
-  /// u of one surface node, m, as expand() gives it but for rounding. Cost O(n). Real-time: yes.
+  /// u of one surface node, m, as expand() gives it. @param y  weigh()ed. Cost O(n). Real-time: yes.
   [[nodiscard]] Vec3 at(std::span<const float> y, int node) const noexcept PALPATE_NONBLOCKING;
-  /// x += weight X(node). @param x  [3][n]. Cost O(n).
+  /// x += weight X(node), without the scales. @param x  [3][n]. Cost O(n).
   void addNode(int node, float weight, std::span<float> x) const noexcept;
   /// kTogether sums over nodes at once: x[c] = sum_j weight[j][c] X(node[j]). @param x  [kTogether][3][n]. Real-time: yes.
   void average(std::span<const std::int32_t> node, std::span<const float> weight,
                std::span<float> x) const noexcept PALPATE_NONBLOCKING;
 
  private:
-  std::span<const std::int16_t> X_;
-  std::span<const float> X_scale_;
-  int modes_;
-  std::vector<float> by_node_;  // [Ns][3][n] X, so that one node's numbers lie together
+  WholeNumbers X_;                // [Ns][3][n]
+  std::span<const float> scale_;  // [n]
 };
 
 /// Where nodes are, m. @param positions  [nodes of the surface][3] m
 [[nodiscard]] std::vector<Vec3> pointsOf(std::span<const double> positions,
                                          std::span<const std::int32_t> nodes);
 
+/// Surface nodes near something, for each source. Borrows.
+struct NearNodes {
+  std::span<const std::int64_t> offset;  ///< [sources + 1]
+  std::span<const std::int32_t> node;    ///< [sum K], ascending for each source
+
+  /// Of one source. Real-time: yes.
+  [[nodiscard]] std::span<const std::int32_t> of(std::int32_t source) const noexcept PALPATE_NONBLOCKING;
+  /// Which of all it is; -1 where the source has it not. Cost O(log K). Real-time: yes.
+  [[nodiscard]] std::ptrdiff_t find(std::int32_t source,
+                                    std::int32_t wanted) const noexcept PALPATE_NONBLOCKING;
+  /// The most that a source has.
+  [[nodiscard]] std::size_t most() const noexcept;
+  /// The farthest of them from their source, m. @param source  [sources] m  @param positions  [Ns][3]
+  [[nodiscard]] double reach(std::span<const Vec3> source, std::span<const double> positions) const;
+};
+
 /// A near field: what the modes miss close to each source, already windowed to zero at the near radius (docs/design.md, Parts).
 /// Borrows.
 class NearField {
  public:
-  struct Arrays {
-    std::span<const std::int64_t> offset;  ///< [sources + 1]
-    std::span<const std::int32_t> node;    ///< [sum K], ascending for each source
-    std::span<const std::int16_t> field;   ///< per source [rows][K][3]
-    std::span<const float> scale;          ///< [sources][rows]
-  };
-  NearField(const Arrays& arrays, std::size_t rows);
+  /// @param field  per source [rows][K][3]  @param scale  [sources][rows]
+  NearField(const NearNodes& nodes, const WholeNumbers& field, std::span<const float> scale, std::size_t rows)
+      : nodes_(nodes), field_(field), scale_(scale), rows_(rows), block_size_(3 * nodes.most()) {}
 
   /// The near block of one source; borrowed from the model and the scratch.
   struct Block {
@@ -86,7 +98,9 @@ class NearField {
   };
 
   /// Surface nodes that a source's block moves. Real-time: yes.
-  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t source) const noexcept PALPATE_NONBLOCKING;
+  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t source) const noexcept PALPATE_NONBLOCKING {
+    return nodes_.of(source);
+  }
   /// Numbers of scratch for a block: 3 * the largest K.
   [[nodiscard]] std::size_t blockSize() const noexcept { return block_size_; }
   /// factor * sum_r weight[r] * row r. @param weight  [rows]
@@ -98,9 +112,6 @@ class NearField {
                         std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   /// The same of one row by itself. Cost O(log K).
   [[nodiscard]] Vec3 rowAt(std::int32_t source, std::size_t row, std::int32_t node) const noexcept;
-  /// Of three rows, column r: u += factor * row r at one node. Cost O(log K). Real-time: yes.
-  void addRows(std::int32_t source, double factor, std::int32_t node,
-               Mat3& u) const noexcept PALPATE_NONBLOCKING;
   /// u += a block. @param scratch  blockSize(), @param u  [Ns][3]. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;
@@ -108,17 +119,21 @@ class NearField {
   /// @param u  [kTogether][K][3], and a number behind that is set to zero; may be longer. Real-time: yes.
   void findTogether(std::int32_t source, std::span<const float> weight,
                     std::span<float> u) const noexcept PALPATE_NONBLOCKING;
-  /// The farthest of a block's nodes from its source, over all blocks, m. @param source  [sources] m  @param positions  [Ns][3]
-  [[nodiscard]] double reach(std::span<const Vec3> source, std::span<const double> positions) const;
+  /// NearNodes::reach().
+  [[nodiscard]] double reach(std::span<const Vec3> source, std::span<const double> positions) const {
+    return nodes_.reach(source, positions);
+  }
 
  private:
-  /// Where a source's block has the node, or -1.
-  [[nodiscard]] std::ptrdiff_t find(std::int32_t source,
-                                    std::int32_t node) const noexcept PALPATE_NONBLOCKING;
+  /// Where the first row of a node's numbers is in field_, of a source that has the node as number `place` of all.
+  [[nodiscard]] std::size_t numbersOf(std::int32_t source,
+                                      std::ptrdiff_t place) const noexcept PALPATE_NONBLOCKING;
 
-  Arrays arrays_;
+  NearNodes nodes_;
+  WholeNumbers field_;
+  std::span<const float> scale_;
   std::size_t rows_;
-  std::size_t block_size_{0};
+  std::size_t block_size_;
 };
 
 }  // namespace palpate

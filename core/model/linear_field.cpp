@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/base/index.h"
-#include "core/base/prefetch.h"
+#include "core/base/whole_kernels.h"
 
 namespace palpate {
 
@@ -23,31 +23,15 @@ Loads loadOf(const PatchSources& from, std::size_t i, const Vec3& f) noexcept PA
 
 constexpr std::array<std::int32_t, 2> kNone{-1, -1};
 
-/// Vectors of four numbers, by node and load in place of load and node; four more numbers, as addVectors() asks for.
-std::vector<std::int16_t> nearByNode(const ModelView& view) {
-  std::vector<std::int16_t> out(kThreeVectors * view.green_near_node.size() + 4);
-  for (std::size_t g = 0; g < view.green_node.size(); ++g) {
-    const std::size_t first = index(view.green_offset[g]), count = index(view.green_offset[g + 1]) - first;
-    for (std::size_t load = 0; load < kLoads; ++load)
-      for (std::size_t i = 0; i < count; ++i)
-        std::copy_n(view.green_near.data() + 9 * first + 3 * (load * count + i), 3,
-                    out.data() + kThreeVectors * (first + i) + 4 * load);
-  }
-  return out;
-}
-
 }  // namespace
 
 LinearField::LinearField(const ModelView& view)
     : sources_(view.surfaceNodes(), kNone),
       greens_(view.green_node.size()),
       amplitudes_(view.green_Y, view.green_Y_scale, kLoads, view.modes()),
-      near_(
-          NearField::Arrays{view.green_offset, view.green_near_node, view.green_near, view.green_near_scale},
-          kLoads),
-      near_offset_(view.green_offset),
-      near_scale_(view.green_near_scale),
-      near_by_node_(nearByNode(view)) {
+      nodes_{view.green_offset, view.green_near_node},
+      near_(view.green_near),
+      near_scale_(view.green_near_scale) {
   for (std::size_t g = 0; g < view.green_node.size(); ++g)
     sources_[index(view.green_node[g])][0] = static_cast<std::int32_t>(g);
   for (std::size_t f = 0; view.contactTriangles() < view.triangles() && f < view.contactTriangles(); ++f)
@@ -60,7 +44,7 @@ LinearField::LinearField(const ModelView& view)
       middle = {end(1), end(2)};
       shares_loads_ = true;
     }
-  reach_ = near_.reach(pointsOf(view.surface_positions, view.green_node), view.surface_positions);
+  reach_ = nodes_.reach(pointsOf(view.surface_positions, view.green_node), view.surface_positions);
 }
 
 PatchSources LinearField::room(std::size_t nodes) const {
@@ -98,43 +82,56 @@ void LinearField::addUnitAmplitudes(const PatchSources& from,
   amplitudes_.addRows(std::span(from.source).first(from.count), from.weight.data(), y);
 }
 
-void LinearField::addNear(const PatchSources& from, const Vec3& f, std::span<float> scratch,
+void LinearField::addNear(const PatchSources& from, const Vec3& f, UnitNear& unit,
                           std::span<float> u) const noexcept PALPATE_NONBLOCKING {
-  for (std::size_t i = 0; i < from.count; ++i) near_.add(from.source[i], loadOf(from, i, f), 1.0, scratch, u);
+  findUnitNear(from, unit);
+  const Eigen::Vector3f load = f.cast<float>();
+  for (const std::int32_t node : unit.sum.reached())
+    Eigen::Map<Eigen::Vector3f>(u.data() + 3 * index(node)) += unit.sum.matrixAt(node) * load;
 }
 
 Mat3 LinearField::nearAt(const PatchSources& from, std::int32_t node) const noexcept PALPATE_NONBLOCKING {
   Mat3 u = Mat3::Zero();
-  for (std::size_t i = 0; i < from.count; ++i) near_.addRows(from.source[i], from.weight[i], node, u);
+  for (std::size_t i = 0; i < from.count; ++i) {
+    const std::ptrdiff_t place = nodes_.find(from.source[i], node);
+    if (place < 0) continue;
+    const std::size_t first = kMatrixNumbers * index(place);
+    for (std::size_t load = 0; load < kLoads; ++load) {
+      const double weight = from.weight[i] * double(near_scale_[kLoads * index(from.source[i]) + load]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        u(Eigen::Index(axis), Eigen::Index(load)) += weight * near_[first + 3 * load + axis];
+    }
+  }
   return u;
 }
 
-void LinearField::findUnitNear(const PatchSources& from, ReachedSources& reached,
-                               NodeSum& u) const noexcept PALPATE_NONBLOCKING {
+UnitNear LinearField::unitNear(std::size_t nodes, const PatchSources& sources) {
+  return {NodeSum(nodes), 0, std::vector<std::int32_t>(sources.source.size())};
+}
+
+void LinearField::findUnitNear(const PatchSources& from, UnitNear& unit) const noexcept PALPATE_NONBLOCKING {
   const std::span<const std::int32_t> sources = std::span(from.source).first(from.count);
-  const std::span<const std::int32_t> known = std::span(reached.source).first(reached.count);
+  const std::span<const std::int32_t> known = std::span(unit.source).first(unit.count);
   if (std::equal(sources.begin(), sources.end(), known.begin(), known.end())) {
-    u.zero();
+    unit.sum.zero();
   } else {
-    u.clear();
-    for (const std::int32_t source : sources) u.reach(near_.nodes(source));
-    std::copy(sources.begin(), sources.end(), reached.source.begin());
-    reached.count = sources.size();
+    unit.sum.clear();
+    for (const std::int32_t source : sources) unit.sum.reach(nodes_.of(source));
+    std::copy(sources.begin(), sources.end(), unit.source.begin());
+    unit.count = sources.size();
   }
-  const auto vectorsOf = [&](std::size_t i) noexcept PALPATE_NONBLOCKING {
-    return near_by_node_.data() + kThreeVectors * index(near_offset_[index(from.source[i])]);
+  const auto matricesOf = [&](std::size_t i) noexcept PALPATE_NONBLOCKING {
+    return near_.from(kMatrixNumbers * index(nodes_.offset[index(from.source[i])]));
   };
   for (std::size_t i = 0; i < from.count; ++i) {
     if (i + 1 < from.count)  // which lies elsewhere
-      prefetch(vectorsOf(i + 1),
-               kThreeVectors * sizeof(std::int16_t) * near_.nodes(from.source[i + 1]).size());
-    const std::size_t g = index(from.source[i]);
+      matricesOf(i + 1).expect(kMatrixNumbers * nodes_.of(from.source[i + 1]).size());
     std::array<float, kNodeFloats> weight{};
     for (std::size_t load = 0; load < kLoads; ++load)
-      std::fill_n(weight.data() + 4 * load, 3,
-                  static_cast<float>(from.weight[i]) * near_scale_[kLoads * g + load]);
-    const std::span<const std::int32_t> nodes = near_.nodes(from.source[i]);
-    addVectors(vectorsOf(i), nodes.data(), nodes.size(), weight, u.data());
+      std::fill_n(weight.data() + 3 * load, 3,
+                  static_cast<float>(from.weight[i]) * near_scale_[kLoads * index(from.source[i]) + load]);
+    const std::span<const std::int32_t> nodes = nodes_.of(from.source[i]);
+    addMatrices(matricesOf(i), nodes.data(), nodes.size(), weight, unit.sum.data());
   }
 }
 

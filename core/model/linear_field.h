@@ -25,9 +25,15 @@ struct PatchSources {
       place;  ///< [G] of a Green's function, by which it is found again; -1 between uses
 };
 
-/// The first `count` Green's functions whose nodes a sum reaches.
-struct ReachedSources {
-  std::size_t count{0};
+/// Near fields of unit loads on a patch, added up: by node a matrix, column by load. Its memory is made once.
+struct UnitNear {
+  /// What they move a node by, m/N. Real-time: yes.
+  [[nodiscard]] Mat3 at(std::int32_t node) const noexcept PALPATE_NONBLOCKING {
+    return sum.matrixAt(node).cast<double>();
+  }
+
+  NodeSum sum;                       ///< m/N
+  std::size_t count{0};              ///< of the Green's functions whose nodes it reaches, the first of
   std::vector<std::int32_t> source;  ///< with room for those of any patch
 };
 
@@ -53,13 +59,13 @@ class LinearField {
                      std::span<float> y) const noexcept PALPATE_NONBLOCKING;
   /// Of unit loads: y += sum_i w_i Z_i. @param y  [3 loads][n]. Cost O(k n). Real-time: yes.
   void addUnitAmplitudes(const PatchSources& from, std::span<float> y) const noexcept PALPATE_NONBLOCKING;
-  /// u += sum_i w_i N_i f. @param scratch  blockSize()  @param u  [Ns][3]. Real-time: yes.
-  void addNear(const PatchSources& from, const Vec3& f, std::span<float> scratch,
+  /// u += sum_i w_i N_i f. @param unit  overwritten  @param u  [Ns][3]. Cost O(k K). Real-time: yes.
+  void addNear(const PatchSources& from, const Vec3& f, UnitNear& unit,
                std::span<float> u) const noexcept PALPATE_NONBLOCKING;
-  [[nodiscard]] std::size_t blockSize() const noexcept { return near_.blockSize(); }
-  /// Of unit loads: u = sum_i w_i N_i, vector by load. @param reached  of u. Cost O(k K). Real-time: yes.
-  void findUnitNear(const PatchSources& from, ReachedSources& reached,
-                    NodeSum& u) const noexcept PALPATE_NONBLOCKING;
+  /// Of unit loads: sum_i w_i N_i. Cost O(k K). Real-time: yes.
+  void findUnitNear(const PatchSources& from, UnitNear& unit) const noexcept PALPATE_NONBLOCKING;
+  /// Room for those of any patch. @param nodes  of the surface  @param sources  room()'s. Not real-time.
+  [[nodiscard]] static UnitNear unitNear(std::size_t nodes, const PatchSources& sources);
   /// What the near fields of unit loads on a patch move one node by, column by load, m/N. Cost O(k log K). Real-time: yes.
   [[nodiscard]] Mat3 nearAt(const PatchSources& from, std::int32_t node) const noexcept PALPATE_NONBLOCKING;
   /// The farthest that a near field reaches from its node, m.
@@ -67,13 +73,12 @@ class LinearField {
 
  private:
   std::vector<std::array<std::int32_t, 2>>
-      sources_;            // [Ns] a node's Green's function, or those of an edge's ends, or -1
-  std::size_t greens_;     // G
-  Amplitudes amplitudes_;  // [G][3][n] Z, m/N
-  NearField near_;         // [G], of 3 loads
-  std::span<const std::int64_t> near_offset_;  // [G + 1]
-  std::span<const float> near_scale_;          // [G][3]
-  std::vector<std::int16_t> near_by_node_;  // [sum K][kThreeVectors], so that one node's numbers lie together
+      sources_;                        // [Ns] a node's Green's function, or those of an edge's ends, or -1
+  std::size_t greens_;                 // G
+  Amplitudes amplitudes_;              // [G][3][n] Z, m/N
+  NearNodes nodes_;                    // [G]
+  WholeNumbers near_;                  // [sum K][3 loads][3]
+  std::span<const float> near_scale_;  // [G][3]
   double reach_{0.0};
   bool shares_loads_{false};
 };

@@ -16,22 +16,22 @@ namespace palpate {
 
 namespace {
 
-/// At most about what the model's tables take beside the copy: modes node by node, what is near the nodes that patches are
+/// At most about what the model's tables take beside the copy: what is near the nodes that patches are
 /// centred at, the stiffness of patches over triangles, the contact's answer in rows, dimples, and the refined surface with
 /// its search tree; and what the server makes of regions.
 std::uint64_t bytesOfTables(const ModelView& v) {
   constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have
   constexpr std::uint64_t kPerNode =
       2200;  // of a surface that has more after one refinement, while it is made
-  constexpr std::uint64_t kPerEntry = 2 * 16;  // of a patch, twice as its list grows
+  constexpr std::uint64_t kPerEntry = 2 * 8;  // of a patch, twice as its list grows
   const std::uint64_t entries =
       std::min<std::uint64_t>(ContactPatches::kMostTogether,
                               v.surfaceNodes() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));
   // Six places a triangle are seen from it, twice as the lists are made; each place, four a node, has a dimple of degree one.
   const std::uint64_t places = 2 * 6 * v.triangles() * sizeof(SmoothPlaces::View) +
                                4 * v.surfaceNodes() * sizeof(Eigen::Matrix3f) + 3 * v.edge_scale.size_bytes();
-  return places + 2 * v.modes_X.size_bytes() + v.triangles() * sizeof(SmoothCubic<6>) +
-         v.contact_stiffness.size_bytes() + v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
+  return places + v.triangles() * sizeof(SmoothCubic<6>) + v.contact_stiffness.size_bytes() +
+         v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
          v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries +
          kRegionSurfaceBytes * v.mesh_element_region.size();
 }

@@ -167,11 +167,11 @@ MetaModel::MetaModel(ModelImage image, ModelContents contents, const Digest& dig
       patches_(patchesOf(view_, attributes_)),
       far_field_(view_),
       amplitudes_(view_.modes_Y, view_.modes_Y_scale, modeRows(view_), view_.positionModes()),
-      near_field_({view_.near_offset, view_.near_node, view_.near_field, view_.near_scale}, modeRows(view_)),
+      near_field_({view_.near_offset, view_.near_node}, view_.near_field, view_.near_scale, modeRows(view_)),
       near_reach_(
           near_field_.reach(pointsOf(view_.surface_positions, view_.contact_node), view_.surface_positions)),
       edge_coefficients_(edgeRows(view_)),
-      edge_field_({view_.edge_offset, view_.edge_node, view_.edge_field, view_.edge_scale},
+      edge_field_({view_.edge_offset, view_.edge_node}, view_.edge_field, view_.edge_scale,
                   edge_coefficients_),
       edge_reach_(edge_field_.reach(edgeMidpoints(surface_, places_, view_), view_.surface_positions)),
       linear_field_(view_) {

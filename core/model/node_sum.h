@@ -13,8 +13,8 @@
 
 namespace palpate {
 
-/// Near fields of several sources added up: kTogether vectors for each node, zero at most nodes. Its memory is made once, so that
-/// a tick can fill it.
+/// Near fields of several sources added up: kTogether vectors or one matrix for each node, zero at most nodes. Its memory is
+/// made once, so that a tick can fill it.
 class NodeSum {
  public:
   using Vectors = Eigen::Matrix<double, 3, kTogether>;
@@ -33,6 +33,14 @@ class NodeSum {
   [[nodiscard]] const float* data() const noexcept { return u_.data()->number.data(); }
   [[nodiscard]] Vectors at(std::int32_t node) const noexcept PALPATE_NONBLOCKING {
     return vectorsOf(u_[index(node)].number.data());
+  }
+  /// The matrix of a node, where these are added up.
+  [[nodiscard]] Eigen::Matrix3f matrixAt(std::int32_t node) const noexcept PALPATE_NONBLOCKING {
+    return Eigen::Map<const Eigen::Matrix3f>(u_[index(node)].number.data());
+  }
+  /// Nodes that were reached, each once.
+  [[nodiscard]] std::span<const std::int32_t> reached() const noexcept PALPATE_NONBLOCKING {
+    return std::span(reached_).first(count_);
   }
   /// @param from  [kNodeFloats]
   [[nodiscard]] static Vectors vectorsOf(const float* from) noexcept PALPATE_NONBLOCKING {

@@ -112,9 +112,9 @@ PatchMotion TouchField::on(const MetaModel& model, TouchPatch& from,
   if (!model.isDisplacementDriven() || apart > 2.0 * model.reachOfPatches() + model.linearField().reach())
     return motion;
   from.findNear(model);
-  to.average(from.near(), near.data());
+  to.average(from.near().sum, near.data());
   for (std::size_t k = 0; k < motion.by.size(); ++k) {
-    const Mat3 unit = NodeSum::vectorsOf(near.data() + kNodeFloats * k).leftCols<3>();
+    const Mat3 unit = Eigen::Map<const Eigen::Matrix3f>(near.data() + kNodeFloats * k).cast<double>();
     for (std::size_t c = 0; c < kTogether; ++c) motion.by[k].col(Eigen::Index(c)) += unit * load_[c];
   }
   return motion;
@@ -125,6 +125,7 @@ Vec3 TouchField::at(const MetaModel& model, TouchPatch& from, const Vec3& y, con
   std::copy_n(y_.begin(), modes_, scratch.begin());
   for (std::size_t i = 0; i < 3; ++i)
     addScaled(y_.data() + (i + 1) * modes_, static_cast<float>(y[Eigen::Index(i)]), scratch);
+  model.farField().weigh(scratch);
   const double apart = model.surface().distanceToNodes(point.triangle, model.surface().position(s_));
   const bool bends = apart <= reach_;
   const bool loaded =
@@ -140,7 +141,7 @@ Vec3 TouchField::at(const MetaModel& model, TouchPatch& from, const Vec3& y, con
       const NodeSum::Vectors bend = near_.at(nodes.node[k]);
       there += bend.col(0) + bend.rightCols<3>() * y;
     }
-    if (loaded) there += from.near().at(nodes.node[k]).leftCols<3>() * f;
+    if (loaded) there += from.near().at(nodes.node[k]) * f;
     u += nodes.weight[k] * there;
   }
   return u;

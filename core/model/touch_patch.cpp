@@ -14,9 +14,7 @@ TouchPatch::TouchPatch(const MetaModel& model)
       modes_(index(model.farField().modes())),
       X_(3 * kWeights * modes_),
       Z_(3 * modes_),
-      near_(index(model.surface().nodes())) {
-  reached_.source.resize(sources_.source.size());
-}
+      near_(LinearField::unitNear(index(model.surface().nodes()), sources_)) {}
 
 void TouchPatch::moveTo(const MetaModel& model, const ContactPoint& s) noexcept PALPATE_NONBLOCKING {
   if (s == s_) return;
@@ -36,7 +34,7 @@ void TouchPatch::moveTo(const MetaModel& model, const ContactPoint& s) noexcept 
 void TouchPatch::findNear(const MetaModel& model) noexcept PALPATE_NONBLOCKING {
   if (near_found_) return;
   near_found_ = true;
-  model.linearField().findUnitNear(sources_, reached_, near_);
+  model.linearField().findUnitNear(sources_, near_);
 }
 
 void TouchPatch::average(const NodeSum& u, float* out) const noexcept PALPATE_NONBLOCKING {

@@ -34,14 +34,14 @@ class TouchPatch {
   [[nodiscard]] const PatchNodes& nodes() const noexcept { return nodes_; }
   /// X_k averaged, [kWeights][3][n].
   [[nodiscard]] const float* modes() const noexcept { return X_.data(); }
-  /// The nodes' vectors averaged. @param[out] out  [kWeights][kNodeFloats]. Cost O(k). Real-time: yes.
+  /// The nodes' numbers averaged. @param[out] out  [kWeights][kNodeFloats]. Cost O(k). Real-time: yes.
   void average(const NodeSum& u, float* out) const noexcept PALPATE_NONBLOCKING;
   /// sum_i w_i Z_i, [n], m/N: the amplitudes that a unit force on this patch causes, along x, y or z.
   [[nodiscard]] std::span<const float> load(std::size_t axis) const noexcept {
     return std::span(Z_).subspan(axis * modes_, modes_);
   }
-  /// sum_i w_i N_i, m/N: what these forces cause near it, vector by force. After findNear().
-  [[nodiscard]] const NodeSum& near() const noexcept { return near_; }
+  /// sum_i w_i N_i, m/N: what these forces cause near it, a matrix for each node. After findNear().
+  [[nodiscard]] const UnitNear& near() const noexcept { return near_; }
 
  private:
   ContactPoint s_;
@@ -51,9 +51,8 @@ class TouchPatch {
   std::size_t modes_;
   std::vector<float> X_;  // [kWeights][3][n]
   std::vector<float> Z_;  // [3][n]
-  NodeSum near_;
+  UnitNear near_;
   bool near_found_{false};
-  ReachedSources reached_;  // of near_
 };
 
 }  // namespace palpate

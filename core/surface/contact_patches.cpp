@@ -57,13 +57,19 @@ ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::u
   }
   SurfaceFront front(graph);
   const std::vector<double> longest = longestEdges(graph);
-  for (const std::int32_t centre : centres) {
+  constexpr std::size_t kSome = 64;
+  for (std::size_t done = 0; done < centres.size(); ++done) {
+    const std::int32_t centre = centres[done];
     const std::int32_t t = graph.trianglesOf(centre).front();
     ContactPoint s{t, {}};
     for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
     const std::size_t first = near_.size();
-    for (const auto& [node, r] : front.from(s, kReach * a + longest[index(centre)]))
-      near_.push_back({node, r * r});
+    const auto& reached = front.from(s, kReach * a + longest[index(centre)]);
+    // By what centres had so far: doubled, it would take three times its size for a moment.
+    if (done >= kSome && near_.capacity() < first + reached.size())
+      near_.reserve(std::min(first + reached.size() + (first / done + 1) * (centres.size() - done),
+                             kMostTogether + kMostNodes));
+    for (const auto& [node, r] : reached) near_.push_back({node, static_cast<float>(r * r)});
     const std::size_t count = near_.size() - first;
     // A hostile file's patches would fill the memory and take all day, those over fixed nodes too.
     if (count > kMostNodes || near_.size() > kMostTogether)
@@ -117,14 +123,14 @@ void ContactPatches::at(const ContactPoint& s, bool slopes,
   double total = 0.0, sum = 0.0;
   Vec3 sum_slope = Vec3::Zero();
   for (const Near& near : list[lead]) {
-    Vec3 square = Vec3::Constant(near.square);  // r_ib^2 by corner
+    Vec3 square = Vec3::Constant(double(near.square));  // r_ib^2 by corner
     bool everywhere = true;
     for (std::size_t k = 0; k < 3; ++k) {
       if (k == lead) continue;
       while (next[k] < list[k].size() && list[k][next[k]].node < near.node) ++next[k];
       const bool has = next[k] < list[k].size() && list[k][next[k]].node == near.node;
       if (has)
-        square[Eigen::Index(k)] = list[k][next[k]].square;
+        square[Eigen::Index(k)] = double(list[k][next[k]].square);
       else if (l[k] > 0.0)
         everywhere = false;
     }

@@ -2,8 +2,6 @@
 // An organ in a page or in node: core as WebAssembly, with the bytes of a model file, which jsfive finds its way through.
 import { checkPlace, datasetsOf, opened, reading } from './model_file.mjs';
 
-const SHORT = 4096; // bytes of a text that core forgets once it was hashed
-
 /** The engine's memory and functions, with texts and arrays of numbers as arguments. */
 class Engine {
   constructor(module) {
@@ -79,7 +77,7 @@ function give(engine, hdf5, bytes, name) {
   return file.attrs.certificate ?? '';
 }
 
-/** What core wants hashed lies in its memory, or is a short text of which there is a copy: all of it in one piece. */
+/** What core wants hashed lies in its memory, or is short and copied: all of it in one piece. */
 function joined(module, parts) {
   const out = new Uint8Array(parts.reduce((sum, { size }) => sum + size, 0));
   let at = 0;
@@ -107,7 +105,7 @@ async function digestsOf(module, sha256) {
  * @throws Error  one sentence: file, dataset, found, expected
  */
 export async function makeOrgan(makeModule, settings, hdf5, bytes, name, tipRadius = 0.005) {
-  const engine = new Engine(await makeModule({ ...settings, digested: [], keepFrom: SHORT }));
+  const engine = new Engine(await makeModule({ ...settings, digested: [] }));
   const { module } = engine;
   const must = (place) => {
     const wrong = engine.text(place);

@@ -15,9 +15,9 @@ namespace {
 EM_JS(void, beginDigest, (), {
   Module.digested.push([]);
 });
-// What is short may be a text that is gone when the page looks.
-EM_JS(void, addToDigest, (const void* bytes, std::size_t size), {
-  Module.digested.at(-1).push({place: bytes, size, copy: size < Module.keepFrom ? HEAPU8.slice(bytes, bytes + size) : undefined});
+// What is short may be gone when the page looks.
+EM_JS(void, addToDigest, (const void* bytes, std::size_t size, std::size_t copied), {
+  Module.digested.at(-1).push({place: bytes, size, copy: size < copied ? HEAPU8.slice(bytes, bytes + size) : undefined});
 });
 // clang-format on
 
@@ -30,7 +30,7 @@ Sha256::Sha256() {
 }
 
 void Sha256::add(std::span<const std::byte> bytes) {
-  addToDigest(bytes.data(), bytes.size());
+  addToDigest(bytes.data(), bytes.size(), kCopied);
 }
 
 Digest Sha256::finish() {

@@ -35,5 +35,8 @@ template <typename T>
 bool sameBits(const std::vector<T>& a, std::span<const T> b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), b.size_bytes()) == 0);
 }
+inline bool sameBits(const std::vector<std::int16_t>& a, const WholeNumbers& b) {
+  return b.int8() == nullptr && sameBits(a, std::span<const std::int16_t>(b.int16(), b.size()));
+}
 
 }  // namespace palpate::testing

@@ -90,20 +90,27 @@ std::string changed(Answer answer, Source& source) {
   return text;
 }
 
+template <class T>
+std::span<const std::byte> bytesOf(std::span<const T> array) {
+  return std::as_bytes(array);
+}
+std::span<const std::byte> bytesOf(const WholeNumbers& array) {
+  return array.asBytes();
+}
+
 // Arrays lie in the file whole and apart from each other, or are copies.
 void look(const ModelContents& contents, std::span<const std::byte> file) {
   std::map<std::ptrdiff_t, std::ptrdiff_t> places;  // begin, end
-  forEachDataset(contents.attributes, contents.view,
-                 [&]<class T>(const Dataset<T>&, std::span<const T> array) {
-                   const auto bytes = std::as_bytes(array);
-                   const std::less<> before;
-                   if (bytes.empty() || before(bytes.data(), file.data()) ||
-                       !before(bytes.data(), file.data() + file.size()))
-                     return;
-                   const std::ptrdiff_t begin = bytes.data() - file.data(), size = std::ssize(bytes);
-                   require(size <= std::ssize(file) - begin, "an array lies in the file");
-                   require(places.emplace(begin, begin + size).second, "no arrays begin in one place");
-                 });
+  forEachDataset(contents.attributes, contents.view, [&](const auto&, const auto& array) {
+    const std::span<const std::byte> bytes = bytesOf(array);
+    const std::less<> before;
+    if (bytes.empty() || before(bytes.data(), file.data()) ||
+        !before(bytes.data(), file.data() + file.size()))
+      return;
+    const std::ptrdiff_t begin = bytes.data() - file.data(), size = std::ssize(bytes);
+    require(size <= std::ssize(file) - begin, "an array lies in the file");
+    require(places.emplace(begin, begin + size).second, "no arrays begin in one place");
+  });
   std::ptrdiff_t free = 0;
   for (const auto& [begin, end] : places) {
     require(free <= begin, "arrays lie apart from each other");

@@ -54,7 +54,6 @@ LengthTable lengthsOf(std::size_t kind) {
           {"G", M},
           {"G + 1", M + 1},
           {"sum Kg", M},
-          {"9 sum Kg", 9 * M},
           {"sum Ke", E},
           {"3 Ce sum Ke", 3 * (C - 3) * E},
           {"L + 1", 4},
@@ -177,7 +176,7 @@ GoodModel goodModel(std::size_t kind) {
   v.spring_node = kNode;
   v.region_name = kName;
   const LengthTable lengths = lengthsOf(kind);
-  forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, std::span<const T>) {
+  forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, const auto&) {
     GoodModel::Array& array = model.arrays[what.path];
     array.type = typeOf<T>();
     array.shape = shapeOf(what.shape, lengths);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "tools/modelfile/check_sizes.h"
 
@@ -41,6 +42,15 @@ void addAmplitudes(std::span<const float> Y, std::size_t rows, std::span<const f
   }
 }
 
+/// @param from  rows of so many numbers each
+std::vector<std::int16_t> transposed(std::span<const std::int16_t> from, std::size_t length) {
+  std::vector<std::int16_t> to(from.size());
+  const std::size_t rows = length == 0 ? 0 : from.size() / length;
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t i = 0; i < length; ++i) to[i * rows + r] = from[r * length + i];
+  return to;
+}
+
 /// X_k share_k and Y_k / share_k: a row of Y has one scale, and would round weak modes as coarsely as strong ones.
 void packModes(const ModelData& data, PackedFields& to) {
   const std::size_t n = modeCount(data), nY = positionModes(data), numbers = 3 * data.surface_mesh_tag.size();
@@ -52,6 +62,7 @@ void packModes(const ModelData& data, PackedFields& to) {
     for (std::size_t i = 0; i < numbers; ++i) mode[i] = share[k] * data.modes_X[k * numbers + i];
     to.X.add(mode);
   }
+  to.X.whole = transposed(to.X.whole, numbers);
   const std::size_t Cm = modeCoefficients(data.attributes, fieldCoefficients(data));
   addAmplitudes(data.modes_Y, data.contact_node.size() * Cm, std::span(share).first(nY), to.Y);
   addAmplitudes(data.green_Y, data.green_node.size() * kLinearCoefficients, share, to.green_Y);
@@ -76,6 +87,22 @@ void packNear(std::span<const float> near, std::span<const std::int64_t> offset,
   to.whole.resize(near.size());
 }
 
+/// Of each source [rows][K][3] as [K][rows][3].
+void sortByNode(std::span<const std::int64_t> offset, std::size_t rows, std::vector<std::int16_t>& whole) {
+  std::vector<std::int16_t> sorted(whole.size());
+  const auto nodes = static_cast<std::int64_t>(whole.size() / (3 * rows));
+  for (std::size_t g = 0; g + 1 < offset.size(); ++g) {
+    const auto first = static_cast<std::size_t>(std::clamp<std::int64_t>(offset[g], 0, nodes)),
+               end = static_cast<std::size_t>(
+                   std::clamp<std::int64_t>(offset[g + 1], std::int64_t(first), nodes));
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t i = first; i < end; ++i)
+        std::copy_n(whole.data() + 3 * (rows * first + row * (end - first) + i - first), 3,
+                    sorted.data() + 3 * (rows * i + row));
+  }
+  whole = std::move(sorted);
+}
+
 }  // namespace
 
 void PackedNumbers::add(std::span<const float> block) {
@@ -96,6 +123,7 @@ PackedFields packFields(const ModelData& data) {
   packNear(data.near_field, data.near_offset, modeCoefficients(data.attributes, fieldCoefficients(data)),
            packed.near);
   packNear(data.green_near, data.green_offset, kLinearCoefficients, packed.green_near);
+  sortByNode(data.green_offset, kLinearCoefficients, packed.green_near.whole);
   packNear(data.edge_field, data.edge_offset, edgeCoefficients(data), packed.edges);
   return packed;
 }

@@ -19,9 +19,9 @@ struct PackedNumbers {
   void add(std::span<const float> block);
 };
 
-/// The fields as the file has them (docs/model_file.md): X mode by mode, Y and the near field coefficient by
-/// coefficient of each position or edge, and the same by load of nodal Green's functions. Modes are scaled so that the largest
-/// amplitude of each is the same.
+/// The fields as the file has them (docs/model_file.md): X node by node with a scale for each mode, Y and the near field
+/// coefficient by coefficient of each position or edge, that of nodal Green's functions node by node with a scale for each load.
+/// Modes are scaled so that the largest amplitude of each is the same.
 struct PackedFields {
   PackedNumbers X, Y, near, green_Y, green_near, edges;
 };

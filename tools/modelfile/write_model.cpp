@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <limits>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "core/data/datasets.h"
@@ -18,66 +15,12 @@
 #include "tools/modelfile/check_sizes.h"
 #include "tools/modelfile/file_parts.h"
 #include "tools/modelfile/pack_fields.h"
+#include "tools/modelfile/stored_types.h"
 #include "tools/program/write_file.h"
 
 namespace palpate::modelfile {
 
 namespace {
-
-/// Types of the file, which are those in memory too: little-endian.
-Hdf5Handle copyOf(hid_t type) {
-  return {H5Tcopy(type), H5Tclose};
-}
-Hdf5Handle typeOf(double) {
-  return copyOf(H5T_IEEE_F64LE);
-}
-Hdf5Handle typeOf(float) {
-  return copyOf(H5T_IEEE_F32LE);
-}
-Hdf5Handle typeOf(std::int16_t) {
-  return copyOf(H5T_STD_I16LE);
-}
-Hdf5Handle typeOf(std::int32_t) {
-  return copyOf(H5T_STD_I32LE);
-}
-Hdf5Handle typeOf(std::int64_t) {
-  return copyOf(H5T_STD_I64LE);
-}
-Hdf5Handle typeOf(std::int8_t) {
-  return copyOf(H5T_STD_I8LE);
-}
-Hdf5Handle typeOf(std::uint8_t) {
-  return copyOf(H5T_STD_U8LE);
-}
-Hdf5Handle typeOf(const RegionName&) {
-  Hdf5Handle text = copyOf(H5T_C_S1);
-  H5Tset_size(text.get(), sizeof(RegionName));
-  H5Tset_strpad(text.get(), H5T_STR_NULLPAD);
-  return text;
-}
-
-/// Whether numbers stay what they are in another type.
-template <typename Narrow, typename T>
-bool fit(std::span<const T> values) {
-  return std::all_of(values.begin(), values.end(), [](T number) {
-    return number >= static_cast<T>(std::numeric_limits<Narrow>::lowest()) &&
-           number <= static_cast<T>(std::numeric_limits<Narrow>::max()) &&
-           static_cast<T>(static_cast<Narrow>(number)) == number;
-  });
-}
-
-/// Calls with(a number of the type that an array is stored in): of fewest bytes, where data are compact.
-template <typename T, class With>
-auto asStored(std::span<const T> values, bool compact, const With& with) {
-  if constexpr (std::is_same_v<T, double>) {
-    if (compact && fit<float>(values)) return with(float{});
-  } else if constexpr (std::is_integral_v<T> && sizeof(T) > 1) {
-    if (compact && fit<std::int8_t>(values)) return with(std::int8_t{});
-    if (compact && sizeof(T) > 2 && fit<std::int16_t>(values)) return with(std::int16_t{});
-    if (compact && sizeof(T) > 4 && fit<std::int32_t>(values)) return with(std::int32_t{});
-  }
-  return with(T{});
-}
 
 /// Creates the temporary file.
 Hdf5Handle createFile(const std::string& path) {
@@ -107,8 +50,8 @@ void makeGroups(const Hdf5Handle& file, const ModelAttributes& attributes, const
   if (!view.spring_node.empty()) makeGroup(file, groupOf(dataset::kSpringNode.path));
 }
 
-template <typename T>
-void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, std::span<const T> values,
+template <typename T, class Numbers>
+void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, const Numbers& values,
                   const LengthTable& lengths, bool compact) {
   const char* const name = what.path;
   const std::vector<std::uint64_t> numbers = shapeOf(what.shape, lengths);
@@ -119,14 +62,14 @@ void writeDataset(const Hdf5Handle& file, const Dataset<T>& what, std::span<cons
   H5Pset_layout(creation.get(), H5D_CONTIGUOUS);
   H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(creation.get(), H5D_FILL_TIME_NEVER);  // every number is written below
-  const Hdf5Handle type = typeOf(T{}),
+  const Hdf5Handle type = typeInMemory(values),
                    stored = asStored(values, compact, [](const auto&number) { return typeOf(number); });
   const Hdf5Handle dataset(
       H5Dcreate2(file.get(), name, stored.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
       H5Dclose);
   require(dataset.valid(), name);
   if (values.empty()) return;
-  require(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
+  require(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, placeOf(values)) >= 0, name);
 }
 
 template <typename T>
@@ -162,7 +105,7 @@ struct AttributeWriter {
 void writeContent(const Hdf5Handle& file, const ModelAttributes& a, const ModelView& v, bool compact) {
   const LengthTable lengths = lengthsOf(a, v);
   forEachAttribute(a, AttributeWriter{file});
-  forEachDataset(a, v, [&]<class T>(const Dataset<T>& what, std::span<const T> values) {
+  forEachDataset(a, v, [&](const auto& what, const auto& values) {
     writeDataset(file, what, values, lengths, compact);
   });
   const std::string digest = contentDigest(a, v).hex();
@@ -188,24 +131,24 @@ ModelView viewOf(const ModelData& d, const PackedFields& fields) {
   v.contact_series_radius = d.contact_series_radius;
   v.levels_Z = d.levels_Z;
   if (d.attributes.parameters == Parameters::kLevel) v.level_functions = fieldCoefficients(d);
-  v.modes_X = fields.X.whole;
+  v.modes_X = std::span<const std::int16_t>(fields.X.whole);
   v.modes_X_scale = fields.X.scale;
-  v.modes_Y = fields.Y.whole;
+  v.modes_Y = std::span<const std::int16_t>(fields.Y.whole);
   v.modes_Y_scale = fields.Y.scale;
   v.near_offset = d.near_offset;
   v.near_node = d.near_node;
-  v.near_field = fields.near.whole;
+  v.near_field = std::span<const std::int16_t>(fields.near.whole);
   v.near_scale = fields.near.scale;
   v.green_node = d.green_node;
-  v.green_Y = fields.green_Y.whole;
+  v.green_Y = std::span<const std::int16_t>(fields.green_Y.whole);
   v.green_Y_scale = fields.green_Y.scale;
   v.green_offset = d.green_offset;
   v.green_near_node = d.green_near_node;
-  v.green_near = fields.green_near.whole;
+  v.green_near = std::span<const std::int16_t>(fields.green_near.whole);
   v.green_near_scale = fields.green_near.scale;
   v.edge_offset = d.edge_offset;
   v.edge_node = d.edge_node;
-  v.edge_field = fields.edges.whole;
+  v.edge_field = std::span<const std::int16_t>(fields.edges.whole);
   v.edge_scale = fields.edges.scale;
   v.mesh_nodes = d.mesh_nodes;
   v.mesh_tetrahedra = d.mesh_tetrahedra;
@@ -231,7 +174,7 @@ std::uint64_t storedBytes(const ModelData& data) {
   const ModelView view = viewOf(data, fields);
   constexpr std::uint64_t kFile = 20000, kDataset = 512;  // of HDF5's own
   std::uint64_t bytes = kFile + data.attributes.provenance.size();
-  forEachDataset(data.attributes, view, [&]<class T>(const Dataset<T>&, std::span<const T> values) {
+  forEachDataset(data.attributes, view, [&](const auto&, const auto& values) {
     const std::uint64_t size = values.size() * asStored(values, data.compact, [](const auto& number) {
                                  return std::uint64_t{sizeof number};
                                });
@@ -249,9 +192,7 @@ void writeModel(const std::filesystem::path& path, const ModelData& data) {
 }
 
 bool isCompact(const ModelView& view) {
-  constexpr std::int16_t kMost = 127;
-  return std::all_of(view.modes_X.begin(), view.modes_X.end(),
-                     [](std::int16_t whole) { return std::abs(whole) <= kMost; });
+  return view.modes_X.int8() != nullptr;
 }
 
 void writeModelTo(const std::filesystem::path& path, const ModelAttributes& attributes, const ModelView& view,

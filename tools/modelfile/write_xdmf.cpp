@@ -23,17 +23,17 @@ std::string dataItem(const std::string& file, const Dataset<T>& dataset, const s
          "\">" + file + ":" + dataset.name() + "</DataItem>";
 }
 
-/// Mode k is row k of /modes/X, read as one vector for each surface node: whole numbers, their scale beside them.
+/// Mode k is column k of /modes/X, read as one vector for each surface node: whole numbers, their scale beside them.
 std::string mode(const std::string& file, std::size_t k, const ModelView& v) {
   const std::size_t modes = v.modes(), nodes = v.surfaceNodes();
-  const std::string row = std::to_string(3 * nodes);
+  const std::string rows = std::to_string(3 * nodes);
   std::ostringstream out;
   out << "      <Attribute Name=\"mode " << k << "\" AttributeType=\"Vector\" Center=\"Node\">\n"
       << "        <Information Name=\"scale\" Value=\"" << v.modes_X_scale[k] << "\"/>\n"
       << "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"" << nodes << " 3\">\n"
-      << "          <DataItem Format=\"XML\" Dimensions=\"3 2\">" << k << " 0  1 1  1 " << row
-      << "</DataItem>\n"
-      << "          " << dataItem(file, dataset::kModesX, std::to_string(modes) + " " + row) << "\n"
+      << "          <DataItem Format=\"XML\" Dimensions=\"3 2\">"
+      << "0 " << k << "  1 1  " << rows << " 1</DataItem>\n"
+      << "          " << dataItem(file, dataset::kModesX, rows + " " + std::to_string(modes)) << "\n"
       << "        </DataItem>\n"
       << "      </Attribute>\n";
   return out.str();

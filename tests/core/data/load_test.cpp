@@ -11,6 +11,7 @@
 
 #include "../load_case.h"
 #include "core/data/sealed_image.h"
+#include "core/model/field_evaluation.h"
 #include "core/model/meta_model.h"
 #include "tools/modelfile/pack_fields.h"
 
@@ -97,7 +98,13 @@ TEST(Load, TakesAModelWithoutModesAndNearField) {
   const TemporaryFile file("response-only.h5");
   modelfile::writeModel(file.path(), d);
   EXPECT_EQ(complaint(file.path()), "");
-  EXPECT_EQ(MetaModel::load(file.path()).view().modes(), 0U);
+  const MetaModel model = MetaModel::load(file.path());
+  EXPECT_EQ(model.view().modes(), 0U);
+  std::vector<float> u(3 * model.view().surfaceNodes(), 7.0F);
+  FieldScratch scratch(model);
+  const FieldSource source{{0, {0.2, 0.3, 0.5}}, Vec3(0.0, 0.0, 1e-3), 1.0};
+  evaluateField(model, std::span(&source, 1), scratch, u);
+  EXPECT_EQ(u, std::vector<float>(u.size(), 0.0F));
 }
 
 TEST(Load, TakesAModelWhoseEdgesAddNothing) {

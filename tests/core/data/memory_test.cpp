@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -33,6 +35,26 @@ void expectAvailable(const TemporaryFolder& root, std::uint64_t bytes, const std
   ::setrlimit(resource, &limit);
   std::fputs(complaint(path).c_str(), stderr);
   std::_Exit(0);
+}
+
+/// Of this process, from the kernel: VmRSS or the largest that it was since the count began, VmHWM.
+std::uint64_t residentBytes(const std::string& line) {
+  std::ifstream status("/proc/self/status");
+  std::uint64_t kib = 0;
+  for (std::string word; status >> word && kib == 0;)
+    if (word == line + ":") status >> kib;
+  return 1024 * kib;
+}
+
+/// Loads, and says if that took more than one and a half times the file's size of memory: for a death test.
+[[noreturn]] void loadWithin(const std::filesystem::path& path) {
+  if (!(std::ofstream("/proc/self/clear_refs") << 5 << std::flush)) std::_Exit(2);  // begins the count
+  const std::uint64_t before = residentBytes("VmRSS"), size = std::filesystem::file_size(path);
+  std::fputs(complaint(path).c_str(), stderr);
+  const std::uint64_t taken = residentBytes("VmHWM") - before;
+  if (2 * taken > 3 * size)
+    std::fprintf(stderr, "%.0f MiB for a file of %.0f", double(taken) / kMiB, double(size) / kMiB);
+  std::_Exit(taken > size ? 0 : 1);  // it holds the file
 }
 
 }  // namespace
@@ -100,6 +122,15 @@ TEST(LoadDeathTest, NumbersInFewBytesWhoseCopyHasNoRoomAreRefusedInOneLine) {
   EXPECT_EXIT(loadUnder(RLIMIT_AS, addressSpace() + 128 * kMiB, file.path()), ::testing::ExitedWithCode(0),
               "narrow.h5: a copy of what it has in fewer bytes needs 128 MiB of memory, [0-9]+ MiB are "
               "available .ulimit -v.");
+}
+
+TEST(LoadDeathTest, AModelTakesAtMostHalfAsMuchMemoryBesideItsFile) {
+  const TemporaryFile file("large.h5");
+  modelfile::ModelData data = syntheticModel({.subdivisions = 5, .modes = 200, .near_radius = 0.006});
+  data.attributes.patch_radius = 0.003;  // 1.3 edges: 40 nodes in a patch
+  modelfile::writeModel(file.path(), data);
+  EXPECT_GT(std::filesystem::file_size(file.path()), 64 * kMiB);
+  EXPECT_EXIT(loadWithin(file.path()), ::testing::ExitedWithCode(0), "^$");
 }
 #endif
 

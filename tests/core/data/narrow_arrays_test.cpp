@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "../load_case.h"
 #include "core/data/array_reader.h"
 #include "core/data/load_error.h"
+#include "core/model/field_evaluation.h"
 
 namespace palpate::testing {
 
@@ -74,6 +76,39 @@ TEST(NarrowArrays, AreWhatACompactFileIsMadeOf) {
   const MetaModel model = MetaModel::load(file.path());
   EXPECT_TRUE(sameBits(data.near_node, model.view().near_node));
   EXPECT_TRUE(sameBits(data.contact_force, model.view().contact_force));
+}
+
+/// Fields are read as they lie, so both widths go through kernels of their own.
+TEST(NarrowArrays, FieldsInOneByteAreThoseInTwo) {
+  const TemporaryFile file("bytes.h5");
+  modelfile::ModelData data = syntheticModel({.subdivisions = 2, .modes = 9});
+  data.compact = true;
+  modelfile::writeModel(file.path(), data);
+  std::array<std::vector<float>, 2> u;
+  std::array<std::string, 2> digest;
+  for (std::size_t width = 0; width < 2; ++width) {
+    if (width == 1)
+      for (const char* dataset : {"modes/X", "modes/Y", "near/field", "green/Y", "green/near"}) {
+        storeAs(file.path(), dataset, H5T_STD_I16LE);
+        const Hdf5Handle spoiled = openForSpoiling(file.path());
+        H5Ldelete(spoiled.get(), "old", H5P_DEFAULT);
+      }
+    const MetaModel model = MetaModel::load(file.path());
+    EXPECT_EQ(model.view().modes_X.int8() != nullptr, width == 0);
+    EXPECT_EQ(model.view().green_near.int16() != nullptr, width == 1);
+    u[width].resize(3 * model.view().surfaceNodes());
+    FieldScratch scratch(model);
+    const std::vector<std::uint8_t> accessible = model.accessibleNodes();
+    std::int32_t triangle = 0;
+    while (accessible[std::size_t(model.view().contact_triangles[3 * std::size_t(triangle)])] == 0)
+      ++triangle;
+    const FieldSource source{{triangle, {1.0, 0.0, 0.0}}, Vec3(2e-4, -1e-4, 1e-3), 1.0};
+    evaluateField(model, std::span(&source, 1), scratch, u[width]);
+    digest[width] = model.digest().hex();
+  }
+  EXPECT_GT(*std::max_element(u[0].begin(), u[0].end()), 1e-4F);
+  EXPECT_EQ(u[0], u[1]);
+  EXPECT_EQ(digest[0], digest[1]);
 }
 
 TEST(NarrowArrays, AreWidenedExactly) {

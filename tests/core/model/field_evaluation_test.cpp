@@ -34,11 +34,12 @@ void addLinear(const ContactPoint& s, const Vec3& d, std::vector<double>& u) {
       for (std::size_t mode = 0; mode < n; ++mode) {
         const double y = share * double(v.green_Y_scale[3 * g + load]) * v.green_Y[(3 * g + load) * n + mode];
         for (std::size_t i = 0; i < u.size(); ++i)
-          u[i] += y * double(v.modes_X_scale[mode]) * v.modes_X[mode * u.size() + i];
+          u[i] += y * double(v.modes_X_scale[mode]) * v.modes_X[i * n + mode];
       }
       for (std::size_t i = 0; i < 3 * K; ++i)
         u[3 * static_cast<std::size_t>(v.green_near_node[first + i / 3]) + i % 3] +=
-            share * double(v.green_near_scale[3 * g + load]) * v.green_near[9 * first + load * 3 * K + i];
+            share * double(v.green_near_scale[3 * g + load]) *
+            v.green_near[9 * (first + i / 3) + 3 * load + i % 3];
     }
   }
 }
@@ -79,7 +80,7 @@ std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
       for (std::size_t mode = 0; mode < n; ++mode) {
         const double y = w * double(v.modes_Y_scale[m * C + k]) * v.modes_Y[(m * C + k) * n + mode];
         for (std::size_t i = 0; i < u.size(); ++i)
-          u[i] += y * double(v.modes_X_scale[mode]) * v.modes_X[mode * u.size() + i];
+          u[i] += y * double(v.modes_X_scale[mode]) * v.modes_X[i * n + mode];
       }
       for (std::size_t i = 0; i < 3 * K; ++i)
         u[3 * static_cast<std::size_t>(v.near_node[first + i / 3]) + i % 3] +=

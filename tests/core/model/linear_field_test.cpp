@@ -60,11 +60,11 @@ struct Face {
     view.contact_triangles = corners;
     view.modes_X_scale = mode_scale;
     view.green_node = green_node;
-    view.green_Y = Y;
+    view.green_Y = std::span<const std::int16_t>(Y);
     view.green_Y_scale = view.green_near_scale = scales;
     view.green_offset = offset;
     view.green_near_node = near_node;
-    view.green_near = near;
+    view.green_near = std::span<const std::int16_t>(near);
   }
   std::vector<std::int32_t> green_node, near_node;
   std::vector<std::int16_t> Y, near;

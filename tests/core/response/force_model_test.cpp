@@ -209,7 +209,7 @@ TEST(ForceModel, FieldIsThatOfTheForce) {
       for (std::size_t mode = 0; mode < v.modes(); ++mode)
         sum += monomial[k] * double(v.modes_Y_scale[5 * monomial.size() + k]) *
                v.modes_Y[(5 * monomial.size() + k) * v.modes() + mode] * double(v.modes_X_scale[mode]) *
-               v.modes_X[mode * u.size() + i];
+               v.modes_X[i * v.modes() + mode];
     EXPECT_NEAR(u[i], sum, 1e-8);
   }
   FieldScratch scratch(model);

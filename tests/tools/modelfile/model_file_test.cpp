@@ -161,7 +161,7 @@ TEST(WriteXdmf, RefersToTheModelsOwnData) {
                                  ":/surface/triangles<"));
   EXPECT_THAT(written, HasSubstr("Dimensions=\"42 3\" NumberType=\"Float\" Precision=\"8\">" + name +
                                  ":/surface/positions<"));
-  EXPECT_THAT(written, HasSubstr("1 0  1 1  1 126"));
+  EXPECT_THAT(written, HasSubstr("0 1  1 1  126 1"));
   EXPECT_EQ(count(written, "AttributeType=\"Vector\""), 2U);
   EXPECT_EQ(count(written, "<DataItem "), count(written, "</DataItem>"));
   EXPECT_EQ(count(written, "<Attribute "), count(written, "</Attribute>"));

@@ -70,7 +70,7 @@ void FieldRace::run(Runner who) {
     eigenProduct(data_.modes_X, question.amplitudes, u_);
     benchmark::DoNotOptimize(u_.data());
   } else {
-    benchmark::DoNotOptimize(plainRead(std::as_bytes(model_.view().modes_X)));
+    benchmark::DoNotOptimize(plainRead(model_.view().modes_X.asBytes()));
   }
   benchmark::ClobberMemory();
 }

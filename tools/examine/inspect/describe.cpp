@@ -18,7 +18,7 @@ namespace {
 using program::Json;
 
 template <typename... T>
-std::size_t bytesOf(std::span<const T>... parts) {
+std::size_t bytesOf(const T&... parts) {
   return (parts.size_bytes() + ...);
 }
 

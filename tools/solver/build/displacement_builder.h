@@ -59,6 +59,7 @@ class DisplacementBuilder {
   void storeFields(const FitProblem& problem, const FarField& far, const FieldTable& greens);
   void storeCompactFields(const FitProblem& problem, const FarField& far);
   [[nodiscard]] std::unique_ptr<FieldTable> shareLoads(const FieldTable& greens);
+  [[nodiscard]] std::vector<std::int32_t> sourcesOfLoads() const;
   void makeCompact();
   [[nodiscard]] std::vector<float> greenSizes() const;
   [[nodiscard]] std::vector<NearNodes> nearOf(std::span<const std::int32_t> nodes) const;

@@ -18,6 +18,7 @@
 #include "tools/solver/build/displacement_fields.h"
 #include "tools/solver/build/edge_fields.h"
 #include "tools/solver/build/estimate.h"
+#include "tools/solver/build/shared_loads.h"
 #include "tools/solver/fit/far_field_fit.h"
 #include "tools/solver/series/nodal_greens.h"
 
@@ -98,6 +99,12 @@ double fitSeconds(const FitCounts& c, double n, bool given, int sweeps, double r
   return constant + kBesides * ((sweeps + head) * sweep + last + y(c.loads, c.loads_seen, 3.0)) / rate;
 }
 
+/// Seconds of SharedLoads and their fields: the solution, by doubles, and the sums of fields.
+double sharedSeconds(double loaded, double sources, double rows, double rate) {
+  constexpr double kDoubles = 2.0;  // times as long
+  return (kDoubles * 2.0 * sources * sources * loaded + 6.0 * rows * loaded * sources) / rate;
+}
+
 /// Part of all pairs that are closer than three near radii, where weights differ from the area's.
 double partSeen(const PatchSurface& surface, std::span<const std::int32_t> nodes, double near_radius) {
   constexpr std::size_t kTried = 64;
@@ -125,8 +132,9 @@ double modesFor(double error, const PatchSurface& surface, double near_radius) {
 Estimate DisplacementBuilder::sizes() const {
   constexpr double kKept = 0.9;  // of the nodes of near fields, what is not left out as too small
   const double nodes = static_cast<double>(setup_.surface.nodes.size()), rows = 3.0 * nodes;
+  const std::vector<std::int32_t> sources = sourcesOfLoads();
   const double M = static_cast<double>(setup_.positions.nodes.size()),
-               G = static_cast<double>(loaded_.size());
+               G = static_cast<double>(sources.size());
   const double C = basis_.size(), Cm = C - 3.0;
   Estimate out;
   const auto own = [&](std::size_t entries, std::size_t part) {  // of this rank
@@ -134,9 +142,11 @@ Estimate DisplacementBuilder::sizes() const {
     return static_cast<double>(blocks.ownEnd() - blocks.ownBegin());
   };
   constexpr double principal{FarFieldFit::kPrincipal};
-  out.scratch = 4.0 * rows *
-                (own(setup_.positions.nodes.size(), kLanes) * (C > principal ? C + principal : C) +
-                 3.0 * own(loaded_.size(), NodalGreens::kMost));
+  const bool shares = sources.size() < loaded_.size();
+  out.scratch =
+      4.0 * rows *
+      (own(setup_.positions.nodes.size(), kLanes) * (C > principal ? C + principal : C) +
+       3.0 * own(loaded_.size(), NodalGreens::kMost) + (shares ? 3.0 * own(sources.size(), 1) : 0.0));
   double n = case_.modes ? *case_.modes : modesFor(case_.fieldErrorOrDefault(), setup_.surface, near_radius_);
   if (case_.handheld() && !case_.modes)
     n = std::clamp(0.45 * case_.sizeLimitOrDefault() / (rows + 3.0 * G + M * Cm / 3.0), 12.0, 400.0);
@@ -148,7 +158,7 @@ Estimate DisplacementBuilder::sizes() const {
   organ.attributes.force_order = force_basis_.order();
   storeOrgan(setup_, mesh_, organ);
   const EdgeCounts edges = case_.handheld() ? EdgeCounts{} : edgeCounts(setup_, basis_.order());
-  const double near = kKept * total(near_), near_loads = total(near_loaded_);
+  const double near = kKept * total(near_), near_loads = total(shares ? nearOf(sources) : near_loaded_);
   const double near_edges = kKept * static_cast<double>(edges.solved) * edges.nodes, Ce = edges.coefficients;
   out.file = static_cast<double>(modelfile::storedBytes(organ)) + 24.0 * M * force_basis_.size() +
              192.0 * (M + static_cast<double>(edges.all)) + n * (2.0 * rows + 4.0) +
@@ -167,7 +177,13 @@ Estimate DisplacementBuilder::sizes() const {
   const double fit =
       4.0 * nodes * std::max(M, G) + (8.0 * n + 4.0 * principal) * M * C + 32.0 * n * rows + work + sums;
   out.resident = residentBytes();
-  out.memory = kLibraries + out.resident + std::max(fit + 0.25 * floats, 2.0 * floats);
+  // The loads with their Gram matrix, or with what superpose() sums at once and 64 fields.
+  const double L = static_cast<double>(loaded_.size()), all_loads = 4.0 * L * G;
+  const double sharing =
+      shares ? all_loads + std::max(8.0 * G * G, std::min(static_cast<double>(kSummedAtOnce), 12.0 * rows * G) +
+                                                     768.0 * rows)
+             : 0.0;
+  out.memory = kLibraries + out.resident + std::max({fit + 0.25 * floats, 2.0 * floats, sharing});
   return out;
 }
 
@@ -207,8 +223,9 @@ double DisplacementBuilder::probeGreens() const {
 Estimate DisplacementBuilder::estimate() const {
   const Stopwatch watch;
   Estimate out = sizes();
+  const std::vector<std::int32_t> sources = sourcesOfLoads();
   const double M = static_cast<double>(setup_.positions.nodes.size()),
-               G = static_cast<double>(loaded_.size());
+               G = static_cast<double>(loaded_.size()), S = static_cast<double>(sources.size());
   const auto rounds = [&](double all, double chunk) {  // of all workers
     return options_.workers * std::ceil(std::ceil(all / chunk) / options_.workers);
   };
@@ -221,12 +238,13 @@ Estimate DisplacementBuilder::estimate() const {
   out.memory = std::max(out.memory, peakBytes());
   const FitCounts counts{static_cast<double>(setup_.surface.nodes.size()),
                          M,
-                         G,
+                         S,
                          static_cast<double>(basis_.size()),
                          partSeen(setup_.surface, setup_.positions.nodes, near_radius_),
-                         partSeen(setup_.surface, loaded_, near_radius_)};
-  out.fit = fitSeconds(counts, out.modes, case_.modes.has_value(), case_.sweepsOrDefault(),
-                       productRate(options_.workers));
+                         partSeen(setup_.surface, sources, near_radius_)};
+  const double rate = productRate(options_.workers);
+  out.fit = fitSeconds(counts, out.modes, case_.modes.has_value(), case_.sweepsOrDefault(), rate);
+  if (S < G) out.series += sharedSeconds(G, S, 3.0 * counts.surface_nodes, rate);
   constexpr double kWritten = 1e8;  // bytes a second
   out.write = out.file / kWritten;
   out.probe = watch.seconds();

@@ -62,14 +62,21 @@ void DisplacementBuilder::storeCompactFields(const FitProblem& problem, const Fa
   report_.size = budget_->leaveOut(sizes, data_);
 }
 
+/// Surface nodes: those that patches load, or what shares their loads.
+std::vector<std::int32_t> DisplacementBuilder::sourcesOfLoads() const {
+  std::vector<std::int32_t> shared;
+  if (case_.handheld()) shared = sharedSources(setup_.surface, loaded_);
+  return shared.empty() ? loaded_ : shared;
+}
+
 /// A third as many sources of the linear field, where elements are quadratic. @return their fields, or null
 std::unique_ptr<FieldTable> DisplacementBuilder::shareLoads(const FieldTable& greens) {
-  const SharedLoads shared = sharedLoads(setup_, patches_, loaded_);
+  const SharedLoads shared = sharedLoads(setup_, patches_, loaded_, options_.workers, options_.quiet);
   if (shared.nodes.empty()) return nullptr;
   auto fields = std::make_unique<FieldTable>(ScratchPlace(options_.scratch),
                                              blocksOf(setup_, shared.nodes, 1, *options_.ranks),
                                              std::size_t{3}, greens.rows());
-  superpose(greens, shared, options_.workers, *fields);
+  superpose(greens, shared, options_, *fields);
   report_.shared_loads = shared.error;
   loaded_ = shared.nodes;
   near_loaded_ = nearOf(loaded_);

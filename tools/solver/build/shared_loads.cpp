@@ -2,6 +2,7 @@
 #include "tools/solver/build/shared_loads.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -9,6 +10,7 @@
 #include "core/base/contact_point.h"
 #include "core/base/index.h"
 #include "tools/solver/base/parallel.h"
+#include "tools/solver/base/progress.h"
 
 namespace palpate::solver {
 
@@ -17,6 +19,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
+using Columns = Eigen::SparseMatrix<float>;
 
 /// By the middle of an edge, its ends.
 std::map<std::int32_t, std::array<std::int32_t, 2>> edgesOf(const PatchSurface& surface) {
@@ -50,79 +53,149 @@ std::vector<ContactPoint> samples(const SolverSetup& setup) {
   return points;
 }
 
+/// By loaded node and by source, where they stand among each other; -1: nowhere.
+struct Places {
+  std::vector<std::int32_t> loaded, source;
+};
+
+/// What the patches of all samples load, and what the ends of these edges are the sources of.
+struct Samples {
+  Columns w;  ///< [loaded nodes][samples]
+  Columns q;  ///< [sources][samples]
+};
+
+Samples sampled(const ContactPatches& patches,
+                const std::map<std::int32_t, std::array<std::int32_t, 2>>& ends, const Places& at,
+                std::span<const ContactPoint> points, Index loaded, Index sources) {
+  const auto count = static_cast<Index>(points.size());
+  Samples samples{Columns(loaded, count), Columns(sources, count)};
+  PatchNodes patch = patches.room();
+  std::map<Index, float> shares;
+  for (Index p = 0; p < count; ++p) {
+    patches.at(points[static_cast<std::size_t>(p)], false, patch);
+    shares.clear();
+    samples.w.startVec(p);
+    for (std::size_t i = 0; i < patch.count; ++i) {
+      samples.w.insertBack(at.loaded[index(patch.node[i])], p) = static_cast<float>(patch.weight[i]);
+      for (const std::int32_t end : ends.at(patch.node[i]))
+        shares[at.source[index(end)]] += static_cast<float>(0.5 * patch.weight[i]);
+    }
+    samples.q.startVec(p);
+    for (const auto& [source, share] : shares) samples.q.insertBack(source, p) = share;
+  }
+  samples.w.finalize();
+  samples.q.finalize();
+  return samples;
+}
+
+/// Gram matrix of the rows of q, with a ridge.
+MatrixXd gramOf(const Columns& q) {
+  constexpr double kRidge = 1e-4;  // of each source's own: what no patch tells apart stays small
+  MatrixXd QQ = MatrixXd::Zero(q.rows(), q.rows());
+  for (Index p = 0; p < q.cols(); ++p)
+    for (Columns::InnerIterator here(q, p); here; ++here)
+      for (Columns::InnerIterator other(q, p); other; ++other)
+        QQ(other.row(), here.row()) += double{here.value()} * double{other.value()};
+  QQ.diagonal() *= 1.0 + kRidge;
+  for (Index c = 0; c < QQ.rows(); ++c)
+    if (!(QQ(c, c) > 0.0)) QQ(c, c) = 1.0;  // a source of loads in incomplete faces alone
+  return QQ;
+}
+
+/// The loads by least squares.
+MatrixXf solved(const Samples& samples, int workers, bool quiet) {
+  constexpr Index kBlock = 128;  // loaded nodes at once
+  MatrixXd QQ = gramOf(samples.q);
+  const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(QQ);
+  const Eigen::SparseMatrix<double> Qw = samples.q.cast<double>() * samples.w.cast<double>().transpose();
+  MatrixXf R(samples.w.rows(), samples.q.rows());
+  const std::size_t blocks = static_cast<std::size_t>((R.rows() + kBlock - 1) / kBlock);
+  Progress progress("shared loads", blocks, quiet);
+  parallelFor(workers, blocks, [&](int, std::size_t block) {
+    const Index first = kBlock * static_cast<Index>(block), size = std::min(kBlock, R.rows() - first);
+    R.middleRows(first, size) = factor.solve(MatrixXd(Qw.middleCols(first, size))).transpose().cast<float>();
+    progress.advance();
+  });
+  return R;
+}
+
+/// The largest part of a sample's load that R places elsewhere.
+double errorOf(const Samples& samples, const MatrixXf& R, int workers) {
+  constexpr Index kBlock = 256;
+  std::vector<double> largest(static_cast<std::size_t>((samples.w.cols() + kBlock - 1) / kBlock), 0.0);
+  parallelFor(workers, largest.size(), [&](int, std::size_t block) {
+    Eigen::VectorXf missed(samples.w.rows());
+    const Index first = kBlock * static_cast<Index>(block);
+    for (Index p = first; p < std::min(first + kBlock, samples.w.cols()); ++p) {
+      missed = samples.w.col(p);
+      for (Columns::InnerIterator source(samples.q, p); source; ++source)
+        missed -= source.value() * R.col(source.row());
+      largest[block] = std::max(largest[block], 0.5 * double{missed.cwiseAbs().sum()});
+    }
+  });
+  return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
+}
+
 }  // namespace
 
+std::vector<std::int32_t> sharedSources(const PatchSurface& surface, std::span<const std::int32_t> loaded) {
+  const auto ends = edgesOf(surface);
+  std::vector<std::int32_t> nodes;
+  for (const std::int32_t node : loaded) {
+    const auto edge = ends.find(node);
+    if (edge == ends.end()) return {};
+    nodes.insert(nodes.end(), edge->second.begin(), edge->second.end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 SharedLoads sharedLoads(const SolverSetup& setup, const ContactPatches& patches,
-                        std::span<const std::int32_t> loaded) {
-  const auto ends = edgesOf(setup.surface);
-  std::vector<std::int32_t> row_of(setup.surface.nodes.size(), -1), column_of = row_of;
-  SharedLoads loads{{}, {}, 0.0};
-  for (std::size_t i = 0; i < loaded.size(); ++i) {
-    const auto edge = ends.find(loaded[i]);
-    if (edge == ends.end()) return {{}, {}, 0.0};
-    row_of[index(loaded[i])] = static_cast<std::int32_t>(i);
-    for (const std::int32_t end : edge->second) column_of[index(end)] = 0;
-  }
-  for (std::size_t node = 0; node < column_of.size(); ++node) {
-    if (column_of[node] < 0) continue;
-    column_of[node] = static_cast<std::int32_t>(loads.nodes.size());
-    loads.nodes.push_back(static_cast<std::int32_t>(node));
-  }
-  const std::vector<ContactPoint> points = samples(setup);
-  const auto G = static_cast<Index>(loaded.size()), S = static_cast<Index>(loads.nodes.size());
-  MatrixXd QQ = MatrixXd::Zero(S, S), Qw = MatrixXd::Zero(S, G);
-  MatrixXf w = MatrixXf::Zero(G, static_cast<Index>(points.size()));
-  MatrixXf q = MatrixXf::Zero(S, w.cols());
-  PatchNodes patch = patches.room();
-  std::vector<Index> touched;
-  for (Index p = 0; p < w.cols(); ++p) {
-    patches.at(points[static_cast<std::size_t>(p)], false, patch);
-    touched.clear();
-    for (std::size_t i = 0; i < patch.count; ++i) {
-      w(row_of[index(patch.node[i])], p) = static_cast<float>(patch.weight[i]);
-      for (const std::int32_t end : ends.at(patch.node[i])) {
-        const Index c = column_of[index(end)];
-        if (!(q(c, p) > 0.0F)) touched.push_back(c);
-        q(c, p) += static_cast<float>(0.5 * patch.weight[i]);
-      }
-    }
-    for (const Index c : touched) {
-      const double here{q(c, p)};
-      for (const Index other : touched) QQ(c, other) += here * double{q(other, p)};
-      for (std::size_t i = 0; i < patch.count; ++i)
-        Qw(c, row_of[index(patch.node[i])]) += here * patch.weight[i];
-    }
-  }
-  constexpr double kRidge = 1e-4;  // of each source's own: what no patch tells apart stays small
-  QQ.diagonal() *= 1.0 + kRidge;
-  for (Index c = 0; c < S; ++c)
-    if (!(QQ(c, c) > 0.0)) QQ(c, c) = 1.0;  // a source of loads in incomplete faces alone
-  loads.R = QQ.llt().solve(Qw).transpose().cast<float>();
-  loads.error = 0.5 * double{(w - loads.R * q).cwiseAbs().colwise().sum().maxCoeff()};
+                        std::span<const std::int32_t> loaded, int workers, bool quiet) {
+  SharedLoads loads{sharedSources(setup.surface, loaded), {}, 0.0};
+  if (loads.nodes.empty()) return loads;
+  Places at{std::vector<std::int32_t>(setup.surface.nodes.size(), -1), {}};
+  at.source = at.loaded;
+  for (std::size_t i = 0; i < loaded.size(); ++i) at.loaded[index(loaded[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t c = 0; c < loads.nodes.size(); ++c)
+    at.source[index(loads.nodes[c])] = static_cast<std::int32_t>(c);
+  const Samples all = sampled(patches, edgesOf(setup.surface), at, samples(setup),
+                              static_cast<Index>(loaded.size()), static_cast<Index>(loads.nodes.size()));
+  loads.R = solved(all, workers, quiet);
+  loads.error = errorOf(all, loads.R, workers);
   return loads;
 }
 
-void superpose(const FieldTable& greens, const SharedLoads& loads, int workers, FieldTable& fields) {
+void superpose(const FieldTable& greens, const SharedLoads& loads, const BuildOptions& options,
+               FieldTable& fields, std::size_t bytes) {
   constexpr std::size_t kChunk = 64, kBands = 16;
-  const auto rows = static_cast<Index>(greens.rows());
-  const std::size_t sources = loads.nodes.size(), count = greens.positions();
-  std::vector<float> all(sources * 3 * greens.rows(), 0.0F);
-  std::vector<float> chunk(kChunk * 3 * greens.rows());
-  for (std::size_t first = 0; first < count; first += kChunk) {
-    const std::size_t size = std::min(kChunk, count - first);
-    for (std::size_t i = 0; i < size; ++i)
-      greens.read(first + i, std::span(chunk).subspan(i * 3 * greens.rows(), 3 * greens.rows()));
-    const Eigen::Map<const MatrixXf> W(chunk.data(), 3 * rows, static_cast<Index>(size));
-    const MatrixXf R = loads.R.middleRows(static_cast<Index>(first), static_cast<Index>(size));
-    Eigen::Map<MatrixXf> V(all.data(), 3 * rows, static_cast<Index>(sources));
-    parallelFor(workers, kBands, [&](int, std::size_t part) {
-      const auto boundary = [&](std::size_t p) { return 3 * rows * static_cast<Index>(p) / Index{kBands}; };
-      const Index begin = boundary(part), end = boundary(part + 1);
-      V.middleRows(begin, end - begin).noalias() += W.middleRows(begin, end - begin) * R;
-    });
+  const std::size_t count = loads.nodes.size(), length = 3 * greens.rows(),
+                    most = std::max(kChunk, bytes / (sizeof(float) * length));
+  const auto rows = static_cast<Index>(length);
+  std::vector<float> chunk(kChunk * length);
+  Progress progress("fields of shared loads", greens.positions() * ((count + most - 1) / most),
+                    options.quiet);
+  for (std::size_t begin = 0; begin < count; begin += most) {
+    const Index sources = static_cast<Index>(std::min(most, count - begin));
+    MatrixXf V = MatrixXf::Zero(rows, sources);
+    for (std::size_t first = 0; first < greens.positions(); first += kChunk) {
+      const std::size_t size = std::min(kChunk, greens.positions() - first);
+      for (std::size_t i = 0; i < size; ++i)
+        greens.read(first + i, std::span(chunk).subspan(i * length, length));
+      const Eigen::Map<const MatrixXf> W(chunk.data(), rows, static_cast<Index>(size));
+      const MatrixXf R =
+          loads.R.block(static_cast<Index>(first), static_cast<Index>(begin), W.cols(), sources);
+      parallelFor(options.workers, kBands, [&](int, std::size_t part) {
+        const auto boundary = [&](std::size_t p) { return rows * static_cast<Index>(p) / Index{kBands}; };
+        const Index top = boundary(part), bottom = boundary(part + 1);
+        V.middleRows(top, bottom - top).noalias() += W.middleRows(top, bottom - top) * R;
+      });
+      progress.advance(size);
+    }
+    for (Index c = 0; c < sources; ++c)
+      fields.write(begin + static_cast<std::size_t>(c), std::span<const float>(V.col(c).data(), length));
   }
-  for (std::size_t c = 0; c < sources; ++c)
-    fields.write(c, std::span<const float>(all).subspan(c * 3 * greens.rows(), 3 * greens.rows()));
 }
 
 }  // namespace palpate::solver

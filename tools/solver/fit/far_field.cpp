@@ -209,21 +209,23 @@ void FarFieldFit::headStart() {
   result_.errors.clear();
 }
 
-void FarFieldFit::sweepAll() {
+void FarFieldFit::sweepAll(Progress& progress) {
   const int plain = options_.sweeps - options_.reweighted;
-  for (int i = 1; i <= options_.sweeps; ++i)
+  for (int i = 1; i <= options_.sweeps; ++i) {
     sweep(i < plain ? Step::kPlain : i == plain ? Step::kMeasured : Step::kReweighted);
+    progress.advance();
+  }
   sweepOver(true);
   sweep(Step::kLast);
 }
 
 FarField FarFieldFit::run() {
-  Progress progress("far field", 4, options_.quiet);
+  Progress progress("far field", static_cast<std::size_t>(options_.sweeps) + 4, options_.quiet);
   findPrincipal();
   progress.advance();
   headStart();
   progress.advance();
-  sweepAll();
+  sweepAll(progress);
   progress.advance();
   while (options_.error > 0.0 && quantileOfLargest() > options_.error && modes_ < options_.most_modes) {
     const Index before = modes_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/solver/base/blocks.h"
+#include "tools/solver/base/progress.h"
 #include "tools/solver/base/tree_sum.h"
 #include "tools/solver/fit/fit_problem.h"
 #include "tools/solver/fit/gram_sums.h"
@@ -71,7 +72,7 @@ class FarFieldFit {
   void orthonormalize(Eigen::MatrixXd Xt);
   [[nodiscard]] Eigen::MatrixXd columnsOfNodes(const Eigen::MatrixXd& Xt, std::size_t block) const;
   void headStart();
-  void sweepAll();
+  void sweepAll(Progress& progress);
   [[nodiscard]] double quantileOfLargest() const;
   [[nodiscard]] Eigen::Index modesFor(double error, double asked) const;
   void sweep(Step step);

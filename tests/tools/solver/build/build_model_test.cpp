@@ -85,7 +85,7 @@ TEST_F(SolvedBlock, SmallTouchesBetweenNodesAreAsNewtonSays) {
 /// The average motion of a patch by unit forces on another, column by force, m/N.
 Mat3 movedByUnitForces(const TouchPatch& from, const TouchPatch& to) {
   std::array<float, TouchPatch::kWeights * kNodeFloats> near{};
-  to.average(from.near(), near.data());
+  to.average(from.near().sum, near.data());
   Mat3 C = NodeSum::vectorsOf(near.data()).leftCols<3>();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::span<const float> amplitudes = from.load(axis);
@@ -130,7 +130,7 @@ TEST_F(SolvedBlock, ClampedNodesComeLastAndStay) {
     clamped = held;
     for (std::size_t mode = 0; held && mode < view.modes(); ++mode)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        ASSERT_EQ(view.modes_X[3 * (mode * view.surfaceNodes() + i) + axis], 0);
+        ASSERT_EQ(view.modes_X[(3 * i + axis) * view.modes() + mode], 0);
   }
   EXPECT_TRUE(clamped);
 }

@@ -7,6 +7,7 @@
 #include "block_model.h"
 #include "tools/mesh/box_mesh.h"
 #include "tools/mesh/quadratic.h"
+#include "tools/solver/base/parallel.h"
 #include "tools/solver/build/shared_loads.h"
 
 namespace palpate::solver {
@@ -83,11 +84,43 @@ TEST_F(HandheldBlock, SharedLoadsAreThoseOfThePatch) {
   const SolverSetup& setup = small_->setup;
   const ContactPatches patches(setup.surface.graph, freeNodes(setup.model, setup.surface), setup.patch_radius,
                                setup.positions.nodes);
-  const SharedLoads shared = sharedLoads(setup, patches, full_->data.green_node);
+  const SharedLoads shared = sharedLoads(setup, patches, full_->data.green_node, 2);
   ASSERT_EQ(shared.R.rows(), static_cast<Eigen::Index>(full_->data.green_node.size()));
   EXPECT_LT(shared.error, 0.25);
   const Eigen::VectorXf sums = shared.R.colwise().sum().transpose();
   EXPECT_NEAR(sums.mean(), 1.0, 0.02);
+}
+
+TEST_F(HandheldBlock, SharedLoadsHaveTheSameBitsWithAnyThreads) {
+  const SerialBlas serial;
+  const SolverSetup& setup = small_->setup;
+  const ContactPatches patches(setup.surface.graph, freeNodes(setup.model, setup.surface), setup.patch_radius,
+                               setup.positions.nodes);
+  const SharedLoads one = sharedLoads(setup, patches, full_->data.green_node, 1),
+                    three = sharedLoads(setup, patches, full_->data.green_node, 3);
+  EXPECT_EQ(one.R, three.R);
+  EXPECT_EQ(one.error, three.error);
+}
+
+/// Whether all sources are summed at once or some at a time.
+TEST(SharedLoads, FieldsAreTheSumsOfTheLoaded) {
+  constexpr Eigen::Index kLoaded = 150, kSources = 70, kRows = 4;
+  const std::filesystem::path scratch = std::filesystem::temp_directory_path();
+  FieldTable greens(scratch, kLoaded, 3, kRows), fields(scratch, kSources, 3, kRows);
+  const Eigen::MatrixXf W = Eigen::MatrixXf::Random(3 * kRows, kLoaded);
+  for (Eigen::Index i = 0; i < kLoaded; ++i)
+    greens.write(std::size_t(i), std::span(W.col(i).data(), 3 * kRows));
+  const SharedLoads loads{std::vector<std::int32_t>(kSources), Eigen::MatrixXf::Random(kLoaded, kSources),
+                          0.0};
+  BuildOptions options;
+  options.quiet = true;
+  for (const std::size_t bytes : {std::size_t{1}, kSummedAtOnce}) {
+    superpose(greens, loads, options, fields, bytes);
+    Eigen::MatrixXf V(3 * kRows, kSources);
+    for (Eigen::Index c = 0; c < kSources; ++c)
+      fields.read(std::size_t(c), std::span(V.col(c).data(), 3 * kRows));
+    EXPECT_LT((V - W * loads.R).cwiseAbs().maxCoeff(), 1e-4F) << bytes;
+  }
 }
 
 /// If surface and force alone exceed the limit, the file is as small as it gets.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
 #include <hwy/targets.h>
 
 #include <cstdint>
 #include <vector>
+
+#include "core/base/kernels.h"
 
 namespace palpate::testing {
 
@@ -26,5 +29,16 @@ class InstructionSets {
  private:
   std::vector<std::int64_t> list_;
 };
+
+/// Calls use() with each instruction set.
+template <class Use>
+void withEach(const InstructionSets& sets, const Use& use) {
+  for (const std::int64_t set : sets.list()) {
+    SCOPED_TRACE(hwy::TargetName(set));
+    hwy::SetSupportedTargetsForTest(set);
+    chooseKernels();
+    use();
+  }
+}
 
 }  // namespace palpate::testing
