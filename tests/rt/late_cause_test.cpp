@@ -36,9 +36,9 @@ TEST(CauseOf, PageFaultWhereReadsCanMakeHalfOfWhatItRan) {
   LateFacts facts;
   facts.span_ns = 5'400'000;
   facts.cpu_ns = 5'200'000;
-  facts.major_faults = 25;
+  facts.major_faults = 5;
   EXPECT_EQ(causeOf(facts), LateCause::kOwnWork);
-  facts.major_faults = 56;  // as measured: docs/decisions/late_ticks.md
+  facts.major_faults = 25;  // or fewer, on a busy host: docs/decisions/late_ticks.md
   EXPECT_EQ(causeOf(facts), LateCause::kPageFault);
 }
 

@@ -41,7 +41,8 @@ struct LateFacts {
 
 /// Most CPU time that a page fault takes while memory is short, ns: 1.4 us with memory to spare (docs/decisions/late_ticks.md).
 inline constexpr std::int64_t kFaultCost = 10'000;
-/// The same of a page that is read from a disk, a major fault: here 5 ms for about 56 of them, mostly CPU time of the kernel.
-inline constexpr std::int64_t kReadCost = 100'000;
+/// The same of a page that is read from a disk, a major fault. Mostly CPU time of the kernel and, in a virtual machine, of its
+/// disk: 90 us where nothing else runs, over 200 us on a busy host.
+inline constexpr std::int64_t kReadCost = 500'000;
 
 }  // namespace palpate::rt
