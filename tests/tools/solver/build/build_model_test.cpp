@@ -86,7 +86,7 @@ TEST_F(SolvedBlock, SmallTouchesBetweenNodesAreAsNewtonSays) {
 Mat3 movedByUnitForces(const TouchPatch& from, const TouchPatch& to) {
   std::array<float, TouchPatch::kWeights * kNodeFloats> near{};
   to.average(from.near().sum, near.data());
-  Mat3 C = NodeSum::vectorsOf(near.data()).leftCols<3>();
+  Mat3 C = Eigen::Map<const Eigen::Matrix3f>(near.data()).cast<double>();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::span<const float> amplitudes = from.load(axis);
     for (std::size_t c = 0; c < 3; ++c)
