@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over rows that several kernels share. Read once for each instruction set, after hwy/highway.h.
+// Loops over rows that several kernels share. Read once for each instruction set, after core/base/kernels.h and hwy/highway.h.
 #include <algorithm>
 #include <cstddef>
 #include <type_traits>
-
-#include "core/base/kernels.h"
 
 #if defined(PALPATE_CORE_BASE_ROW_LOOPS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef PALPATE_CORE_BASE_ROW_LOOPS_H

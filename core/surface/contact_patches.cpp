@@ -58,6 +58,7 @@ ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::u
   SurfaceFront front(graph);
   const std::vector<double> longest = longestEdges(graph);
   constexpr std::size_t kSome = 64;
+  std::size_t together = 0;
   for (std::size_t done = 0; done < centres.size(); ++done) {
     const std::int32_t centre = centres[done];
     const std::int32_t t = graph.trianglesOf(centre).front();
@@ -65,22 +66,23 @@ ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::u
     for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
     const std::size_t first = near_.size();
     const auto& reached = front.from(s, kReach * a + longest[index(centre)]);
+    together += reached.size();
+    // A hostile file's patches would fill the memory and take all day, those over fixed nodes too.
+    if (reached.size() > kMostNodes || together > kMostTogether)
+      throw std::invalid_argument("patch_radius is " + std::to_string(a) +
+                                  " m, expected one of patches with at most " + std::to_string(kMostNodes) +
+                                  " nodes, found " + std::to_string(reached.size()) + ", and all together " +
+                                  std::to_string(kMostTogether) + ", found " + std::to_string(together));
     // By what centres had so far: doubled, it would take three times its size for a moment.
     if (done >= kSome && near_.capacity() < first + reached.size())
       near_.reserve(std::min(first + reached.size() + (first / done + 1) * (centres.size() - done),
                              kMostTogether + kMostNodes));
-    for (const auto& [node, r] : reached) near_.push_back({node, static_cast<float>(r * r)});
-    const std::size_t count = near_.size() - first;
-    // A hostile file's patches would fill the memory and take all day, those over fixed nodes too.
-    if (count > kMostNodes || near_.size() > kMostTogether)
-      throw std::invalid_argument("patch_radius is " + std::to_string(a) +
-                                  " m, expected one of patches with at most " + std::to_string(kMostNodes) +
-                                  " nodes, found " + std::to_string(count) + ", and all together " +
-                                  std::to_string(kMostTogether) + ", found " + std::to_string(near_.size()));
+    for (const auto& [node, r] : reached)
+      if (load_[index(node)] > 0.0) near_.push_back({node, static_cast<float>(r * r)});
     std::sort(near_.begin() + std::ptrdiff_t(first), near_.end(),
               [](const Near& l, const Near& r) { return l.node < r.node; });
     range_[index(centre)] = {first, near_.size()};
-    most_ = std::max(most_, count);
+    most_ = std::max(most_, near_.size() - first);
   }
 }
 

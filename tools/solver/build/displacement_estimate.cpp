@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -77,21 +78,22 @@ double productRate(int workers) {
 /// What the fit has to do with.
 struct FitCounts {
   double surface_nodes, positions, loads, coefficients;
-  double positions_seen, loads_seen;  ///< of positions or loads, those whose weights a node has
+  double positions_seen, loads_seen;  ///< part of all nodes whose weights a block of positions or loads has
+  double nodes_seen;                  ///< part of all positions whose weights a block of nodes has
 };
 
 /// Seconds of the fit: a head start on a part of the positions, sweeps over all, and the loads. Weights and the constant are
-/// those of five organs of 400 to 6000 surface nodes.
+/// those of organs of 2400 to 20,000 surface nodes (docs/scale.md).
 /// @param rate  productRate()
 double fitSeconds(const FitCounts& c, double n, bool given, int sweeps, double rate) {
   constexpr double kSlower = 2.0;   // the small factorizations
-  constexpr double kBesides = 1.5;  // of all work, over what is counted here
+  constexpr double kBesides = 1.9;  // of all work, over what is counted here
   const double grams = n * n * c.surface_nodes, solving = kSlower * n * n * n;
   const auto y = [&](double sources, double seen, double columns) {
     return sources * (seen * grams + 6.0 * n * c.surface_nodes * columns + solving);
   };
   const double principal = std::min(c.coefficients, static_cast<double>(FarFieldFit::kPrincipal));
-  const double x = c.positions * (c.positions_seen * grams + 6.0 * n * c.surface_nodes * principal) +
+  const double x = c.positions * (c.nodes_seen * grams + 6.0 * n * c.surface_nodes * principal) +
                    c.surface_nodes * solving;
   const double sweep = y(c.positions, c.positions_seen, principal) + x;
   const double head = given ? 0.8 : 1.5, constant = given ? 1.0 : 3.0;  // sweeps; s
@@ -105,15 +107,19 @@ double sharedSeconds(double loaded, double sources, double rows, double rate) {
   return (kDoubles * 2.0 * sources * sources * loaded + 6.0 * rows * loaded * sources) / rate;
 }
 
-/// Part of all pairs that are closer than three near radii, where weights differ from the area's.
-double partSeen(const PatchSurface& surface, std::span<const std::int32_t> nodes, double near_radius) {
+/// Part of all nodes that are closer to a block of others than three near radii, where weights differ from the area's.
+/// @param others  blocks lie around them  @param block  how many of them
+double partSeen(const PatchSurface& surface, std::span<const std::int32_t> others, std::size_t block,
+                double near_radius) {
   constexpr std::size_t kTried = 64;
+  const double area = std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
+  const double part = static_cast<double>(block) / static_cast<double>(std::max(block, others.size()));
+  const double reach = 3.0 * near_radius + std::sqrt(part * area / std::numbers::pi);
   double pairs = 0.0, seen = 0.0;
-  for (std::size_t i = 0; i < nodes.size(); i += std::max<std::size_t>(1, nodes.size() / kTried))
+  for (std::size_t i = 0; i < others.size(); i += std::max<std::size_t>(1, others.size() / kTried))
     for (const Vec3& X : surface.positions) {
       ++pairs;
-      seen +=
-          (X - surface.positions[static_cast<std::size_t>(nodes[i])]).norm() < 3.0 * near_radius ? 1.0 : 0.0;
+      seen += (X - surface.positions[static_cast<std::size_t>(others[i])]).norm() < reach ? 1.0 : 0.0;
     }
   return seen / pairs;
 }
@@ -171,8 +177,8 @@ Estimate DisplacementBuilder::sizes() const {
       4.0 * (near * 3.0 * Cm + 9.0 * near_loads + 3.0 * Ce * near_edges + n * (rows + M * Cm + 3.0 * G));
   const double work =
       options_.workers * (2.0 * 4.0 * 32.0 * C * rows + 8.0 * n * rows + 4.0 * 256.0 * 0.5 * n * n);
-  constexpr double kNodes = 128.0;  // whose matrices a worker adds up
-  const double sums = 2.0 * n * n * options_.workers * kNodes;
+  constexpr double kAtOnce{FarFieldFit::kNodes};  // whose matrices a worker adds up
+  const double sums = 2.0 * n * n * options_.workers * kAtOnce;
   constexpr double kLibraries = 3e7;  // OpenBLAS, HDF5, stacks
   const double fit =
       4.0 * nodes * std::max(M, G) + (8.0 * n + 4.0 * principal) * M * C + 32.0 * n * rows + work + sums;
@@ -180,9 +186,10 @@ Estimate DisplacementBuilder::sizes() const {
   // The loads with their Gram matrix, or with what superpose() sums at once and 64 fields.
   const double L = static_cast<double>(loaded_.size()), all_loads = 4.0 * L * G;
   const double sharing =
-      shares ? all_loads + std::max(8.0 * G * G, std::min(static_cast<double>(kSummedAtOnce), 12.0 * rows * G) +
-                                                     768.0 * rows)
-             : 0.0;
+      shares
+          ? all_loads + std::max(8.0 * G * G,
+                                 std::min(static_cast<double>(kSummedAtOnce), 12.0 * rows * G) + 768.0 * rows)
+          : 0.0;
   out.memory = kLibraries + out.resident + std::max({fit + 0.25 * floats, 2.0 * floats, sharing});
   return out;
 }
@@ -236,12 +243,15 @@ Estimate DisplacementBuilder::estimate() const {
     out.edges =
         probeSeries({edges.degree, edges.degree}, false) * rounds(static_cast<double>(edges.solved), kLanes);
   out.memory = std::max(out.memory, peakBytes());
+  std::vector<std::int32_t> nodes(setup_.surface.positions.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
   const FitCounts counts{static_cast<double>(setup_.surface.nodes.size()),
                          M,
                          S,
                          static_cast<double>(basis_.size()),
-                         partSeen(setup_.surface, setup_.positions.nodes, near_radius_),
-                         partSeen(setup_.surface, sources, near_radius_)};
+                         partSeen(setup_.surface, setup_.positions.nodes, Blocks::kMost, near_radius_),
+                         partSeen(setup_.surface, sources, Blocks::kMost, near_radius_),
+                         partSeen(setup_.surface, nodes, FarFieldFit::kNodes, near_radius_)};
   const double rate = productRate(options_.workers);
   out.fit = fitSeconds(counts, out.modes, case_.modes.has_value(), case_.sweepsOrDefault(), rate);
   if (S < G) out.series += sharedSeconds(G, S, 3.0 * counts.surface_nodes, rate);

@@ -19,7 +19,6 @@ using Eigen::MatrixXf;
 
 namespace {
 
-constexpr std::size_t kNodes = 128;  ///< of a block: their matrices share those of the sources
 constexpr double kAim =
     0.85;  ///< of the asked error, for modes that a part of the sources wants: all want more
 

@@ -26,6 +26,7 @@ class FarFieldFit {
   /// Principal fields of a source. Far from a patch its load acts by its resultant and its first moments, 3 and 9 numbers, however
   /// many coefficients the polynomial in d has (Saint-Venant's principle).                docs/decisions/three_parts.md
   static constexpr Eigen::Index kPrincipal = 12;
+  static constexpr std::size_t kNodes = 128;  ///< of a block: their matrices share those of the sources
 
   FarFieldFit(const FitProblem& problem, const FitOptions& options);
   FarField run();
