@@ -47,7 +47,7 @@ std::uint64_t residentBytes(const std::string& line) {
 }
 
 /// Loads, and says if that took more than one and a half times the file's size of memory: for a death test.
-[[noreturn]] void loadWithin(const std::filesystem::path& path) {
+[[maybe_unused, noreturn]] void loadWithin(const std::filesystem::path& path) {
   if (!(std::ofstream("/proc/self/clear_refs") << 5 << std::flush)) std::_Exit(2);  // begins the count
   const std::uint64_t before = residentBytes("VmRSS"), size = std::filesystem::file_size(path);
   std::fputs(complaint(path).c_str(), stderr);
