@@ -83,7 +83,7 @@ struct FitCounts {
 };
 
 /// Seconds of the fit: a head start on a part of the positions, sweeps over all, and the loads. Weights and the constant are
-/// those of organs of 2400 to 20,000 surface nodes (docs/scale.md).
+/// those of organs of 2400 to 3700 surface nodes (docs/scale.md).
 /// @param rate  productRate()
 double fitSeconds(const FitCounts& c, double n, bool given, int sweeps, double rate) {
   constexpr double kSlower = 2.0;   // the small factorizations
