@@ -271,6 +271,8 @@ TEST_F(ProcessFault, AFullDiskTakesNoForceAndWhatWasRecordedStays) {
   expect(
       "server: disk full under --record", Force::kGoesOn,
       [&] {
+        // It reaches the disk once a second: the first part before the disk is full.
+        for (int i = 0; i < 500 && read(server_arguments_.back()).ticks <= 200; ++i) wait(milliseconds(10));
         fill(filler);
         recording_lacks_ms_ = {};
         for (int i = 0; i < 500 && !recording_lacks_ms_; ++i, wait(milliseconds(10)))
