@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.h"
+
 namespace palpate {
 
 namespace {
@@ -33,29 +35,13 @@ class FieldThere {
     parts_.stiffness.at(parts_.surface, s, stiffness);
     const Mat3 linear = compliance(s) * (parts_.reference * stiffness.K);
     for (Eigen::Index axis = 0; axis < 3; ++axis) store(linear.col(axis), u + 3 * axis);
-    const Stencil stencil = parts_.mixing.at(parts_.surface, s);
+    bend(place, s, rows - kLinearCoefficients);
     for (std::size_t row = kLinearCoefficients; row < rows; ++row)
-      store(bend(place, stencil, row - kLinearCoefficients), u + 3 * row);
+      store(bend_[row - kLinearCoefficients], u + 3 * row);
   }
 
  private:
   static void store(const Vec3& from, float* to) { Eigen::Map<Eigen::Vector3f>{to} = from.cast<float>(); }
-
-  /// Of something at a node, its value at the place.
-  template <class At>
-  [[nodiscard]] Vec3 atNodes(const At& at) const {
-    Vec3 u = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k)
-      if (nodes_.weight[k] > 0.0) u += nodes_.weight[k] * at(nodes_.node[k]);
-    return u;
-  }
-
-  /// What the modes give with the amplitudes y_.
-  [[nodiscard]] Vec3 modes() const {
-    const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3>> X(X_.data(), Eigen::Index(modes_), 3);
-    return (X.transpose() * Eigen::Map<const Eigen::VectorXf>(y_.data(), Eigen::Index(modes_)))
-        .cast<double>();
-  }
 
   /// The place's displacement by unit loads on its patch, column by load, m/N.
   [[nodiscard]] Mat3 compliance(const ContactPoint& s) {
@@ -65,26 +51,39 @@ class FieldThere {
     std::fill(Z_.begin(), Z_.end(), 0.0F);
     parts_.linear.addUnitAmplitudes(sources_, Z_);
     const Columns X(X_.data(), Eigen::Index(modes_), 3), Z(Z_.data(), Eigen::Index(modes_), 3);
-    Mat3 u = (X.transpose() * Z).cast<double>();
+    Mat3 u = X.transpose().lazyProduct(Z).cast<double>();
     for (std::size_t k = 0; k < 3; ++k)
       if (nodes_.weight[k] > 0.0) u += nodes_.weight[k] * parts_.linear.nearAt(sources_, nodes_.node[k]);
     return u;
   }
 
-  /// One row of those beyond the linear ones.
-  [[nodiscard]] Vec3 bend(std::size_t place, const Stencil& stencil, std::size_t row) {
-    std::fill(y_.begin(), y_.end(), 0.0F);
-    Vec3 u = Vec3::Zero();
+  /// Finds the first rows beyond the linear ones.
+  void bend(std::size_t place, const ContactPoint& s, std::size_t rows) {
+    const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3>> X(X_.data(), Eigen::Index(modes_), 3);
+    const Eigen::Map<const Eigen::VectorXf> y(y_.data(), Eigen::Index(modes_));
+    bend_.resize(rows);
+    if (rows == 0) return;
+    Stencil stencil = parts_.mixing.at(parts_.surface, s);
+    std::size_t count = 0;  // at a position all others have none
     for (std::size_t b = 0; b < stencil.count; ++b) {
-      parts_.amplitudes.addRow(stencil.position[b], row, stencil.weight[b], y_);
-      u += stencil.weight[b] *
-           atNodes([&](std::int32_t node) { return parts_.near.rowAt(stencil.position[b], row, node); });
+      if (stencil.weight[b] == 0.0) continue;
+      stencil.position[count] = stencil.position[b];
+      stencil.weight[count++] = stencil.weight[b];
     }
-    if (place >= parts_.view.positions()) {
-      const auto edge = static_cast<std::int32_t>(place - parts_.view.positions());
-      u += atNodes([&](std::int32_t node) { return parts_.edges.rowAt(edge, row, node); });
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::fill(y_.begin(), y_.end(), 0.0F);
+      for (std::size_t b = 0; b < count; ++b)
+        parts_.amplitudes.addRow(stencil.position[b], row, stencil.weight[b], y_);
+      bend_[row] = (X.transpose() * y).cast<double>();
     }
-    return u + modes();
+    for (std::size_t b = 0; b < count; ++b) addNear(parts_.near, stencil.position[b], stencil.weight[b]);
+    if (place >= parts_.view.positions())
+      addNear(parts_.edges, static_cast<std::int32_t>(place - parts_.view.positions()), 1.0);
+  }
+
+  void addNear(const NearField& near, std::int32_t source, double factor) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (nodes_.weight[k] > 0.0) near.addRowsAt(source, factor * nodes_.weight[k], nodes_.node[k], bend_);
   }
 
   const ContactDimple::Parts& parts_;
@@ -92,10 +91,20 @@ class FieldThere {
   PatchNodes patch_;
   PatchSources sources_;
   NodeMix nodes_{};
-  std::vector<float> y_;  // [n]
-  std::vector<float> X_;  // [3][n]
-  std::vector<float> Z_;  // [3][n] of unit loads, m/N
+  std::vector<float> y_;    // [n]
+  std::vector<float> X_;    // [3][n]
+  std::vector<float> Z_;    // [3][n] of unit loads, m/N
+  std::vector<Vec3> bend_;  // rows beyond the linear ones, m
 };
+
+template <class Work>
+void forEachPlace(int workers, std::size_t begin, std::size_t end, const Work& work) {
+  constexpr std::size_t kChunk = 64;
+  parallelFor(workers, (end - begin + kChunk - 1) / kChunk, [&](int worker, std::size_t chunk) {
+    const std::size_t first = begin + kChunk * chunk;
+    for (std::size_t place = first; place < std::min(first + kChunk, end); ++place) work(worker, place);
+  });
+}
 
 }  // namespace
 
@@ -105,17 +114,21 @@ ContactDimple::ContactDimple(const Parts& parts)
       edge_rows_(kLinearCoefficients + parts.edge_rows),
       position_(positions_ * 3 * rows_),
       edge_((parts.places.size() - positions_) * 3 * edge_rows_) {
-  FieldThere field(parts);
-  for (std::size_t m = 0; m < positions_; ++m) field.at(m, rows_, position_.data() + 3 * rows_ * m);
-  for (std::size_t place = positions_; place < parts.places.size(); ++place) {
+  std::vector<FieldThere> fields;
+  const int workers = loadThreads();
+  for (int worker = 0; worker < workers; ++worker) fields.emplace_back(parts);
+  forEachPlace(workers, 0, positions_, [&](int worker, std::size_t m) {
+    fields[index(worker)].at(m, rows_, position_.data() + 3 * rows_ * m);
+  });
+  forEachPlace(workers, positions_, parts.places.size(), [&](int worker, std::size_t place) {
     float* const beyond = edge_.data() + 3 * edge_rows_ * (place - positions_);
-    field.at(place, edge_rows_, beyond);
+    fields[index(worker)].at(place, edge_rows_, beyond);
     const ContactPoint& s = parts.places.views(place).front().s;
     const std::array<std::int32_t, 6>& corner = parts.places.of(s.triangle);
     for (std::size_t k = 0; k < 3; ++k)
       if (s.barycentric[k] > 0.0)
         for (std::size_t i = 0; i < 3 * edge_rows_; ++i) beyond[i] -= 0.5F * ofPosition(corner[k])[i];
-  }
+  });
 }
 
 Vec3 ContactDimple::at(const SmoothPlaces& places, const ContactPoint& s, const PositionMix& mix,

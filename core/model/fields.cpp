@@ -146,12 +146,15 @@ Vec3 NearField::at(std::int32_t source, std::span<const double> weight,
   return u;
 }
 
-Vec3 NearField::rowAt(std::int32_t source, std::size_t row, std::int32_t node) const noexcept {
+void NearField::addRowsAt(std::int32_t source, double factor, std::int32_t node,
+                          std::span<Vec3> u) const noexcept {
   const std::ptrdiff_t place = nodes_.find(source, node);
-  if (place < 0) return Vec3::Zero();
-  const std::size_t number = numbersOf(source, place) + 3 * row * nodes(source).size();
-  return double(scale_[index(source) * rows_ + row]) *
-         Vec3(field_[number], field_[number + 1], field_[number + 2]);
+  if (place < 0) return;
+  const std::size_t stride = 3 * nodes(source).size();
+  const float* const scale = scale_.data() + index(source) * rows_;
+  std::size_t number = numbersOf(source, place);
+  for (std::size_t row = 0; row < u.size(); ++row, number += stride)
+    u[row] += factor * double(scale[row]) * Vec3(field_[number], field_[number + 1], field_[number + 2]);
 }
 
 void NearField::add(std::int32_t source, std::span<const double> weight, double factor,

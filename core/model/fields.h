@@ -110,8 +110,8 @@ class NearField {
   /// What block() gives at one node, m; zero where the block has it not. Cost O(rows + log K). Real-time: yes.
   [[nodiscard]] Vec3 at(std::int32_t source, std::span<const double> weight,
                         std::int32_t node) const noexcept PALPATE_NONBLOCKING;
-  /// The same of one row by itself. Cost O(log K).
-  [[nodiscard]] Vec3 rowAt(std::int32_t source, std::size_t row, std::int32_t node) const noexcept;
+  /// Of each row by itself: u[r] += factor * row r at one node, m. @param u  [rows], or of the first. Cost O(rows + log K).
+  void addRowsAt(std::int32_t source, double factor, std::int32_t node, std::span<Vec3> u) const noexcept;
   /// u += a block. @param scratch  blockSize(), @param u  [Ns][3]. Real-time: yes.
   void add(std::int32_t source, std::span<const double> weight, double factor, std::span<float> scratch,
            std::span<float> u) const noexcept PALPATE_NONBLOCKING;

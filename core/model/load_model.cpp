@@ -23,7 +23,7 @@ std::uint64_t bytesOfTables(const ModelView& v) {
   constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have
   constexpr std::uint64_t kPerNode =
       2200;  // of a surface that has more after one refinement, while it is made
-  constexpr std::uint64_t kPerEntry = 2 * 8;  // of a patch, twice as its list grows
+  constexpr std::uint64_t kPerEntry = 2 * 8;  // of a patch, twice as the list of some centres ends
   const std::uint64_t entries =
       std::min<std::uint64_t>(ContactPatches::kMostTogether,
                               v.surfaceNodes() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));

@@ -2,11 +2,13 @@
 #include "core/surface/contact_patches.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "core/base/index.h"
+#include "core/base/parallel.h"
 
 namespace palpate {
 
@@ -20,8 +22,8 @@ struct Fall {
 };
 Fall fallAt(double square, double a) noexcept PALPATE_NONBLOCKING {
   constexpr double kFlat = 0.6;  // of the reach
+  if (square >= kReach * kReach * a * a) return {};
   const double x = std::sqrt(std::max(square, 0.0)) / (kReach * a);
-  if (x >= 1.0) return {};
   const double gauss = std::exp(-0.5 * square / (a * a));
   if (x <= kFlat) return {gauss, -0.5 / (a * a) * gauss};
   const double z = (x - kFlat) / (1.0 - kFlat);
@@ -42,11 +44,21 @@ std::vector<double> longestEdges(const SurfaceGraph& graph) {
   return longest;
 }
 
+/// A hostile file's patches would fill the memory and take all day, those over fixed nodes too.
+void requireFew(std::size_t reached, std::size_t together, double a) {
+  if (reached <= ContactPatches::kMostNodes && together <= ContactPatches::kMostTogether) return;
+  throw std::invalid_argument(
+      "patch_radius is " + std::to_string(a) + " m, expected one of patches with at most " +
+      std::to_string(ContactPatches::kMostNodes) + " nodes, found " + std::to_string(reached) +
+      ", and all together " + std::to_string(ContactPatches::kMostTogether) + ", found " +
+      std::to_string(together));
+}
+
 }  // namespace
 
 ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::uint8_t> free, double a,
                                std::span<const std::int32_t> centres)
-    : a_(a), load_(graph.loadAreas()), free_(free.begin(), free.end()), range_(free.size(), {0, 0}) {
+    : a_(a), load_(graph.loadAreas()), free_(free.begin(), free.end()), near_(free.size()) {
   for (std::int32_t f = 0; f < graph.faces(); ++f) {
     const std::span<const std::int32_t> node = graph.face(f);
     triangles_.insert(triangles_.end(), node.begin(), node.end());
@@ -55,35 +67,39 @@ ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::u
       squares[k] = (graph.position(node[(k + 1) % 3]) - graph.position(node[(k + 2) % 3])).squaredNorm();
     edges_.push_back(squares);
   }
-  SurfaceFront front(graph);
+  findNear(graph, centres);
+  for (const std::vector<Near>& list : lists_) entries_ += list.size();
+  for (const std::span<const Near> near : near_) most_ = std::max(most_, near.size());
+}
+
+void ContactPatches::findNear(const SurfaceGraph& graph, std::span<const std::int32_t> centres) {
+  constexpr std::size_t kChunk = 64;  // centres
   const std::vector<double> longest = longestEdges(graph);
-  constexpr std::size_t kSome = 64;
-  std::size_t together = 0;
-  for (std::size_t done = 0; done < centres.size(); ++done) {
-    const std::int32_t centre = centres[done];
-    const std::int32_t t = graph.trianglesOf(centre).front();
-    ContactPoint s{t, {}};
-    for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
-    const std::size_t first = near_.size();
-    const auto& reached = front.from(s, kReach * a + longest[index(centre)]);
-    together += reached.size();
-    // A hostile file's patches would fill the memory and take all day, those over fixed nodes too.
-    if (reached.size() > kMostNodes || together > kMostTogether)
-      throw std::invalid_argument("patch_radius is " + std::to_string(a) +
-                                  " m, expected one of patches with at most " + std::to_string(kMostNodes) +
-                                  " nodes, found " + std::to_string(reached.size()) + ", and all together " +
-                                  std::to_string(kMostTogether) + ", found " + std::to_string(together));
-    // By what centres had so far: doubled, it would take three times its size for a moment.
-    if (done >= kSome && near_.capacity() < first + reached.size())
-      near_.reserve(std::min(first + reached.size() + (first / done + 1) * (centres.size() - done),
-                             kMostTogether + kMostNodes));
-    for (const auto& [node, r] : reached)
-      if (load_[index(node)] > 0.0) near_.push_back({node, static_cast<float>(r * r)});
-    std::sort(near_.begin() + std::ptrdiff_t(first), near_.end(),
-              [](const Near& l, const Near& r) { return l.node < r.node; });
-    range_[index(centre)] = {first, near_.size()};
-    most_ = std::max(most_, near_.size() - first);
-  }
+  const int workers = loadThreads();
+  std::vector<SurfaceFront> fronts(index(workers), SurfaceFront(graph));
+  std::atomic<std::size_t> together{0};
+  lists_.resize((centres.size() + kChunk - 1) / kChunk);
+  parallelFor(workers, lists_.size(), [&](int worker, std::size_t chunk) {
+    const auto some = centres.subspan(kChunk * chunk, std::min(kChunk, centres.size() - kChunk * chunk));
+    std::vector<Near>& list = lists_[chunk];
+    std::vector<std::size_t> end;
+    for (const std::int32_t centre : some) {
+      const std::int32_t t = graph.trianglesOf(centre).front();
+      ContactPoint s{t, {}};
+      for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
+      const auto& reached = fronts[index(worker)].from(s, kReach * a_ + longest[index(centre)]);
+      requireFew(reached.size(), together += reached.size(), a_);
+      const auto first = std::ptrdiff_t(list.size());
+      for (const auto& [node, r] : reached)
+        if (load_[index(node)] > 0.0) list.push_back({node, static_cast<float>(r * r)});
+      std::sort(list.begin() + first, list.end(),
+                [](const Near& l, const Near& r) { return l.node < r.node; });
+      end.push_back(list.size());
+    }
+    list.shrink_to_fit();
+    for (std::size_t i = 0, first = 0; i < some.size(); first = end[i++])
+      near_[index(some[i])] = std::span<const Near>(list).subspan(first, end[i] - first);
+  });
 }
 
 PatchNodes ContactPatches::room() const {
@@ -97,12 +113,6 @@ PatchNodes ContactPatches::room() const {
 void ContactPatches::markNear(std::int32_t centre, std::span<std::uint8_t> near) const {
   for (const Near& entry : nearTo(centre))
     if (free_[index(entry.node)] != 0 && load_[index(entry.node)] > 0.0) near[index(entry.node)] = 1;
-}
-
-std::span<const ContactPatches::Near> ContactPatches::nearTo(std::int32_t centre) const noexcept
-    PALPATE_NONBLOCKING {
-  const auto [first, end] = range_[index(centre)];
-  return std::span(near_).subspan(first, end - first);
 }
 
 void ContactPatches::at(const ContactPoint& s, bool slopes,

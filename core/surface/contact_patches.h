@@ -39,6 +39,8 @@ class ContactPatches {
   /// @throw std::invalid_argument when a is so large that patches exceed the limits above
   ContactPatches(const SurfaceGraph& graph, std::span<const std::uint8_t> free, double a,
                  std::span<const std::int32_t> centres);
+  ContactPatches(ContactPatches&&) = default;
+  ContactPatches& operator=(ContactPatches&&) = default;
 
   /// The patch at s; empty where no free node is near, or a corner of s with lambda > 0 is not among the centres.
   /// @param[out] patch  made by room(). Cost O(k). Real-time: yes.
@@ -49,23 +51,26 @@ class ContactPatches {
   /// @param near  [Ns]
   void markNear(std::int32_t centre, std::span<std::uint8_t> near) const;
   /// Nodes near the centres, of all together.
-  [[nodiscard]] std::size_t entries() const noexcept { return near_.size(); }
+  [[nodiscard]] std::size_t entries() const noexcept { return entries_; }
 
  private:
   struct Near {
     std::int32_t node;
     float square;  // r_ib^2, m^2: half the memory of doubles, and weights that are off by 1e-7
   };
-  [[nodiscard]] std::span<const Near> nearTo(std::int32_t centre) const noexcept PALPATE_NONBLOCKING;
+  void findNear(const SurfaceGraph& graph, std::span<const std::int32_t> centres);
+  [[nodiscard]] std::span<const Near> nearTo(std::int32_t centre) const noexcept PALPATE_NONBLOCKING {
+    return near_[static_cast<std::size_t>(centre)];
+  }
 
   double a_;
   std::vector<std::int32_t> triangles_;       // [faces][3]
   std::vector<std::array<double, 3>> edges_;  // [faces] squared length of the edge opposite to corner k, m^2
   std::vector<double> load_;                  // [Ns] A_i, m^2
   std::vector<std::uint8_t> free_;            // [Ns]
-  std::vector<std::array<std::size_t, 2>> range_;  // [Ns] into near_
-  std::vector<Near> near_;                         // of each centre by node
-  std::size_t most_{0};
+  std::vector<std::vector<Near>> lists_;      // of some centres each
+  std::vector<std::span<const Near>> near_;   // [Ns] into lists_: of each centre by node
+  std::size_t entries_{0}, most_{0};
 };
 
 }  // namespace palpate

@@ -28,6 +28,9 @@ std::size_t placeOf(std::int32_t node, const Three& in) {
 /// The new node on each side of each triangle; adds their positions to `fine`. The second triangle at an edge takes the first's.
 std::vector<Three> addMiddles(const DividedSurface& coarse, DividedSurface& fine) {
   std::vector<Three> middles(coarse.triangle.size());
+  const std::size_t edges = 3 * middles.size() / 2;
+  fine.position.reserve(fine.position.size() + edges);
+  fine.rest.reserve(fine.rest.size() + edges);
   for (std::size_t t = 0; t < middles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = coarse.triangle[t][(k + 1) % 3], b = coarse.triangle[t][(k + 2) % 3];

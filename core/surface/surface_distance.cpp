@@ -123,15 +123,20 @@ void SurfaceFront::offer(std::int32_t node, double distance) {
 
 void SurfaceFront::spread(std::int32_t triangle, std::int32_t node) {
   const std::span<const std::int32_t> nodes = graph_.triangle(triangle);
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (state_[at(nodes[k])] == State::kSettled) continue;
-    const std::int32_t a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
+  const std::size_t k = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
+  const std::size_t one = (k + 1) % 3, other = (k + 2) % 3;
+  const std::int32_t a = nodes[one], b = nodes[other];
+  const double distance = distance_[at(node)];
+  const bool has_a = state_[at(a)] == State::kSettled, has_b = state_[at(b)] == State::kSettled;
+  if (has_a && has_b) return;
+  if (has_a) {
+    offer(b, unfold(graph_.corner(triangle, other), distance, distance_[at(a)]));
+  } else if (has_b) {
+    offer(a, unfold(graph_.corner(triangle, one), distance_[at(b)], distance));
+  } else {
     const SurfaceGraph::Corner& corner = graph_.corner(triangle, k);
-    const double da = distance_[at(a)], db = distance_[at(b)];
-    if (state_[at(a)] == State::kSettled && state_[at(b)] == State::kSettled)
-      offer(nodes[k], unfold(corner, da, db));
-    else
-      offer(nodes[k], node == a ? da + corner.to_a : db + corner.to_b);
+    offer(a, distance + corner.to_a);
+    offer(b, distance + corner.to_b);
   }
 }
 

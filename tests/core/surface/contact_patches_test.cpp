@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -124,6 +125,55 @@ TEST(ContactPatches, LeavesOutClampedNodesAndSaysHowMuchTheyWere) {
   EXPECT_NEAR(sum, 1.0, 1e-12);
   EXPECT_GT(patch.free_share, 0.5);
   EXPECT_LT(patch.free_share, 0.65);
+}
+
+// Of quadratic elements the corners of faces carry no load (docs/design.md, Elements), and lists have no room for them.
+TEST(ContactPatches, ListsHoldMiddlesOnlyWhereCornersCarryNothing) {
+  constexpr std::int32_t kCells = 24, kRow = 2 * kCells + 1;
+  const auto node = [](std::int32_t i, std::int32_t j) { return kRow * i + j; };
+  std::vector<double> positions;
+  for (std::int32_t i = 0; i < kRow; ++i)
+    for (std::int32_t j = 0; j < kRow; ++j) positions.insert(positions.end(), {0.003 * i, 0.003 * j, 0.0});
+  std::vector<std::int32_t> triangles, faces, centres;
+  const auto add = [&](std::array<std::int32_t, 2> A, std::array<std::int32_t, 2> B,
+                       std::array<std::int32_t, 2> C) {
+    const auto middle = [&](const auto& one, const auto& other) {
+      return node((one[0] + other[0]) / 2, (one[1] + other[1]) / 2);
+    };
+    const std::int32_t a = node(A[0], A[1]), b = node(B[0], B[1]), c = node(C[0], C[1]);
+    const std::int32_t ab = middle(A, B), bc = middle(B, C), ca = middle(C, A);
+    faces.insert(faces.end(), {a, b, c});
+    triangles.insert(triangles.end(), {a, ab, ca, ab, b, bc, ca, bc, c, bc, ca, ab});
+  };
+  for (std::int32_t i = 0; i < kRow - 1; i += 2)
+    for (std::int32_t j = 0; j < kRow - 1; j += 2) {
+      add({i, j}, {i + 2, j}, {i + 2, j + 2});
+      add({i, j}, {i + 2, j + 2}, {i, j + 2});
+    }
+  for (std::int32_t i = 0; i < kRow; i += 2)
+    for (std::int32_t j = 0; j < kRow; j += 2) centres.push_back(node(i, j));
+  const SurfaceGraph graph(positions, triangles, faces);
+  const std::vector<std::uint8_t> free(positions.size() / 3, 1);
+  const ContactPatches patches(graph, free, kWidth, centres);
+
+  SurfaceFront front(graph);
+  std::size_t middles = 0;
+  for (const std::int32_t centre : centres) {
+    ContactPoint s{graph.trianglesOf(centre).front(), {}};
+    for (std::size_t k = 0; k < 3; ++k)
+      s.barycentric[k] = graph.triangle(s.triangle)[k] == centre ? 1.0 : 0.0;
+    const double longest =
+        centre == node(0, kRow - 1) || centre == node(kRow - 1, 0) ? 0.006 : 0.006 * std::sqrt(2.0);
+    for (const auto& [reached, distance] : front.from(s, 3.0 * kWidth + longest))
+      middles += (reached / kRow) % 2 != 0 || (reached % kRow) % 2 != 0 ? 1 : 0;
+  }
+  EXPECT_GT(middles, 100 * centres.size());
+  EXPECT_EQ(patches.entries(), middles);
+  PatchNodes patch = patches.room();
+  patches.at({kCells * kCells, {0.3, 0.3, 0.4}}, false, patch);
+  EXPECT_GT(patch.count, 100U);
+  for (std::size_t i = 0; i < patch.count; ++i)
+    EXPECT_TRUE((patch.node[i] / kRow) % 2 != 0 || (patch.node[i] % kRow) % 2 != 0) << patch.node[i];
 }
 
 }  // namespace

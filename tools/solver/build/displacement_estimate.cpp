@@ -158,23 +158,29 @@ Estimate DisplacementBuilder::sizes() const {
     n = std::clamp(0.45 * case_.sizeLimitOrDefault() / (rows + 3.0 * G + M * Cm / 3.0), 12.0, 400.0);
   out.modes = static_cast<int>(std::lround(n));
 
-  // 1. The file: whole numbers of two bytes, with a node's number for each node of a near field.
+  // 1. The file: fields as whole numbers of two bytes, with a node's number for each node of a near field; all else as doubles. A
+  // small file has half of that, and few modes for what positions have of them.
   modelfile::ModelData organ;
   organ.attributes.order = basis_.order();
   organ.attributes.force_order = force_basis_.order();
+  organ.compact = case_.handheld();
   storeOrgan(setup_, mesh_, organ);
   const EdgeCounts edges = case_.handheld() ? EdgeCounts{} : edgeCounts(setup_, basis_.order());
   const double near = kKept * total(near_), near_loads = total(shares ? nearOf(sources) : near_loaded_);
   const double near_edges = kKept * static_cast<double>(edges.solved) * edges.nodes, Ce = edges.coefficients;
-  out.file = static_cast<double>(modelfile::storedBytes(organ)) + 24.0 * M * force_basis_.size() +
-             192.0 * (M + static_cast<double>(edges.all)) + n * (2.0 * rows + 4.0) +
-             (M * Cm + 3.0 * G) * (2.0 * n + 8.0) + near * (6.0 * Cm + 4.0) + near_loads * 22.0 +
-             near_edges * (6.0 * Ce + 4.0) + 4.0 * Ce * static_cast<double>(edges.all);
+  const double whole = case_.handheld() ? 1.0 : 2.0, real = 4.0 * whole;  // bytes
+  const double of_positions =
+      case_.handheld() ? static_cast<double>(SizeBudget::positionModes(out.modes)) : n;
+  out.file = static_cast<double>(modelfile::storedBytes(organ)) + 3.0 * real * M * force_basis_.size() +
+             24.0 * real * (M + static_cast<double>(edges.all)) + n * (whole * rows + 4.0) +
+             M * Cm * (whole * of_positions + 8.0) + 3.0 * G * (whole * n + 8.0) +
+             near * (3.0 * whole * Cm + 4.0) + near_loads * (9.0 * whole + 4.0) +
+             near_edges * (3.0 * whole * Ce + 4.0) + 4.0 * Ce * static_cast<double>(edges.all);
   if (case_.handheld()) out.file = std::min(out.file, case_.sizeLimitOrDefault());
 
   // 2. Memory: the fit, or what the model is put together from.
-  const double floats =
-      4.0 * (near * 3.0 * Cm + 9.0 * near_loads + 3.0 * Ce * near_edges + n * (rows + M * Cm + 3.0 * G));
+  const double floats = 4.0 * (near * 3.0 * Cm + 9.0 * near_loads + 3.0 * Ce * near_edges +
+                               of_positions * M * Cm + n * (rows + 3.0 * G));
   const double work =
       options_.workers * (2.0 * 4.0 * 32.0 * C * rows + 8.0 * n * rows + 4.0 * 256.0 * 0.5 * n * n);
   constexpr double kAtOnce{FarFieldFit::kNodes};  // whose matrices a worker adds up
