@@ -62,7 +62,6 @@ set(PALPATE_CORE_SOURCES
   tick/tool_surface.cpp
   tick/workspace.cpp)
 set(PALPATE_CORE_SYSTEM_SOURCES
-  base/parallel.cpp
   data/ask_reader.cpp
   data/available_memory.cpp
   data/model_answer.cpp

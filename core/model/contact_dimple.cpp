@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "core/base/parallel.h"
-
 namespace palpate {
 
 namespace {
@@ -97,15 +95,6 @@ class FieldThere {
   std::vector<Vec3> bend_;  // rows beyond the linear ones, m
 };
 
-template <class Work>
-void forEachPlace(int workers, std::size_t begin, std::size_t end, const Work& work) {
-  constexpr std::size_t kChunk = 64;
-  parallelFor(workers, (end - begin + kChunk - 1) / kChunk, [&](int worker, std::size_t chunk) {
-    const std::size_t first = begin + kChunk * chunk;
-    for (std::size_t place = first; place < std::min(first + kChunk, end); ++place) work(worker, place);
-  });
-}
-
 }  // namespace
 
 ContactDimple::ContactDimple(const Parts& parts)
@@ -114,21 +103,17 @@ ContactDimple::ContactDimple(const Parts& parts)
       edge_rows_(kLinearCoefficients + parts.edge_rows),
       position_(positions_ * 3 * rows_),
       edge_((parts.places.size() - positions_) * 3 * edge_rows_) {
-  std::vector<FieldThere> fields;
-  const int workers = loadThreads();
-  for (int worker = 0; worker < workers; ++worker) fields.emplace_back(parts);
-  forEachPlace(workers, 0, positions_, [&](int worker, std::size_t m) {
-    fields[index(worker)].at(m, rows_, position_.data() + 3 * rows_ * m);
-  });
-  forEachPlace(workers, positions_, parts.places.size(), [&](int worker, std::size_t place) {
+  FieldThere field(parts);
+  for (std::size_t m = 0; m < positions_; ++m) field.at(m, rows_, position_.data() + 3 * rows_ * m);
+  for (std::size_t place = positions_; place < parts.places.size(); ++place) {
     float* const beyond = edge_.data() + 3 * edge_rows_ * (place - positions_);
-    fields[index(worker)].at(place, edge_rows_, beyond);
+    field.at(place, edge_rows_, beyond);
     const ContactPoint& s = parts.places.views(place).front().s;
     const std::array<std::int32_t, 6>& corner = parts.places.of(s.triangle);
     for (std::size_t k = 0; k < 3; ++k)
       if (s.barycentric[k] > 0.0)
         for (std::size_t i = 0; i < 3 * edge_rows_; ++i) beyond[i] -= 0.5F * ofPosition(corner[k])[i];
-  });
+  }
 }
 
 Vec3 ContactDimple::at(const SmoothPlaces& places, const ContactPoint& s, const PositionMix& mix,

@@ -22,8 +22,9 @@ namespace {
 std::uint64_t bytesOfTables(const ModelView& v) {
   constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have
   constexpr std::uint64_t kPerNode =
-      2200;  // of a surface that has more after one refinement, while it is made
-  constexpr std::uint64_t kPerEntry = 2 * 8;  // of a patch, twice as the list of some centres ends
+      2200;                               // of a surface that has more after one refinement, while it is made
+  constexpr std::uint64_t kPerEntry = 8;  // of a patch
+  constexpr std::uint64_t kPiece = 1U << 20U;  // of the patches' list, with room to spare
   const std::uint64_t entries =
       std::min<std::uint64_t>(ContactPatches::kMostTogether,
                               v.surfaceNodes() * std::min(v.surfaceNodes(), ContactPatches::kMostNodes));
@@ -32,8 +33,8 @@ std::uint64_t bytesOfTables(const ModelView& v) {
                                4 * v.surfaceNodes() * sizeof(Eigen::Matrix3f) + 3 * v.edge_scale.size_bytes();
   return places + v.triangles() * sizeof(SmoothCubic<6>) + v.contact_stiffness.size_bytes() +
          v.modes_Y_scale.size_bytes() * 3 + v.contact_force.size_bytes() +
-         v.contact_displacement.size_bytes() + kRefined + kPerNode * v.surfaceNodes() + kPerEntry * entries +
-         kRegionSurfaceBytes * v.mesh_element_region.size();
+         v.contact_displacement.size_bytes() + kRefined + kPiece + kPerNode * v.surfaceNodes() +
+         kPerEntry * entries + kRegionSurfaceBytes * v.mesh_element_region.size();
 }
 
 }  // namespace

@@ -2,13 +2,11 @@
 #include "core/surface/contact_patches.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "core/base/index.h"
-#include "core/base/parallel.h"
 
 namespace palpate {
 
@@ -73,33 +71,27 @@ ContactPatches::ContactPatches(const SurfaceGraph& graph, std::span<const std::u
 }
 
 void ContactPatches::findNear(const SurfaceGraph& graph, std::span<const std::int32_t> centres) {
-  constexpr std::size_t kChunk = 64;  // centres
+  constexpr std::size_t kPiece = (1U << 20U) / sizeof(Near);  // one list would be copied as it grows
+  static_assert(kPiece >= kMostNodes);
   const std::vector<double> longest = longestEdges(graph);
-  const int workers = loadThreads();
-  std::vector<SurfaceFront> fronts(index(workers), SurfaceFront(graph));
-  std::atomic<std::size_t> together{0};
-  lists_.resize((centres.size() + kChunk - 1) / kChunk);
-  parallelFor(workers, lists_.size(), [&](int worker, std::size_t chunk) {
-    const auto some = centres.subspan(kChunk * chunk, std::min(kChunk, centres.size() - kChunk * chunk));
-    std::vector<Near>& list = lists_[chunk];
-    std::vector<std::size_t> end;
-    for (const std::int32_t centre : some) {
-      const std::int32_t t = graph.trianglesOf(centre).front();
-      ContactPoint s{t, {}};
-      for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
-      const auto& reached = fronts[index(worker)].from(s, kReach * a_ + longest[index(centre)]);
-      requireFew(reached.size(), together += reached.size(), a_);
-      const auto first = std::ptrdiff_t(list.size());
-      for (const auto& [node, r] : reached)
-        if (load_[index(node)] > 0.0) list.push_back({node, static_cast<float>(r * r)});
-      std::sort(list.begin() + first, list.end(),
-                [](const Near& l, const Near& r) { return l.node < r.node; });
-      end.push_back(list.size());
-    }
-    list.shrink_to_fit();
-    for (std::size_t i = 0, first = 0; i < some.size(); first = end[i++])
-      near_[index(some[i])] = std::span<const Near>(list).subspan(first, end[i] - first);
-  });
+  SurfaceFront front(graph);
+  std::size_t together = 0;
+  for (const std::int32_t centre : centres) {
+    const std::int32_t t = graph.trianglesOf(centre).front();
+    ContactPoint s{t, {}};
+    for (std::size_t k = 0; k < 3; ++k) s.barycentric[k] = graph.triangle(t)[k] == centre ? 1.0 : 0.0;
+    const auto& reached = front.from(s, kReach * a_ + longest[index(centre)]);
+    requireFew(reached.size(), together += reached.size(), a_);
+    if (lists_.empty() || lists_.back().size() + reached.size() > kPiece)
+      lists_.emplace_back().reserve(std::min(kPiece, centres.size() * kMostNodes));
+    std::vector<Near>& list = lists_.back();
+    const std::size_t first = list.size();
+    for (const auto& [node, r] : reached)
+      if (load_[index(node)] > 0.0) list.push_back({node, static_cast<float>(r * r)});
+    const std::span<Near> own = std::span(list).subspan(first);
+    std::sort(own.begin(), own.end(), [](const Near& l, const Near& r) { return l.node < r.node; });
+    near_[index(centre)] = own;
+  }
 }
 
 PatchNodes ContactPatches::room() const {

@@ -68,7 +68,7 @@ class ContactPatches {
   std::vector<std::array<double, 3>> edges_;  // [faces] squared length of the edge opposite to corner k, m^2
   std::vector<double> load_;                  // [Ns] A_i, m^2
   std::vector<std::uint8_t> free_;            // [Ns]
-  std::vector<std::vector<Near>> lists_;      // of some centres each
+  std::vector<std::vector<Near>> lists_;      // pieces of a list
   std::vector<std::span<const Near>> near_;   // [Ns] into lists_: of each centre by node
   std::size_t entries_{0}, most_{0};
 };

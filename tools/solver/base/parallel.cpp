@@ -4,9 +4,11 @@
 #include <cblas.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
-
-#include "core/base/parallel.h"
+#include <vector>
 
 namespace palpate::solver {
 
@@ -28,7 +30,24 @@ std::string blasVersion() {
 
 void parallelFor(int workers, std::size_t chunks, const std::function<void(int, std::size_t)>& work) {
   const SerialBlas serial;
-  palpate::parallelFor(workers, chunks, work);
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto run = [&](int worker) {
+    try {
+      for (std::size_t chunk = next++; chunk < chunks; chunk = next++) work(worker, chunk);
+    } catch (...) {
+      const std::lock_guard lock(failure_mutex);
+      if (!failure) failure = std::current_exception();
+      next = chunks;
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int worker = 1; worker < workers; ++worker) threads.emplace_back(run, worker);
+    run(0);
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace palpate::solver

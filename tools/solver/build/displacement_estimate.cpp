@@ -168,13 +168,14 @@ Estimate DisplacementBuilder::sizes() const {
   const EdgeCounts edges = case_.handheld() ? EdgeCounts{} : edgeCounts(setup_, basis_.order());
   const double near = kKept * total(near_), near_loads = total(shares ? nearOf(sources) : near_loaded_);
   const double near_edges = kKept * static_cast<double>(edges.solved) * edges.nodes, Ce = edges.coefficients;
-  const double whole = case_.handheld() ? 1.0 : 2.0, real = 4.0 * whole;  // bytes
+  const double whole = case_.handheld() ? 1.0 : 2.0, real = 4.0 * whole;   // bytes
+  const double number = case_.handheld() && nodes <= 32767.0 ? 2.0 : 4.0;  // of a node
   const double of_positions =
       case_.handheld() ? static_cast<double>(SizeBudget::positionModes(out.modes)) : n;
   out.file = static_cast<double>(modelfile::storedBytes(organ)) + 3.0 * real * M * force_basis_.size() +
              24.0 * real * (M + static_cast<double>(edges.all)) + n * (whole * rows + 4.0) +
              M * Cm * (whole * of_positions + 8.0) + 3.0 * G * (whole * n + 8.0) +
-             near * (3.0 * whole * Cm + 4.0) + near_loads * (9.0 * whole + 4.0) +
+             near * (3.0 * whole * Cm + number) + near_loads * (9.0 * whole + number) +
              near_edges * (3.0 * whole * Ce + 4.0) + 4.0 * Ce * static_cast<double>(edges.all);
   if (case_.handheld()) out.file = std::min(out.file, case_.sizeLimitOrDefault());
 
