@@ -39,7 +39,7 @@ class ContactPatches {
   /// @throw std::invalid_argument when a is so large that patches exceed the limits above
   ContactPatches(const SurfaceGraph& graph, std::span<const std::uint8_t> free, double a,
                  std::span<const std::int32_t> centres);
-  ContactPatches(ContactPatches&&) = default;
+  ContactPatches(ContactPatches&&) = default;  // no copies: near_ borrows from lists_
   ContactPatches& operator=(ContactPatches&&) = default;
 
   /// The patch at s; empty where no free node is near, or a corner of s with lambda > 0 is not among the centres.
@@ -68,7 +68,7 @@ class ContactPatches {
   std::vector<std::array<double, 3>> edges_;  // [faces] squared length of the edge opposite to corner k, m^2
   std::vector<double> load_;                  // [Ns] A_i, m^2
   std::vector<std::uint8_t> free_;            // [Ns]
-  std::vector<std::vector<Near>> lists_;      // pieces of a list
+  std::vector<std::vector<Near>> lists_;      // of all centres, in pieces of 1 MiB at most
   std::vector<std::span<const Near>> near_;   // [Ns] into lists_: of each centre by node
   std::size_t entries_{0}, most_{0};
 };

@@ -136,6 +136,19 @@ TEST_F(SolveTarget, ADryRunCountsWhatTheSolveTakes) {
                 "--dry-run is for method series-displacement");
 }
 
+/// In the bytes that it is stored in: half of another's.
+TEST_F(SolveTarget, ADryRunCountsASmallFile) {
+  std::vector<std::string> options{path("block.msh"), "--target", "handheld", "--size-limit", "1e8", "-o",
+                                   path("small.h5"),  "-q",       "--json"};
+  const auto summary = nlohmann::json::parse(solve(options).out);
+  options.push_back("--dry-run");
+  const auto estimate = nlohmann::json::parse(solve(options).out);
+  const double bytes = summary.at("file_bytes");
+  EXPECT_LT(bytes, 0.9e8);  // the limit says nothing
+  EXPECT_EQ(estimate.at("modes"), summary.at("modes"));
+  EXPECT_NEAR(estimate.at("file_bytes").get<double>() / bytes, 1.0, 0.3);
+}
+
 TEST_F(SolveTarget, RefusesATargetOrASizeThatThereIsNot) {
   const auto refuses = [this](std::vector<std::string> options, const std::string& part) {
     options.insert(options.begin(), {path("block.msh"), "-o", path("out.h5")});
