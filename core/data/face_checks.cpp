@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/types.h"
@@ -59,19 +59,25 @@ void checkMiddles(const ModelView& v, const Checker& check) {
   std::vector<std::array<std::int32_t, 2>> edge_of(v.surfaceNodes(),
                                                    {-1, -1});  // of a middle; a corner has itself
   for (const std::int32_t node : v.contact_triangles) edge_of[static_cast<std::size_t>(node)] = {node, node};
-  std::map<std::array<std::int32_t, 2>, std::int32_t> middle_of;
+  const auto refuse = [&](std::size_t i) {
+    check.failAt(dataset::kSurfaceTriangles.name(), i, "is " + std::to_string(v.surface_triangles[i]),
+                 "one node in the middle of each edge, and of one edge only");
+  };
+  using Edge = std::array<std::int32_t, 2>;
+  std::vector<std::pair<Edge, std::size_t>> middles;  // each once, and where it is first
   for (std::size_t t = 0; t < v.contactTriangles(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = v.contact_triangles[3 * t + (k + 1) % 3],
                          b = v.contact_triangles[3 * t + (k + 2) % 3];
-      const std::array<std::int32_t, 2> edge{std::min(a, b), std::max(a, b)};
-      const std::int32_t middle = v.surface_triangles[12 * t + 9 + k];
-      std::array<std::int32_t, 2>& known = edge_of[static_cast<std::size_t>(middle)];
-      if (known[0] < 0) known = edge;
-      if (known != edge || middle_of.try_emplace(edge, middle).first->second != middle)
-        check.failAt(dataset::kSurfaceTriangles.name(), 12 * t + 9 + k, "is " + std::to_string(middle),
-                     "one node in the middle of each edge, and of one edge only");
+      const Edge edge{std::min(a, b), std::max(a, b)};
+      const std::size_t i = 12 * t + 9 + k;
+      Edge& known = edge_of[static_cast<std::size_t>(v.surface_triangles[i])];
+      if (known[0] < 0) middles.emplace_back(known = edge, i);
+      if (known != edge) refuse(i);
     }
+  std::sort(middles.begin(), middles.end());
+  for (std::size_t m = 1; m < middles.size(); ++m)
+    if (middles[m].first == middles[m - 1].first) refuse(middles[m].second);
 }
 
 /// Contact positions are corners of the triangles between them.

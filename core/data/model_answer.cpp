@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -158,7 +159,9 @@ void AnsweredModel::takeArray(const std::string& path, Records& records) {
 
 /// A file holds each array by itself; two in one place are made to have the checks of one hold for the other's numbers.
 void AnsweredModel::requireApart() {
-  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.begin < b.begin; });
+  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.begin, a.path) < std::tie(b.begin, b.path);
+  });
   const auto overlap = std::adjacent_find(places_.begin(), places_.end(),
                                           [](const Place& a, const Place& b) { return b.begin < a.end; });
   if (overlap != places_.end())

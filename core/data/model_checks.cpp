@@ -20,6 +20,8 @@ namespace palpate {
 
 namespace {
 
+// What loops is not inlined, for the reason that Checker names.
+
 void checkOrders(const ModelAttributes& a, const Checker& check) {
   const int highest = a.parameters == Parameters::kForce ? a.order : kMostForceOrder;
   check.require(a.order >= 1 && a.order <= kMostOrder, "attribute order is " + std::to_string(a.order),
@@ -31,20 +33,22 @@ void checkOrders(const ModelAttributes& a, const Checker& check) {
 }
 
 /// The largest |d|, |f| or t that is trusted.
-void checkDomain(Parameters parameters, std::span<const double> radius, const Checker& check) {
+[[gnu::noinline]] void checkDomain(Parameters parameters, std::span<const double> radius,
+                                   const Checker& check) {
   for (std::size_t m = 0; m < radius.size(); ++m) {
-    const std::string found = "is " + digitsOf(radius[m]);
-    if (parameters == Parameters::kDisplacement && radius[m] < 0.0)
-      check.failAt(dataset::kContactDomainRadius.name(), m, found, "at least 0");
-    if (parameters == Parameters::kForce && !(radius[m] > 0.0))
-      check.failAt(dataset::kContactDomainRadius.name(), m, found, "more than 0 N");
+    const auto fail = [&](const char* expected) {
+      check.failAt(dataset::kContactDomainRadius.name(), m, "is " + digitsOf(radius[m]), expected);
+    };
+    if (parameters == Parameters::kDisplacement && radius[m] < 0.0) fail("at least 0");
+    if (parameters == Parameters::kForce && !(radius[m] > 0.0)) fail("more than 0 N");
     if (parameters == Parameters::kLevel && !(radius[m] > 0.0 && radius[m] <= 1.0))
-      check.failAt(dataset::kContactDomainRadius.name(), m, found, "more than 0, at most 1");
+      fail("more than 0, at most 1");
   }
 }
 
 /// The polynomials go at least as far as they are to be trusted.
-void checkSeries(std::span<const double> series, std::span<const double> domain, const Checker& check) {
+[[gnu::noinline]] void checkSeries(std::span<const double> series, std::span<const double> domain,
+                                   const Checker& check) {
   for (std::size_t m = 0; m < series.size(); ++m) {
     if (!(series[m] > 0.0))
       check.failAt(dataset::kContactSeriesRadius.name(), m, "is " + digitsOf(series[m]), "more than 0 m");
@@ -66,7 +70,7 @@ void checkTrianglesAtNodes(const ModelView& v, const Checker& check) {
                 "at most " + std::to_string(kMost));
 }
 
-void checkPositions(const ModelView& v, const Checker& check) {
+[[gnu::noinline]] void checkPositions(const ModelView& v, const Checker& check) {
   check.require(v.positions() > 0, dataset::kContactNode.name() + " is empty", "contact positions");
   check.indices(dataset::kContactNode.name(), v.contact_node, v.surfaceNodes());
   check.indices(dataset::kPositionOfNode.name(), v.position_of_node, v.positions(), -1);
@@ -95,7 +99,7 @@ struct NearLists {
   std::span<const std::int32_t> node;
 };
 
-void checkNear(const NearLists& near, std::size_t surface_nodes, const Checker& check) {
+[[gnu::noinline]] void checkNear(const NearLists& near, std::size_t surface_nodes, const Checker& check) {
   const auto end = static_cast<std::int64_t>(near.node.size());
   check.require(near.offset.front() == 0,
                 near.offset_name + " begins with " + std::to_string(near.offset.front()), "0");
@@ -144,7 +148,8 @@ void checkEdges(const ModelAttributes& a, const ModelView& v, const Checker& che
 }
 
 /// Of fields: above zero, and so that every number is finite.
-void checkScale(const std::string& name, std::span<const float> scale, const Checker& check) {
+[[gnu::noinline]] void checkScale(const std::string& name, std::span<const float> scale,
+                                  const Checker& check) {
   constexpr float kLargest = std::numeric_limits<float>::max() / 32768.0F;
   for (std::size_t i = 0; i < scale.size(); ++i)
     if (!(scale[i] > 0.0F && scale[i] <= kLargest))
@@ -196,7 +201,7 @@ void checkFinite(const ModelView& v, const Checker& check) {
 
 void checkAttributes(const ModelAttributes& a, const std::string& name) {
   const Checker check(name);
-  const auto range = [&](const char* attribute, double value, bool good, const char* expected) {
+  const auto range = [&](const char* attribute, double value, bool good, const std::string& expected) {
     check.require(std::isfinite(value) && good,
                   std::string("attribute ") + attribute + " is " + digitsOf(value), expected);
   };
@@ -208,6 +213,9 @@ void checkAttributes(const ModelAttributes& a, const std::string& name) {
   range("patch_radius", a.patch_radius, a.patch_radius > 0.0, "more than 0 m");
   range("near_radius", a.near_radius, a.near_radius >= 0.0, "at least 0 m");
   range("reference_displacement", a.reference_displacement, a.reference_displacement > 0.0, "more than 0 m");
+  range("rounded_triangles", a.rounded_triangles,
+        a.rounded_triangles >= 1 && a.rounded_triangles <= kMostRoundedTriangles,
+        "1 to " + std::to_string(kMostRoundedTriangles));
   if (a.parameters == Parameters::kForce)
     range("reference_force", a.reference_force, a.reference_force > 0.0, "more than 0 N");
   if (a.parameters != Parameters::kLevel) return;

@@ -15,7 +15,7 @@
 namespace palpate {
 
 /// Of the model file: what it holds and how.
-inline constexpr int kModelVersion = 4;
+inline constexpr int kModelVersion = 5;
 
 /// Attributes that answers depend on, as a file has them. visit(name, value) gets texts, doubles, int32s and
 /// arrays of doubles. @param[in] a  force_order as in the file, not 0
@@ -30,6 +30,7 @@ void forEachAttribute(const ModelAttributes& a, Visit&& visit) {
   visit("patch_radius", a.patch_radius);
   visit("near_radius", a.near_radius);
   visit("reference_displacement", a.reference_displacement);
+  visit("rounded_triangles", std::int32_t{a.rounded_triangles});
   if (a.parameters == Parameters::kLevel) {
     visit("load_direction", a.load_direction);
     visit("load", a.load);

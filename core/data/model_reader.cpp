@@ -60,6 +60,7 @@ ModelAttributes readAttributes(const ModelSource& file) {
   a.patch_radius = file.number("patch_radius");
   a.near_radius = file.number("near_radius");
   a.reference_displacement = file.number("reference_displacement");
+  a.rounded_triangles = file.integer("rounded_triangles");
   readKind(file, a);
   return a;
 }

@@ -37,6 +37,9 @@ enum class Parameters {
 /// The laws of the material that model files may name. The solver's MaterialLaw says what they are.
 inline constexpr std::array<std::string_view, 2> kLaws{"stvk", "stable-neo-hookean"};
 
+/// Most triangles that a file may ask for of the rounded surface.
+inline constexpr int kMostRoundedTriangles = 300'000;
+
 /// Most functions of a level, as many as fields of the highest degree have monomials.
 inline constexpr int kMostLevelFunctions = MonomialBasis::size(kMostOrder);
 
@@ -56,6 +59,8 @@ struct ModelAttributes {
   double reference_force{0.0};             ///< f_ref, N, > 0 for "force": polynomials are ones in f / f_ref
   std::array<double, 3> load_direction{};  ///< unit vector, for "level"
   double load{0.0};                        ///< N, > 0 for "level": f = t load load_direction
+  /// Most triangles of the rounded surface that tools slide on, 1 to kMostRoundedTriangles (ContactSurface)
+  int rounded_triangles{kMostRoundedTriangles};
   /// Text of a JSON object, what this content was found to hold to; empty: nothing is known
   std::string certificate{};
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,11 @@
 
 namespace palpate {
 
+/// When places of a ContactDimple get their numbers. The second is for one thread only: a page, which cannot wait for all.
+enum class DimpleTable { kAtLoad, kWhenTouched };
+
 /// The surface where a tool is: u(X(s); s, d) of its own touch, which a tick reports. A table, so that a tick needs no modes;
-/// made at load from the whole field, which it equals at contact positions, and at edge midpoints up to the degree that edges
+/// made from the whole field, which it equals at contact positions, and at edge midpoints up to the degree that edges
 /// have; quadratic over a triangle. Of a "displacement" model only.
 class ContactDimple {
  public:
@@ -43,12 +47,16 @@ class ContactDimple {
     std::size_t edge_rows;  ///< Ce
     double reference;       ///< d_ref, m
   };
-  ContactDimple() = default;
-  /// Cost O(k n) for each place and patches of k nodes, O(Ce n) for each edge.
-  explicit ContactDimple(const Parts& parts);
+  ContactDimple();
+  /// Cost O(k n) for each place and patches of k nodes, O(Ce n) for each edge; with kWhenTouched at() has it instead.
+  ContactDimple(const Parts& parts, DimpleTable made);
+  ~ContactDimple();
+  ContactDimple(ContactDimple&&) noexcept;
+  ContactDimple& operator=(ContactDimple&&) noexcept;
 
-  /// @param mix  of s  @param phi  [C] the functions that fields are sums of. Cost O(C). Real-time: yes.
-  [[nodiscard]] Vec3 at(const SmoothPlaces& places, const ContactPoint& s, const PositionMix& mix,
+  /// @param parts  those that it was made of  @param mix  of s  @param phi  [C] the functions that fields are sums of. Cost O(C).
+  /// Real-time: yes, of a table made at load.
+  [[nodiscard]] Vec3 at(const Parts& parts, const ContactPoint& s, const PositionMix& mix,
                         std::span<const double> phi) const noexcept PALPATE_NONBLOCKING;
   /// Asks the cache for what at() reads. @param place  SmoothPlaces::of() a triangle. Real-time: yes.
   void expect(const std::array<std::int32_t, 6>& place) const noexcept PALPATE_NONBLOCKING {
@@ -60,6 +68,9 @@ class ContactDimple {
   }
 
  private:
+  class FieldThere;
+  void make(const Parts& parts, std::size_t place) const;
+  void makeAround(const Parts& parts, const PositionMix& mix, const std::array<std::int32_t, 6>& place) const;
   [[nodiscard]] const float* ofPosition(std::int32_t position) const noexcept PALPATE_NONBLOCKING {
     return position_.data() + 3 * rows_ * index(position);
   }
@@ -68,8 +79,9 @@ class ContactDimple {
   }
 
   std::size_t positions_{0}, rows_{0}, edge_rows_{0};  // M, C, 3 + Ce
-  std::vector<float> position_;                        // [M][C][3] m
-  std::vector<float> edge_;                            // [E][3 + Ce][3] m, beyond the mean of the edge's ends
+  mutable std::vector<float> position_;                // [M][C][3] m
+  mutable std::vector<float> edge_;                    // [E][3 + Ce][3] m, beyond the mean of the edge's ends
+  std::unique_ptr<FieldThere> field_;                  // none once all places have their numbers
 };
 
 }  // namespace palpate

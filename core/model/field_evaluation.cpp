@@ -159,7 +159,7 @@ void fieldAt(const MetaModel& model, std::span<const FieldSource> sources, Field
       Functions values;
       Answered at;
       if (points[i].triangle < 0 || !(source.s == points[i]) || !answer(model, source, values, at)) continue;
-      u[i] += source.gain * model.dimple().at(model.places(), source.s, at.mix, at.all);
+      u[i] += source.gain * model.dimple().at(model.dimpleParts(), source.s, at.mix, at.all);
     }
 }
 

@@ -20,7 +20,7 @@ namespace {
 /// centred at, the stiffness of patches over triangles, the contact's answer in rows, dimples, and the refined surface with
 /// its search tree; and what the server makes of regions.
 std::uint64_t bytesOfTables(const ModelView& v) {
-  constexpr std::uint64_t kRefined = 96U << 20U;  // of the 300,000 triangles that it may have
+  constexpr std::uint64_t kRefined = 96U << 20U;  // of kMostRoundedTriangles
   constexpr std::uint64_t kPerNode =
       2200;                               // of a surface that has more after one refinement, while it is made
   constexpr std::uint64_t kPerEntry = 8;  // of a patch

@@ -113,11 +113,11 @@ void verify(const ModelContents& contents, const ModelDigests& computed, const s
 }  // namespace
 
 MetaModel MetaModel::of(ModelImage image, ModelContents contents, const ModelDigests& digests,
-                        const std::string& name) {
+                        const std::string& name, DimpleTable dimple) {
   verify(contents, digests, name);
   checkContents(contents.attributes, contents.view, name);
   try {
-    return MetaModel(std::move(image), std::move(contents), digests.content);
+    return MetaModel(std::move(image), std::move(contents), digests.content, dimple);
   } catch (const std::invalid_argument& error) {
     throw LoadError(name + ": " + error.what());
   }
@@ -151,7 +151,7 @@ std::vector<std::uint8_t> MetaModel::clampedNodes() const {
   return clamped;
 }
 
-MetaModel::MetaModel(ModelImage image, ModelContents contents, const Digest& digest)
+MetaModel::MetaModel(ModelImage image, ModelContents contents, const Digest& digest, DimpleTable dimple)
     : image_(std::move(image)),
       copies_(std::move(contents.copies)),
       attributes_(std::move(contents.attributes)),
@@ -160,7 +160,7 @@ MetaModel::MetaModel(ModelImage image, ModelContents contents, const Digest& dig
       functions_(view_, attributes_, attributes_.order),
       surface_(view_),
       places_(view_.surface_positions, view_.contact_triangles, view_.position_of_node),
-      contact_surface_(view_, surface_),
+      contact_surface_(view_, surface_, index(attributes_.rounded_triangles)),
       response_(view_, attributes_),
       stiffness_(view_, attributes_, places_),
       mixing_(view_, surface_),
@@ -178,9 +178,24 @@ MetaModel::MetaModel(ModelImage image, ModelContents contents, const Digest& dig
   if (!isDisplacementDriven()) return;
   checkLoadedNodes(view_, patches_, linear_field_);
   checkDimpleWork(view_, attributes_, patches_, linear_field_);
-  dimple_ = ContactDimple({view_, surface_, places_, patches_, stiffness_, mixing_, far_field_, amplitudes_,
-                           near_field_, edge_field_, linear_field_, index(functions_.size()),
-                           edge_coefficients_, functions_.reference()});
+  dimple_ = ContactDimple(dimpleParts(), dimple);
+}
+
+ContactDimple::Parts MetaModel::dimpleParts() const noexcept PALPATE_NONBLOCKING {
+  return {view_,
+          surface_,
+          places_,
+          patches_,
+          stiffness_,
+          mixing_,
+          far_field_,
+          amplitudes_,
+          near_field_,
+          edge_field_,
+          linear_field_,
+          index(functions_.size()),
+          edge_coefficients_,
+          functions_.reference()};
 }
 
 }  // namespace palpate

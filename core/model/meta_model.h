@@ -34,7 +34,7 @@ struct ModelImage {
   bool locked{false};  ///< so that the loop meets no page fault
 };
 
-/// A model file in memory: immutable, checked, mapped, and ready to be evaluated by any number of threads.
+/// A model file in memory: immutable, checked, mapped, and ready to be evaluated by any number of threads (but see DimpleTable).
 class MetaModel {
  public:
   /// Copies the file into sealed memory and maps it read-only, populated, locked where the system allows it. Another process
@@ -46,9 +46,9 @@ class MetaModel {
   [[nodiscard]] static MetaModel load(const std::shared_ptr<const SealedImage>& image,
                                       const std::string& name, const ReaderProcess& process = {});
   /// A model whose arrays lie in memory already. @param digests  computed of these  @param name  how it is called in messages
-  /// @throw LoadError  as load(), for numbers and digests. Real-time: no.
+  /// @param dimple  kWhenTouched: for one thread  @throw LoadError  as load(), for numbers and digests. Real-time: no.
   [[nodiscard]] static MetaModel of(ModelImage image, ModelContents contents, const ModelDigests& digests,
-                                    const std::string& name);
+                                    const std::string& name, DimpleTable dimple = DimpleTable::kAtLoad);
 
   [[nodiscard]] const ModelAttributes& attributes() const noexcept { return attributes_; }
   [[nodiscard]] bool isDisplacementDriven() const noexcept {
@@ -87,6 +87,8 @@ class MetaModel {
   [[nodiscard]] std::vector<std::uint8_t> clampedNodes() const;
   /// The field at a tool's own anchor, of a "displacement" model.
   [[nodiscard]] const ContactDimple& dimple() const noexcept { return dimple_; }
+  /// What its numbers are made of.
+  [[nodiscard]] ContactDimple::Parts dimpleParts() const noexcept PALPATE_NONBLOCKING;
   /// The nodes that a tool holds, wherever it is.
   [[nodiscard]] const ContactPatches& patches() const noexcept { return patches_; }
   /// How far their nodes are from their middle at most, m.
@@ -106,7 +108,7 @@ class MetaModel {
   [[nodiscard]] bool locked() const noexcept { return image_.locked; }
 
  private:
-  MetaModel(ModelImage image, ModelContents contents, const Digest& digest);
+  MetaModel(ModelImage image, ModelContents contents, const Digest& digest, DimpleTable dimple);
 
   ModelImage image_;
   std::shared_ptr<const void> copies_;  // of arrays that are stored in fewer bytes

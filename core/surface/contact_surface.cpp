@@ -31,11 +31,10 @@ DividedSurface undivided(const ModelView& view, const SurfaceMesh& rest) {
 
 }  // namespace
 
-ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest) {
+ContactSurface::ContactSurface(const ModelView& view, const SurfaceMesh& rest, std::size_t most) {
   constexpr int kMostLevels = 4;
-  constexpr std::size_t kMostTriangles = 300'000;
   DividedSurface surface = undivided(view, rest);
-  const auto wanted = [&] { return levels_ == 0 || 4 * surface.triangle.size() <= kMostTriangles; };
+  const auto wanted = [&] { return levels_ == 0 || 4 * surface.triangle.size() <= most; };
   while (levels_ < kMostLevels && wanted()) {
     std::optional<DividedSurface> finer = surface.divided();
     if (!finer) break;

@@ -23,9 +23,9 @@ namespace palpate {
 /// Built before the loop, then const.
 class ContactSurface {
  public:
-  /// As many levels, at most 4, as give no more than 300,000 triangles, but one at any size; and as give none without an
+  /// As many levels, at most 4, as give no more than `most` triangles, but one at any size; and as give none without an
   /// area (a blade's edge may fold up): 0 is the rest surface itself.
-  ContactSurface(const ModelView& view, const SurfaceMesh& rest);
+  ContactSurface(const ModelView& view, const SurfaceMesh& rest, std::size_t most);
 
   /// The rounded surface; its contact points are "fine" ones.
   [[nodiscard]] const SurfaceMesh& mesh() const noexcept { return *mesh_; }

@@ -114,8 +114,9 @@ EMSCRIPTEN_KEEPALIVE const char* palpate_load(const char* name, const std::uint8
                                               double tip_radius) {
   return inWords([&] {
     const std::unique_ptr<ArrayReader> from = std::move(reader);
-    MetaModel model = MetaModel::of({from->memory(), static_cast<std::size_t>(from->bytes()), true},
-                                    std::exchange(contents, {}), digestsAt(digests), name);
+    MetaModel model =
+        MetaModel::of({from->memory(), static_cast<std::size_t>(from->bytes()), true},
+                      std::exchange(contents, {}), digestsAt(digests), name, DimpleTable::kWhenTouched);
     StepConfig config;
     config.tip_radius = tip_radius;
 

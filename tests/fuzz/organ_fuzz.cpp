@@ -19,12 +19,13 @@ namespace palpate::fuzz {
 namespace {
 
 // As if somebody had written these changes into the file with all digests.
-MetaModel organOf(const ArrayReader& reader) {
+MetaModel organOf(const ArrayReader& reader, DimpleTable dimple) {
   ModelContents contents = readModel(reader, "model");
   const ModelDigests digests = digestsOf(contents);
   contents.stored = {digests.content.hex(), digests.provenance.hex(), digests.certificate.hex(),
                      digests.content.hex()};
-  return MetaModel::of({reader.memory(), reader.bytes(), true}, std::move(contents), digests, "model");
+  return MetaModel::of({reader.memory(), reader.bytes(), true}, std::move(contents), digests, "model",
+                       dimple);
 }
 
 // What ticks ask of it, everywhere.
@@ -53,7 +54,7 @@ bool organ(Bytes input) {
   ArrayReader reader("model");
   fill(reader, changedModel(input));
   try {
-    press(organOf(reader));
+    press(organOf(reader, input.size() % 2 == 0 ? DimpleTable::kAtLoad : DimpleTable::kWhenTouched));
   } catch (const LoadError&) {
     return false;
   }

@@ -18,6 +18,8 @@ test('the organ is seen after loading', async () => {
   measured('organ seen after loading', median(times), 3000, 'ms');
 });
 
+const FLOOR_MS = 3000; // within which the floor is there, without graphics hardware too
+
 test('it is pixels: the middle is organ, the edge is not, and turning changes the picture', async () => {
   const seen = await Seen.open(browser, viewer.address);
   await seen.organ();
@@ -28,6 +30,12 @@ test('it is pixels: the middle is organ, the edge is not, and turning changes th
   assert.ok(organ[0] > organ[2] + 8, `porcelain is warm: ${organ}`);
   assert.ok(organ.some((v, k) => Math.abs(v - edge[k]) > 25), `organ ${organ}, edge ${edge}`);
   const canvas = await seen.page.locator('#organ').boundingBox();
+  const below = { x: middle.x, y: middle.y + 0.4 * middle.height };
+  const bare = meanOf(await seen.around(below, 10));
+  await seen.page.waitForTimeout(FLOOR_MS);
+  await seen.settled();
+  const floor = meanOf(await seen.around(below, 10));
+  assert.ok(floor.every((v, k) => v < bare[k] - 3), `below the organ: bare ${bare}, with its shadow ${floor}`);
   const before = await seen.see(canvas);
   await seen.page.locator('#organ').focus();
   for (let i = 0; i < 4; ++i) await seen.page.keyboard.press('ArrowDown');

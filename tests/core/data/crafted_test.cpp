@@ -281,7 +281,7 @@ std::vector<Elsewhere> elsewheres() {
       {{"LinkToItsGroup", "/contact/force is no readable dataset"}, linkToItsGroup},
       {{"GroupThatIsTheRoot", "/contact/node is missing"}, linkGroupToARoot},
       {{"GroupInAnotherFile", "/contact is a link to somewhere else"}, linkGroupToAnotherFile},
-      {{"OneForTwo", "/contact/series_radius and /contact/domain_radius lie in the same bytes"}, oneForTwo},
+      {{"OneForTwo", "/contact/domain_radius and /contact/series_radius lie in the same bytes"}, oneForTwo},
   };
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <string>
 
 #include "../load_case.h"
 
@@ -174,5 +175,15 @@ INSTANTIATE_TEST_SUITE_P(
                            d.modes_X.resize(3 * d.surface_mesh_tag.size() * 2);
                          }}),
     kCaseName);
+
+TEST(LoadRefusesRoundedTriangles, OfNoSurfaceAndOfOneThatFillsTheMemory) {
+  for (const int wrong : {0, 300'001}) {
+    ModelData data = goodData();
+    data.attributes.rounded_triangles = wrong;
+    const TemporaryFile file("rounded.h5");
+    modelfile::writeModel(file.path(), data);
+    expectRefused(file.path(), "rounded_triangles is " + std::to_string(wrong) + ", expected 1 to 300000");
+  }
+}
 
 }  // namespace palpate::testing

@@ -75,10 +75,20 @@ TEST(Load, GivesBackEveryBitThatWasWritten) {
   EXPECT_TRUE(sameBits(d.mesh_surface_node, v.mesh_surface_node));
   const ModelAttributes &a = d.attributes, &b = model.attributes();
   EXPECT_EQ(std::tie(a.law, a.provenance, a.E, a.nu, a.order, a.patch_radius, a.near_radius,
-                     a.reference_displacement),
+                     a.reference_displacement, a.rounded_triangles),
             std::tie(b.law, b.provenance, b.E, b.nu, b.order, b.patch_radius, b.near_radius,
-                     b.reference_displacement));
+                     b.reference_displacement, b.rounded_triangles));
   EXPECT_EQ(model.bytes(), std::filesystem::file_size(file.path()));
+}
+
+TEST(Load, DividesTheSurfaceAsOftenAsTheFileAsks) {
+  ModelData d = goodData();
+  d.attributes.rounded_triangles = 1;
+  const TemporaryFile few("few.h5"), many("many.h5");
+  modelfile::writeModel(few.path(), d);
+  modelfile::writeModel(many.path(), goodData());
+  EXPECT_EQ(MetaModel::load(few.path()).contactSurface().levels(), 1);
+  EXPECT_GT(MetaModel::load(many.path()).contactSurface().levels(), 1);
 }
 
 TEST(Load, TakesAModelWithoutModesAndNearField) {

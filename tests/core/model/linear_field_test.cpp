@@ -150,6 +150,21 @@ TEST(ContactDimple, IsTheFieldAtEdgeMidpoints) {
   EXPECT_GT(bent, 0.01) << "degrees of two and more take no part";
 }
 
+/// As in a page: to the last bit, in any order of touches.
+TEST(ContactDimple, IsTheSameWhereItIsMadeWhenTouched) {
+  const ContactDimple touched(organ().dimpleParts(), DimpleTable::kWhenTouched);
+  Random random;
+  std::vector<double> phi(index(organ().functions().size()));
+  for (int trial = 0; trial < 300; ++trial) {
+    const ContactPoint s = random.contactPoint();
+    const PositionMix mix = organ().surface().mix(s);
+    fieldFunctions(organ(), random.vector(0.006), 0.005, phi);
+    const Vec3 u = touched.at(organ().dimpleParts(), s, mix, phi);
+    EXPECT_EQ(u, organ().dimple().at(organ().dimpleParts(), s, mix, phi)) << trial;
+    EXPECT_GT(u.norm(), 0.0);
+  }
+}
+
 TEST(ContactDimple, IsContinuousOverTheEdgesOfItsTriangles) {
   const Vec3 d(0.001, -0.002, 0.003);
   for (int t = 0; t < organ().surface().triangles(); t += 3) {

@@ -106,7 +106,7 @@ struct Ball {
 /// Distance of the triangles' middles from the sphere, m: flat, and rounded.
 std::array<double, 2> offTheSphere(const Ball& ball) {
   const SurfaceMesh rest(ball.view);
-  const ContactSurface surface(ball.view, rest);
+  const ContactSurface surface(ball.view, rest, kMostRoundedTriangles);
   std::array<double, 2> off{};
   for (std::int32_t t = 0; t < rest.triangles(); ++t)
     for (const auto& where :
@@ -123,6 +123,17 @@ TEST(ContactSurface, IsRoundedAtAnySize) {
   for (const int n : {10, 100}) {  // 402 and 40,002 nodes
     const auto [flat, rounded] = offTheSphere(Ball(n));
     EXPECT_LT(rounded, 0.4 * flat) << n;
+  }
+}
+
+TEST(ContactSurface, HasAtMostTheTrianglesAskedForButOneLevel) {
+  const Ball ball(10);  // 800 triangles
+  const SurfaceMesh rest(ball.view);
+  for (const auto& [most, levels] :
+       {std::pair<std::size_t, int>{300'000, 4}, {204'800, 4}, {204'799, 3}, {75'000, 3}, {1, 1}}) {
+    const ContactSurface surface(ball.view, rest, most);
+    EXPECT_EQ(surface.levels(), levels) << most;
+    EXPECT_EQ(surface.mesh().triangles(), 800 << (2 * levels)) << most;
   }
 }
 

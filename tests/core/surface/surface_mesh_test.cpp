@@ -230,7 +230,7 @@ TEST(ContactSurface, OfSharpAndThinShapesHasTrianglesWithAnArea) {
   for (Shape shape : {box(1.0, 0.6, 0.3), box(1.0, 1.0, 0.001), box(1.0, 1e-4, 1e-4), wedge()}) {
     const ModelView view = shape.view();
     const SurfaceMesh rest(view);
-    const ContactSurface surface(view, rest);
+    const ContactSurface surface(view, rest, kMostRoundedTriangles);
     EXPECT_EQ(surface.mesh().triangles(), rest.triangles() << (2 * surface.levels()));
     for (int t = 0; t < rest.triangles(); ++t) {
       const ContactPoint corner{t, {1.0, 0.0, 0.0}};

@@ -8,6 +8,9 @@ import { decodePng } from './png.mjs';
 const web = new URL('../../../clients/viewer/web/', import.meta.url);
 const require = createRequire(new URL('package.json', web));
 export const CHROMIUM = process.env.PALPATE_CHROMIUM ?? '/usr/bin/chromium';
+const SHELL = '/usr/bin/chromium-headless-shell';
+/** The browser without windows and tabs of its own, which take processor time too, where there is one. */
+export const BARE_CHROMIUM = !process.env.PALPATE_CHROMIUM && existsSync(SHELL) ? SHELL : CHROMIUM;
 const shots = process.env.PALPATE_SHOTS ?? '/tmp/palpate-viewer-shots';
 
 /** The package of that name, in the version of the page's lock file. */

@@ -145,6 +145,7 @@ Json describe(const MetaModel& model) {
   out["near_radius"] = a.near_radius;
   out["near_nodes_mean"] = static_cast<double>(v.near_node.size()) / static_cast<double>(v.positions());
   out["reference_displacement"] = a.reference_displacement;
+  out["rounded_triangles"] = a.rounded_triangles;
   describeDomain(model, out);
   out["material"] = {{"law", a.law}, {"E", a.E}, {"nu", a.nu}};
   describeMaterial(v, out);

@@ -85,7 +85,9 @@ std::unique_ptr<FieldTable> DisplacementBuilder::shareLoads(const FieldTable& gr
 
 /// What a small file has in fewer digits: floats are enough for a force, a stiffness and a radius.
 void DisplacementBuilder::makeCompact() {
+  constexpr int kRoundedTriangles = 75'000;  // they are made at each start, and a small machine takes long
   data_.compact = true;
+  data_.attributes.rounded_triangles = kRoundedTriangles;
   for (std::vector<double>* const numbers : {&data_.contact_force, &data_.contact_stiffness,
                                              &data_.contact_domain_radius, &data_.contact_series_radius})
     for (double& number : *numbers) number = double{static_cast<float>(number)};

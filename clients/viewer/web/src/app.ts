@@ -36,6 +36,7 @@ import { Vibration } from './vibration';
 const PANEL_MS = 250;
 const CHART_MS = 40;
 const EMPTY_MS = 100; // between looks at a page without an organ
+const EMPTY_PANEL_MS = 1000; // there: what is written has to be drawn, beside the worker that loads
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
 const SLOW_MS = 30_000; // of reading a model, after which another one is asked for
@@ -288,7 +289,7 @@ export class App implements LineListener {
       this.curves.draw(tool, this.line.nowUs);
     }
     if (nowMs < this.nextPanel) return;
-    this.nextPanel = nowMs + PANEL_MS;
+    this.nextPanel = nowMs + (this.view ? PANEL_MS : EMPTY_PANEL_MS);
     this.panel.write(performance.now(), this.flags.at(performance.now()));
   }
 

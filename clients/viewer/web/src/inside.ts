@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import { BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshPhongMaterial, type Scene } from 'three';
+import { BufferAttribute, BufferGeometry, Group, Mesh, type Scene } from 'three';
 import { REGIONS } from './colours';
+import { Lit } from './lit';
 import type { Shape } from './protocol';
 
 /** Of each region; undefined: it ends nowhere inside the organ, and is not drawn. */
@@ -28,7 +29,7 @@ export class InsideMesh {
 
   remove(): void {
     this.scene.remove(this.group);
-    for (const mesh of this.group.children as Mesh<BufferGeometry, MeshPhongMaterial>[]) {
+    for (const mesh of this.group.children as Mesh<BufferGeometry, Lit>[]) {
       mesh.geometry.dispose();
       mesh.material.dispose();
     }
@@ -41,5 +42,5 @@ function drawn(region: Shape, color: string): Mesh {
   geometry.setIndex(new BufferAttribute(region.triangles, 1));
   geometry.computeVertexNormals();
   // A region that reaches the organ's surface is open there, and seen from within.
-  return new Mesh(geometry, new MeshPhongMaterial({ color, shininess: 20, specular: 0x222222, side: DoubleSide }));
+  return new Mesh(geometry, new Lit({ shininess: 20, specular: 0x222222 }, color).fromBothSides());
 }

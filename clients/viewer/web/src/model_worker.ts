@@ -28,7 +28,7 @@ async function fetched(address: string): Promise<Given> {
   const packed = answer.headers.has('content-encoding'); // then the length is that of what is sent
   const size = packed ? 0 : Number(answer.headers.get('content-length')) || 0;
   const parts: Uint8Array[] = [];
-  let [got, nextMs] = [0, 0];
+  let [got, nextMs] = [0, performance.now() + SAY_MS];
   const reader = answer.body.getReader();
   for (let next = await reader.read(); !next.done; next = await reader.read()) {
     parts.push(next.value);

@@ -48,7 +48,7 @@ export class Orbit {
     return add(this.target, scale(this.outward(), this.distance));
   }
 
-  axes(): { right: Vec3; up: Vec3 } {
+  private axes(): { right: Vec3; up: Vec3 } {
     const right = unit(cross([0, 0, 1], this.outward()), [1, 0, 0]);
     return { right, up: cross(this.outward(), right) };
   }

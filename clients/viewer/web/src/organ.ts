@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshPhongMaterial, Sphere, Vector3, type Scene } from 'three';
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, Sphere, Vector3, type Scene } from 'three';
 import { ABSENT, CLAMPED, DISPLACEMENT, NO_ANSWER, NOT_FELT, niceCeiling, rgbOf, STIFFNESS, TISSUE } from './colours';
 import type { FeltMap } from './felt';
+import { Lit } from './lit';
 import type { Surface } from './surface';
 import { mottled } from './tissue';
 
@@ -19,7 +20,7 @@ const MATT = { shininess: 36, specular: 0x2b2b2b }; // a highlight hides the col
 export class OrganMesh {
   private readonly geometry = new BufferGeometry();
   private readonly colours: Float32Array;
-  private readonly material = new MeshPhongMaterial({ vertexColors: true, ...WET });
+  private readonly material = new Lit(WET);
   private readonly mesh: Mesh;
   private spots: Float32Array | undefined; // of the tissue, 0 to 1; none until dress()
   private coloured: Colouring | 'absent' | undefined; // what the colours are, where they do not change
@@ -49,10 +50,7 @@ export class OrganMesh {
 
   /** Whether one sees through it to what is inside. */
   setTranslucent(on: boolean): void {
-    this.material.transparent = on;
-    this.material.opacity = on ? SHOWS_INSIDE : 1;
-    this.material.depthWrite = !on; // else its triangles hide each other in any order
-    this.material.needsUpdate = true; // another shader
+    this.material.seeThrough(on ? SHOWS_INSIDE : 1);
   }
 
   moved(): void {
@@ -81,8 +79,7 @@ export class OrganMesh {
     const still = how === 'plain' || how === 'absent';
     if (still && how === this.coloured) return;
     this.coloured = still ? how : undefined;
-    this.material.shininess = how === 'plain' ? WET.shininess : MATT.shininess;
-    this.material.specular.setHex(how === 'plain' ? WET.specular : MATT.specular);
+    this.material.gloss = how === 'plain' ? WET : MATT;
     if (how === 'absent') for (let n = 0; n < this.surface.mesh.nodes; ++n) this.colours.set(ABSENT, 3 * n);
     else this.paint(how);
     this.geometry.attributes['color'].needsUpdate = true;

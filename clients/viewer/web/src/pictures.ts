@@ -5,6 +5,7 @@ import { Quality } from './quality';
 import type { Stage } from './stage';
 
 const DRESS_MS = 400; // after the first picture of an organ
+const FLOOR_MS = 2500; // without graphics hardware the floor comes so much later: it would hold up a press that comes at once
 
 /** Draws a picture when something changed, and none while all is at rest. */
 export class Pictures {
@@ -43,8 +44,13 @@ export class Pictures {
     return true;
   }
 
-  /** The look of the organ waits for its first picture and for a hand that presses. */
+  /** The look of the organ, and the floor, wait for its first picture and for a hand that presses. */
   private dressSoon(view: OrganView): void {
-    setTimeout(() => (this.busy() ? this.dressSoon(view) : view.dress()), DRESS_MS);
+    this.atRest(() => view.dress(), DRESS_MS);
+    if (this.stage.software) this.atRest(() => this.stage.showFloor(), FLOOR_MS);
+  }
+
+  private atRest(act: () => void, afterMs: number): void {
+    setTimeout(() => (this.busy() ? this.atRest(act, afterMs) : act()), afterMs);
   }
 }

@@ -1,22 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import {
-  CanvasTexture,
-  Color,
-  DirectionalLight,
-  Group,
-  HemisphereLight,
-  LineBasicMaterial,
-  LineSegments,
-  BufferGeometry,
-  Float32BufferAttribute,
-  Mesh as ThreeMesh,
-  MeshBasicMaterial,
-  PerspectiveCamera,
-  PlaneGeometry,
-  Scene,
-  Vector3,
-  WebGLRenderer,
-} from 'three';
+import { BufferGeometry, CircleGeometry, Float32BufferAttribute, Group, LineSegments, Mesh, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { LIGHT, Lit } from './lit';
 import { Orbit } from './orbit';
 import type { Ray } from './press';
 import type { Surface } from './surface';
@@ -38,21 +22,19 @@ export class Stage {
   readonly software: boolean; // no graphics hardware: each pixel costs processor time
   private readonly camera = new PerspectiveCamera((FOV * 180) / Math.PI, 1, 0.01, 20);
   private readonly renderer: WebGLRenderer;
-  private readonly sky = new HemisphereLight(0xffffff, 0x8a8078, 1.6);
-  private readonly key = new DirectionalLight(0xfff6ea, 2.1);
-  private readonly rim = new DirectionalLight(0xcfe0ff, 0.7);
   private readonly floor = new Group();
   private ratio = 1;
 
   /** @throws Error when the browser has no WebGL 2 */
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.drawnBy = nameOfRenderer();
-    this.software = /swiftshader|llvmpipe|softpipe|basic render/i.test(this.drawnBy);
+    this.software = drawsInSoftware();
+    this.floor.visible = !this.software; // it waits for the organ
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: !this.software, powerPreference: 'high-performance' });
+    this.drawnBy = nameOfRenderer(this.renderer.getContext());
     this.renderer.debug.checkShaderErrors = false; // to ask waits for the shaders' compiler
     this.renderer.setClearColor(0x000000, 0);
     this.camera.up.set(0, 0, 1);
-    this.scene.add(this.sky, this.key, this.key.target, this.rim, this.rim.target, this.floor);
+    this.scene.add(this.floor);
   }
 
   get aspect(): number {
@@ -87,11 +69,18 @@ export class Stage {
   setLook(look: Look): void {
     for (const part of [...this.floor.children]) {
       this.floor.remove(part);
-      if (part instanceof ThreeMesh || part instanceof LineSegments) dispose(part);
+      if (part instanceof Mesh || part instanceof LineSegments) dispose(part);
     }
     this.floor.add(shadowUnder(look), ringsOf(look));
-    this.sky.groundColor = new Color(look.dark ? 0x5b5f6b : 0x9c9288);
-    this.sky.intensity = look.dark ? 1.25 : 1.55;
+    const strength = look.dark ? 1.25 : 1.55;
+    LIGHT.sky.value.setScalar(strength);
+    LIGHT.ground.value.setHex(look.dark ? 0x5b5f6b : 0x9c9288).multiplyScalar(strength);
+    this.orbit.changed = true;
+  }
+
+  /** The floor is drawn from now on: without graphics hardware it takes long to compile. */
+  showFloor(): void {
+    this.floor.visible = true;
     this.orbit.changed = true;
   }
 
@@ -99,14 +88,6 @@ export class Stage {
     const { position: p, target: t } = this.orbit;
     this.camera.position.set(...p);
     this.camera.lookAt(...t);
-    const { right, up } = this.orbit.axes();
-    const place = (light: DirectionalLight, r: number, u: number, f: number): void => {
-      light.position.set(...([0, 1, 2].map((k) => t[k] + r * right[k] + u * up[k] + f * (p[k] - t[k])) as [number, number, number]));
-      light.target.position.set(...t);
-    };
-    const d = this.orbit.distance;
-    place(this.key, -0.7 * d, 0.9 * d, 0.8);
-    place(this.rim, 0.9 * d, 0.2 * d, -0.5);
     this.renderer.render(this.scene, this.camera);
     this.orbit.changed = false;
   }
@@ -140,39 +121,35 @@ export class Stage {
   }
 }
 
-/** Asked once. Asking a context waits for all that it still draws. */
-function nameOfRenderer(): string {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  const ext = gl?.getExtension('WEBGL_debug_renderer_info');
-  const name = gl ? String(gl.getParameter(ext ? ext.UNMASKED_RENDERER_WEBGL : gl.RENDERER)) : '';
+const NAMES_OF_SOFTWARE = /swiftshader|llvmpipe|softpipe|basic render/i;
+
+/** Of a canvas of its own, since smooth edges are asked for with the context. Chromium makes none where it would draw in software. */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true });
+  const software = gl === null || NAMES_OF_SOFTWARE.test(nameOfRenderer(gl));
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
-  return name;
+  return software;
+}
+
+/** To be asked before anything is drawn: asking waits for all that is. */
+function nameOfRenderer(gl: WebGLRenderingContext | WebGL2RenderingContext): string {
+  const ext = gl.getExtension('WEBGL_debug_renderer_info');
+  return String(gl.getParameter(ext ? ext.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
 }
 
 /** Frees its memory on the graphics card. */
-function dispose(part: ThreeMesh | LineSegments): void {
+function dispose(part: Mesh | LineSegments): void {
   part.geometry.dispose();
-  for (const material of [part.material].flat()) {
-    if (material instanceof MeshBasicMaterial) material.map?.dispose();
-    material.dispose();
-  }
+  for (const material of [part.material].flat()) material.dispose();
 }
 
-function shadowUnder(look: Look): ThreeMesh {
-  const size = 128;
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = size;
-  const draw = canvas.getContext('2d');
-  if (draw) {
-    const fade = draw.createRadialGradient(size / 2, size / 2, 0, size / 2, size / 2, size / 2);
-    fade.addColorStop(0, `rgba(0,0,0,${look.shadow})`);
-    fade.addColorStop(0.55, `rgba(0,0,0,${0.45 * look.shadow})`);
-    fade.addColorStop(1, 'rgba(0,0,0,0)');
-    draw.fillStyle = fade;
-    draw.fillRect(0, 0, size, size);
-  }
-  const material = new MeshBasicMaterial({ map: new CanvasTexture(canvas), transparent: true, depthWrite: false });
-  return new ThreeMesh(new PlaneGeometry(1.1, 1.1), material);
+/** Dark in the middle, gone at the edge. */
+function shadowUnder(look: Look): Mesh {
+  const geometry = new CircleGeometry(0.55, 48);
+  const colours = new Float32Array(4 * geometry.attributes['position']!.count); // black
+  colours[3] = look.shadow; // the first node is the middle
+  geometry.setAttribute('color', new Float32BufferAttribute(colours, 4));
+  return new Mesh(geometry, new Lit().translucent());
 }
 
 /** Three rings and a cross, as on a turntable. */
@@ -191,5 +168,5 @@ function ringsOf(look: Look): LineSegments {
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
-  return new LineSegments(geometry, new LineBasicMaterial({ color: look.floorLine, transparent: true, opacity: 0.55 }));
+  return new LineSegments(geometry, new Lit(undefined, look.floorLine).seeThrough(0.55));
 }

@@ -4,12 +4,11 @@ import {
   CylinderGeometry,
   Group,
   Mesh,
-  MeshBasicMaterial,
-  MeshPhongMaterial,
   SphereGeometry,
   Vector3,
   type Scene,
 } from 'three';
+import { Lit } from './lit';
 import { STATE_FREE, type Tool } from './protocol';
 import { gapTo, restingCentre } from './resting';
 import type { Surface } from './surface';
@@ -25,8 +24,8 @@ export class ToolMesh {
   private readonly group = new Group();
   private readonly arrow = new Group();
   private readonly handle = new Group();
-  private readonly steel = new MeshPhongMaterial({ shininess: 90, specular: 0x777777 });
-  private readonly ink = new MeshBasicMaterial();
+  private readonly steel = new Lit({ shininess: 90, specular: 0x777777 });
+  private readonly ink = new Lit();
   private readonly head: Mesh;
   private readonly shaft: Mesh;
 
@@ -45,8 +44,8 @@ export class ToolMesh {
   }
 
   setColours(steel: string, ink: string): void {
-    this.steel.color.set(steel);
-    this.ink.color.set(ink);
+    this.steel.colour.set(steel);
+    this.ink.colour.set(ink);
   }
 
   /** @param lengthPerNewton  of the arrow, m/N */

@@ -52,6 +52,11 @@ TEST_F(HandheldBlock, HasTheSameMesh) {
   EXPECT_EQ(small_->data.mesh_midsides, full_->data.mesh_midsides);
 }
 
+TEST_F(HandheldBlock, AsksForFewerTrianglesToSlideOn) {
+  EXPECT_EQ(MetaModel::load(small_->file.path()).attributes().rounded_triangles, 75'000);
+  EXPECT_EQ(MetaModel::load(full_->file.path()).attributes().rounded_triangles, kMostRoundedTriangles);
+}
+
 /// The force as exact as that of the full model, the field as far off as a picture may be.
 TEST_F(HandheldBlock, AnswersLikeNewton) {
   const MetaModel model = MetaModel::load(small_->file.path());
