@@ -1,6 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-# Headers that most sources include, read once a build instead of once a file. Sources name what they use all the same;
-# -DPALPATE_PRECOMPILE=OFF builds without and shows those that do not.
+# What a build reads once instead of once a file (docs/decisions/build_time.md).
+
+# Sources of a target are compiled eight at a time, so they share what they include, and names in their unnamed namespaces have to
+# differ. SKIP_UNITY_BUILD_INCLUSION excepts one; -DCMAKE_UNITY_BUILD=OFF compiles each by itself.
+option(CMAKE_UNITY_BUILD "Compile sources of a target eight at a time" ON)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+# gcc takes a source that another includes for a header, whose classes should hold nothing of an unnamed namespace.
+target_compile_options(palpate_options INTERFACE
+  $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<COMPILE_LANG_AND_ID:CXX,GNU>>:-Wno-subobject-linkage>)
+
+# Headers that most sources include. Sources name what they use all the same; -DPALPATE_PRECOMPILE=OFF -DCMAKE_UNITY_BUILD=OFF
+# shows those that do not.
 # Off for clang with ccache, which finds nothing of another build folder again once clang's headers are precompiled.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
   set(palpate_precompile_default OFF)
@@ -22,7 +32,7 @@ if(PALPATE_PRECOMPILE)
 endif()
 
 # palpate_precompiled(library...): static libraries whose sources mostly include Eigen or the standard library. Not under
-# gcc's sanitizers: those builds keep the warnings, and show which sources lack an include.
+# gcc's sanitizers: that build keeps the warnings.
 function(palpate_precompiled)
   if(PALPATE_PRECOMPILE AND (NOT PALPATE_SANITIZE OR CMAKE_CXX_COMPILER_ID STREQUAL "Clang"))
     foreach(library IN LISTS ARGN)

@@ -29,7 +29,8 @@ target_compile_definitions(palpate_options INTERFACE PALPATE_VERSION="${PROJECT_
 
 if(PALPATE_SANITIZE)
   # Reports need line numbers only; full -g doubles the time to build Eigen's templates under a sanitizer.
-  add_compile_options(-fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
+  # What UndefinedBehaviorSanitizer finds ends the program, so that a test fails.
+  add_compile_options(-fsanitize=${PALPATE_SANITIZE} -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1 -O1)
   add_link_options(-fsanitize=${PALPATE_SANITIZE})
 else()
   # Kernels marked PALPATE_MULTIVERSION are built for several instruction sets and chosen at load time. This needs

@@ -10,9 +10,9 @@ namespace palpate {
 
 namespace {
 
-using Edge = std::pair<std::int32_t, std::int32_t>;  // positions, the smaller first
+using EdgeNodes = std::pair<std::int32_t, std::int32_t>;  // positions, the smaller first
 
-Edge edgeOf(std::int32_t a, std::int32_t b) {
+EdgeNodes edgeOf(std::int32_t a, std::int32_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
@@ -27,7 +27,7 @@ SmoothPlaces::SmoothPlaces(std::span<const double> positions, std::span<const st
   const auto complete = [&](std::size_t t) {
     return positionAt(t, 0) >= 0 && positionAt(t, 1) >= 0 && positionAt(t, 2) >= 0;
   };
-  std::vector<Edge> edges;
+  std::vector<EdgeNodes> edges;
   for (std::size_t t = 0; t < T; ++t)
     for (std::size_t k = 0; k < 3 && complete(t); ++k)
       edges.push_back(edgeOf(positionAt(t, k + 1), positionAt(t, k + 2)));

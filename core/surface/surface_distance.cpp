@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
 #include "core/surface/face_points.h"
 
 namespace palpate {
 
 namespace {
-
-std::size_t at(std::int32_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
 
 SurfaceGraph::Corner cornerOf(const Vec3& C, const Vec3& A, const Vec3& B) {
   const double base = (B - A).norm();
@@ -42,7 +39,7 @@ SurfaceGraph::SurfaceGraph(std::span<const double> positions, std::span<const st
       first_(positions.size() / 3 + 1) {
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
     positions_.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
-  for (const std::int32_t node : triangles_) ++first_[at(node) + 1];
+  for (const std::int32_t node : triangles_) ++first_[index(node) + 1];
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   around_.resize(triangles_.size());
   for (std::int32_t t = 0; t < this->triangles(); ++t)
@@ -53,12 +50,12 @@ SurfaceGraph::SurfaceGraph(std::span<const double> positions, std::span<const st
     }
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t corner = 0; corner < triangles_.size(); ++corner)
-    around_[at(next[at(triangles_[corner])]++)] = static_cast<std::int32_t>(corner / 3);
+    around_[index(next[index(triangles_[corner])]++)] = static_cast<std::int32_t>(corner / 3);
 }
 
 std::span<const std::int32_t> SurfaceGraph::trianglesOf(std::int32_t node) const noexcept {
-  const std::int32_t first = first_[at(node)];
-  return std::span(around_).subspan(at(first), at(first_[at(node) + 1] - first));
+  const std::int32_t first = first_[index(node)];
+  return std::span(around_).subspan(index(first), index(first_[index(node) + 1] - first));
 }
 
 ContactPoint SurfaceGraph::atNode(std::int32_t node) const noexcept {
@@ -74,7 +71,7 @@ std::vector<double> SurfaceGraph::loadAreas() const {
     const std::span<const std::int32_t> corner = face(f);
     const Vec3& A = position(corner[0]);
     const double area = 0.5 * (position(corner[1]) - A).cross(position(corner[2]) - A).norm();
-    for (const std::int32_t middle : triangle(4 * f + 3)) areas[at(middle)] += area / 3.0;
+    for (const std::int32_t middle : triangle(4 * f + 3)) areas[index(middle)] += area / 3.0;
   }
   return areas;
 }
@@ -85,13 +82,13 @@ std::vector<double> SurfaceGraph::lumpedAreas() const {
     const std::span<const std::int32_t> node = triangle(t);
     const Vec3& A = position(node[0]);
     const double area = 0.5 * (position(node[1]) - A).cross(position(node[2]) - A).norm();
-    for (const std::int32_t corner : node) areas[at(corner)] += area / 3.0;
+    for (const std::int32_t corner : node) areas[index(corner)] += area / 3.0;
   }
   return areas;
 }
 
 SurfaceFront::SurfaceFront(const SurfaceGraph& graph)
-    : graph_(graph), distance_(at(graph.nodes())), state_(at(graph.nodes()), State::kUnseen) {}
+    : graph_(graph), distance_(index(graph.nodes())), state_(index(graph.nodes()), State::kUnseen) {}
 
 const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactPoint& s, double bound) {
   forget();
@@ -103,8 +100,8 @@ const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactP
   while (!queue_.empty()) {
     const auto [distance, node] = queue_.top();
     queue_.pop();
-    if (state_[at(node)] == State::kSettled) continue;
-    state_[at(node)] = State::kSettled;
+    if (state_[index(node)] == State::kSettled) continue;
+    state_[index(node)] = State::kSettled;
     settled_.emplace_back(node, distance);
     for (const std::int32_t t : graph_.trianglesOf(node)) spread(t, node);
   }
@@ -113,11 +110,11 @@ const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactP
 
 void SurfaceFront::offer(std::int32_t node, double distance) {
   if (distance >= bound_) return;
-  State& state = state_[at(node)];
-  if (state == State::kOffered && distance_[at(node)] <= distance) return;
+  State& state = state_[index(node)];
+  if (state == State::kOffered && distance_[index(node)] <= distance) return;
   if (state == State::kUnseen) seen_.push_back(node);
   state = State::kOffered;
-  distance_[at(node)] = distance;
+  distance_[index(node)] = distance;
   queue_.emplace(distance, node);
 }
 
@@ -126,13 +123,13 @@ void SurfaceFront::spread(std::int32_t triangle, std::int32_t node) {
   const std::size_t k = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
   const std::size_t one = (k + 1) % 3, other = (k + 2) % 3;
   const std::int32_t a = nodes[one], b = nodes[other];
-  const double distance = distance_[at(node)];
-  const bool has_a = state_[at(a)] == State::kSettled, has_b = state_[at(b)] == State::kSettled;
+  const double distance = distance_[index(node)];
+  const bool has_a = state_[index(a)] == State::kSettled, has_b = state_[index(b)] == State::kSettled;
   if (has_a && has_b) return;
   if (has_a) {
-    offer(b, unfold(graph_.corner(triangle, other), distance, distance_[at(a)]));
+    offer(b, unfold(graph_.corner(triangle, other), distance, distance_[index(a)]));
   } else if (has_b) {
-    offer(a, unfold(graph_.corner(triangle, one), distance_[at(b)], distance));
+    offer(a, unfold(graph_.corner(triangle, one), distance_[index(b)], distance));
   } else {
     const SurfaceGraph::Corner& corner = graph_.corner(triangle, k);
     offer(a, distance + corner.to_a);
@@ -141,7 +138,7 @@ void SurfaceFront::spread(std::int32_t triangle, std::int32_t node) {
 }
 
 void SurfaceFront::forget() {
-  for (const std::int32_t node : seen_) state_[at(node)] = State::kUnseen;
+  for (const std::int32_t node : seen_) state_[index(node)] = State::kUnseen;
   seen_.clear();
   settled_.clear();
 }

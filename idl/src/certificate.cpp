@@ -48,7 +48,7 @@ int noPassword(char*, int, int, void*) {
   return -1;
 }
 
-std::time_t timeOf(const ASN1_TIME* asn1) {
+std::time_t timeOfAsn1(const ASN1_TIME* asn1) {
   std::tm parts{};
   if (ASN1_TIME_to_tm(asn1, &parts) != 1) return 0;
   return timegm(&parts);
@@ -102,11 +102,11 @@ std::string fieldOf(const X509& certificate, int nid) {
 }
 
 std::time_t startOf(const X509& certificate) {
-  return timeOf(X509_get0_notBefore(&certificate));
+  return timeOfAsn1(X509_get0_notBefore(&certificate));
 }
 
 std::time_t endOf(const X509& certificate) {
-  return timeOf(X509_get0_notAfter(&certificate));
+  return timeOfAsn1(X509_get0_notAfter(&certificate));
 }
 
 std::string utcOf(std::time_t time) {

@@ -15,7 +15,7 @@
 namespace palpate::server {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 constexpr std::int64_t kPoll = 20 * kMs;
 constexpr std::int64_t kStatusPeriod = 1000 * kMs;
 constexpr std::int64_t kChangePeriod = 100 * kMs;  // the shortest time between two status samples

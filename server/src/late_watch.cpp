@@ -15,7 +15,7 @@
 namespace palpate::server {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 constexpr std::int64_t kPeriod = 20 * kMs;
 // Readings of the steal are this many times as far apart as one takes (many processors, long file), but at most so far.
 constexpr std::int64_t kStealSpacing = 100;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kApart = std::size_t{64} * 1024;  // bytes
 constexpr std::size_t kPage = 4096;
-constexpr std::size_t kMost = 1024;  // a model has some hundred; what comes on top is malloc's
+constexpr std::size_t kMostTables = 1024;  // a model has some hundred; what comes on top is malloc's
 
 // Without a lock, which a thread of a high priority could have to wait for. An address that is no multiple of a page is malloc's,
 // and needs no look.
@@ -58,7 +58,7 @@ class Mappings {
     std::atomic<void*> begin{nullptr};
     std::size_t bytes{0};
   };
-  std::array<Mapping, kMost> mappings_{};
+  std::array<Mapping, kMostTables> mappings_{};
 };
 
 constinit Mappings mappings;

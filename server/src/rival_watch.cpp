@@ -10,7 +10,7 @@
 namespace palpate::server {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 constexpr std::int64_t kSayEvery = 100 * kMs;
 constexpr std::int64_t kForAName = 1500 * kMs;  // a server says its status once a second
 

@@ -20,7 +20,7 @@ namespace {
 
 // Less takes no time. More would be told of as a thread that spins (docs/decisions/spinning.md).
 constexpr std::size_t kLeast = std::size_t{64} * 1024;
-constexpr std::size_t kMost = std::size_t{64} * 1024 * 1024;
+constexpr std::size_t kMostBytes = std::size_t{64} * 1024 * 1024;
 
 bool isRaised() noexcept {
   sched_param has{};
@@ -32,7 +32,7 @@ bool isRaised() noexcept {
 class Urgent {
  public:
   explicit Urgent(std::size_t bytes) noexcept {
-    if (bytes < kLeast || bytes > kMost || !urgent_mappings.load(std::memory_order_relaxed)) return;
+    if (bytes < kLeast || bytes > kMostBytes || !urgent_mappings.load(std::memory_order_relaxed)) return;
     const int error = errno;
     sched_param lowest{};
     lowest.sched_priority = kMappingPriority;

@@ -23,16 +23,12 @@
 namespace palpate::faults {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 constexpr double kRestart =
     6000.0;  // ms: a start, and a client that looks for the next server after a second of silence
 constexpr double kRamps = 500.0;  // ms: DDS finds its way, and two ramps
 constexpr std::chrono::microseconds kOften{300};
 constexpr milliseconds kRestartAfter{100};  // RestartSec, where a unit has none
-
-double ms(std::int64_t ns) {
-  return 1e-6 * static_cast<double>(ns);
-}
 
 class ProcessFault : public Fault {
  protected:

@@ -15,7 +15,7 @@
 namespace palpate::faults {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 constexpr std::int64_t kSettled = 200 * kMs;  // right for so long
 constexpr double kRight = 0.1;                // share by which a force may differ
 constexpr double kLongest = 8'000.0;          // ms until it is given up
@@ -25,10 +25,6 @@ constexpr double kBusy = 0.05;  // share of the time, stalled: nothing may be sa
 constexpr std::int64_t kRecorded = 2000 * kMs;  // what a recording may lack, and how busy it was meanwhile
 constexpr double kRecordingLacks =
     1500.0;  // ms: a flush each second (docs/recording_file.md), and a thread without priority
-
-double ms(std::int64_t ns) {
-  return 1e-6 * static_cast<double>(ns);
-}
 
 }  // namespace
 

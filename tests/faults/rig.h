@@ -20,6 +20,10 @@
 
 namespace palpate::faults {
 
+inline double ms(std::int64_t ns) {
+  return 1e-6 * static_cast<double>(ns);
+}
+
 using palpate::testing::ServerProcess;
 using std::chrono::milliseconds;
 

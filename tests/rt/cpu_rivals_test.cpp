@@ -7,12 +7,13 @@
 #include <array>
 #include <fstream>
 
+#include "palpate/rt/clock.h"
+
 namespace palpate::rt {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kMs = 1'000'000;
 constexpr std::array<int, 1> kSecondCpu{1};
 
 // A line of /proc/PID/task/TID/stat: field 39 is the processor, 40 the real-time priority, 41 the policy.

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/rt/clock.h"
+
 namespace palpate::rt {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 LateFacts lateBy(std::int64_t span_ns) {
   LateFacts facts;

@@ -5,11 +5,12 @@
 
 #include <utility>
 
+#include "palpate/rt/clock.h"
+
 namespace palpate::rt {
 namespace {
 
 constexpr std::int64_t kUs = 1'000;
-constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 // A cycle that was due at `due` and ended `late` after that; its thread ran for 60 us.

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/rt/clock.h"
+
 namespace palpate::rt {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 int taken(TokenBucket& bucket, std::int64_t from_ns, std::int64_t until_ns, std::int64_t every_ns) {
   int count = 0;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void expectContains(const std::string& text, const std::string& part) {
+void expectSaid(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
@@ -38,12 +38,12 @@ TEST(SecurityProgram, MakesChecksAndRefuses) {
   EXPECT_EQ(fs::status(folder / "a/private").permissions(), fs::perms::owner_all);
   const auto valid = run({"check", "--folder", at});
   EXPECT_EQ(valid.exit_code, 0) << valid.out;
-  expectContains(valid.out, "viewer d\n  warning: ");
+  expectSaid(valid.out, "viewer d\n  warning: ");
   fs::permissions(folder / "a/issued/d/identity.key", fs::perms::group_read, fs::perm_options::add);
   const auto broken = run({"check", "--folder", at, "--json"});
   EXPECT_EQ(broken.exit_code, 3);
-  expectContains(broken.out, "others may read it");
-  expectContains(broken.out, "\"valid\":false");
+  expectSaid(broken.out, "others may read it");
+  expectSaid(broken.out, "\"valid\":false");
 }
 
 class SecurityProgramFiles : public ::testing::Test {
@@ -110,14 +110,14 @@ TEST_F(SecurityProgramFiles, AnExpiredAuthorityIsNotValidAndIssuesNothing) {
   security::makeAuthority(at_, {0});
   const auto checked = run({"check"});
   EXPECT_EQ(checked.exit_code, 3);
-  expectContains(checked.out, "authority.pem: expired on ");
+  expectSaid(checked.out, "authority.pem: expired on ");
   palpate::testing::expectOneLineError(run({"issue", "driver", "d"}),
                                        "palpate-security init --folder ANOTHER");
 }
 
 TEST_F(SecurityProgramFiles, AnIdentityEndsNotAfterItsAuthority) {
   ASSERT_EQ(run({"init", "--days", "10"}).exit_code, 0);
-  expectContains(run({"issue", "driver", "d", "--days", "20"}).out, ", when its authority ends; copy it");
+  expectSaid(run({"issue", "driver", "d", "--days", "20"}).out, ", when its authority ends; copy it");
   const X509Ptr certificate = readCertificate(at_ / "issued/d/identity.pem");
   EXPECT_EQ(endOf(*certificate), endOf(*readCertificate(at_ / "permissions_authority.pem")));
   EXPECT_EQ(run({"issue", "driver", "e", "--days", "9"}).out.find("when its authority ends"),

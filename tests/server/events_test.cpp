@@ -17,7 +17,7 @@
 namespace palpate::server {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kLoggedSecond = 1'000'000'000;
 
 class EventsTest : public ::testing::Test {
  protected:
@@ -62,14 +62,14 @@ TEST_F(EventsTest, GathersTheTimesOfEveryTick) {
 TEST_F(EventsTest, CountsLateTicksByCauseAndTellsOfThoseThatMissedAPeriod) {
   LateTick late{700'000, 0, rt::LateCause::kHostSteal, {}};
   ASSERT_TRUE(channels_->late_ticks.push(late));
-  events_.drain(kSecond);
+  events_.drain(kLoggedSecond);
   EXPECT_EQ(takeLog(), "") << "no period was missed";
   late = {5'100'000, 5, rt::LateCause::kPreempted, {'h', 'o', 'g', ' ', '(', '7', ')'}};
   ASSERT_TRUE(channels_->late_ticks.push(late));
   late = {5'200'000, 5, rt::LateCause::kUnknown, {}};
   ASSERT_TRUE(channels_->late_ticks.push(late));
   channels_->unjudged = 2;
-  events_.drain(2 * kSecond);
+  events_.drain(2 * kLoggedSecond);
   EXPECT_EQ(takeLog(), "a tick ended 5100 us after it was due: preempted by hog (7)\n");
   const Health& health = events_.health();
   EXPECT_EQ(health.late[static_cast<std::size_t>(rt::LateCause::kHostSteal)], 1U);
@@ -77,18 +77,18 @@ TEST_F(EventsTest, CountsLateTicksByCauseAndTellsOfThoseThatMissedAPeriod) {
   EXPECT_EQ(health.late[static_cast<std::size_t>(rt::LateCause::kUnknown)], 3U);
   EXPECT_EQ(health.preempted_by, "hog (7)");
   ASSERT_TRUE(channels_->late_ticks.push(late));
-  events_.drain(4 * kSecond);
+  events_.drain(4 * kLoggedSecond);
   EXPECT_EQ(takeLog(), "a tick ended 5200 us after it was due: cause unknown\n");
 }
 
 TEST_F(EventsTest, TellsThatTheWallClockWasSet) {
   channels_->clock_steps = 1;
   channels_->clock_step_ns = 2'000'000'000;
-  events_.drain(kSecond);
+  events_.drain(kLoggedSecond);
   EXPECT_EQ(
       takeLog(),
       "the machine's wall clock was set by 2.000000 s: no tick depends on it, stamps taken from it jump\n");
-  events_.drain(3 * kSecond);
+  events_.drain(3 * kLoggedSecond);
   EXPECT_EQ(takeLog(), "");
 }
 
@@ -96,11 +96,11 @@ TEST_F(EventsTest, GathersWhatReceivingAndSendingTook) {
   ASSERT_TRUE(channels_->receive_delays.push(40'000));
   ASSERT_TRUE(channels_->force_delays.push(60'000));
   ASSERT_TRUE(channels_->force_delays.push(70'000));
-  events_.drain(kSecond);
+  events_.drain(kLoggedSecond);
   EXPECT_EQ(events_.health().receive.run.max(), 40'000);
   EXPECT_EQ(events_.health().force_out.run.count(), 2U);
   EXPECT_EQ(events_.health().force_out.recent.second().count(), 0U) << "the second is not over";
-  events_.drain(2 * kSecond);
+  events_.drain(2 * kLoggedSecond);
   EXPECT_EQ(events_.health().force_out.recent.second().max(), 70'000);
 }
 
@@ -111,14 +111,14 @@ TEST_F(EventsTest, TellsWhereThePhaseCameToAndNotTheWayThere) {
     ASSERT_TRUE(channels_->ticks.push(record));
     events_.drain(now_ns);
   };
-  come(rt::PhaseState::kFree, kSecond);
-  come(rt::PhaseState::kSeeking, kSecond);
+  come(rt::PhaseState::kFree, kLoggedSecond);
+  come(rt::PhaseState::kSeeking, kLoggedSecond);
   EXPECT_EQ(takeLog(), "");
-  come(rt::PhaseState::kLocked, kSecond + 1);
-  come(rt::PhaseState::kSeeking, kSecond + 2);
-  come(rt::PhaseState::kLocked, kSecond + 3);
+  come(rt::PhaseState::kLocked, kLoggedSecond + 1);
+  come(rt::PhaseState::kSeeking, kLoggedSecond + 2);
+  come(rt::PhaseState::kLocked, kLoggedSecond + 3);
   EXPECT_EQ(takeLog(), "phase lock: ticks follow the poses\n");
-  come(rt::PhaseState::kFree, 3 * kSecond);
+  come(rt::PhaseState::kFree, 3 * kLoggedSecond);
   EXPECT_EQ(takeLog(),
             "phase lock: no poses to follow, or none with a phase of their own: ticks keep their phase\n");
 }
@@ -134,11 +134,11 @@ TEST_F(EventsTest, AFlagIsLoggedWhenItBeginsAndAtMostOnceASecond) {
     events_.drain(now_ns);
   };
   const std::string warning = "tool 1: pressed beyond the model's domain\n";
-  flick(kSecond);
+  flick(kLoggedSecond);
   EXPECT_EQ(takeLog(), "tool 1: first pose\n" + warning);
-  flick(kSecond + 1);
+  flick(kLoggedSecond + 1);
   EXPECT_EQ(takeLog(), "");
-  flick(3 * kSecond);
+  flick(3 * kLoggedSecond);
   EXPECT_EQ(takeLog(), warning);
   EXPECT_EQ(events_.health().recent_flags, kBeyondDomain | kInContact);
 }
@@ -151,16 +151,16 @@ TEST_F(EventsTest, AReleaseIsNoFaultAndAHandThatLosesItsForceIs) {
     ASSERT_TRUE(channels_->ticks.push(record));
     events_.drain(now_ns);
   };
-  tick(kInContact, kSecond);
-  tick(0, kSecond);
+  tick(kInContact, kLoggedSecond);
+  tick(0, kLoggedSecond);
   (void)takeLog();
-  tick(kStalePose, kSecond);  // lifted off, then no more poses
+  tick(kStalePose, kLoggedSecond);  // lifted off, then no more poses
   EXPECT_EQ(takeLog(), "tool 3: its poses ended while it touched nothing\n");
-  tick(kStalePose, 2 * kSecond);
-  tick(0, 3 * kSecond);
+  tick(kStalePose, 2 * kLoggedSecond);
+  tick(0, 3 * kLoggedSecond);
   EXPECT_EQ(takeLog(), "") << "for as long as nobody holds it";
-  tick(kInContact, 4 * kSecond);
-  tick(kInContact | kStalePose | kRamping, 5 * kSecond);  // a driver that ended while it pressed
+  tick(kInContact, 4 * kLoggedSecond);
+  tick(kInContact | kStalePose | kRamping, 5 * kLoggedSecond);  // a driver that ended while it pressed
   EXPECT_EQ(takeLog(), "tool 3: no good pose for the stale timeout: force ramps to zero\n");
 }
 
@@ -172,7 +172,7 @@ TEST_F(EventsTest, MissedTicksLostRecordsAndUnknownToolsAreLogged) {
   channels_->unknown_poses = 1;
   channels_->unknown_id = 9;
   channels_->failed_writes = 4;
-  events_.drain(kSecond);
+  events_.drain(kLoggedSecond);
   const std::string log = takeLog();
   EXPECT_EQ(log,
             "ticks missed (3 so far)\n"
@@ -190,7 +190,7 @@ TEST_F(EventsTest, ARequestIsAnsweredHandedToTheTickAndLoggedWhenItChangesSometh
   ASSERT_TRUE(requests.waitForReaders(1, std::chrono::seconds(5)));
   ASSERT_TRUE(answers.waitForWriters(1, std::chrono::seconds(5)));
   std::vector<dds::ServerParameters> got;
-  std::int64_t now_ns = kSecond;
+  std::int64_t now_ns = kLoggedSecond;
   const auto ask = [&](std::uint32_t fields, double friction) {
     dds::ParameterRequest request{};
     request.request_id = got.size() + 1;
@@ -206,7 +206,7 @@ TEST_F(EventsTest, ARequestIsAnsweredHandedToTheTickAndLoggedWhenItChangesSometh
       if (answer.request_id == request.request_id) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    now_ns += 2 * kSecond;
+    now_ns += 2 * kLoggedSecond;
     got.push_back(answer);
   };
   ask(0, 0.0);

@@ -14,7 +14,7 @@
 namespace palpate::server {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 constexpr std::uint64_t kTicks = 300;
 
 // Each 20th of them computes for 8 ms.

@@ -15,7 +15,7 @@
 namespace palpate::server {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000'000;
 
 std::shared_ptr<const MetaModel> loaded(const std::filesystem::path& path) {
   return std::shared_ptr<const MetaModel>(new const MetaModel(MetaModel::load(path)));
@@ -69,7 +69,7 @@ class ModelExchangeTest : public ::testing::Test {
   RestSurface surface_{participant_, facts_, std::make_unique<const OrganShape>(*shape_of_)};
   std::weak_ptr<const MetaModel> first_;
   std::optional<ModelExchange> exchange_;
-  std::int64_t now_ns_{10 * kSecond};
+  std::int64_t now_ns_{10 * kOneSecond};
 };
 
 TEST_F(ModelExchangeTest, GoesThroughItsStepsAndFreesTheModelBeforeOnceNobodyLooks) {
@@ -102,24 +102,24 @@ TEST_F(ModelExchangeTest, GoesThroughItsStepsAndFreesTheModelBeforeOnceNobodyLoo
   channels_->engine_shown = 1;  // that thread
   EXPECT_FALSE(exchange_->poll(now_ns_));
   EXPECT_TRUE(freed());
-  EXPECT_EQ(exchange_->ask("same.h5", 44, now_ns_ + kSecond / 2),
+  EXPECT_EQ(exchange_->ask("same.h5", 44, now_ns_ + kOneSecond / 2),
             "a model was looked at a moment ago, the next one may be asked for in 0.5 s");
-  EXPECT_EQ(exchange_->ask("same.h5", 45, now_ns_ + 2 * kSecond), "");
+  EXPECT_EQ(exchange_->ask("same.h5", 45, now_ns_ + 2 * kOneSecond), "");
 }
 
 TEST_F(ModelExchangeTest, RestsAsLongAsALookTookAlsoWhereItWasRefused) {
   for (const char* name : {"broken.h5", "same.h5"}) {
     ASSERT_EQ(exchange_->ask(name, 7, now_ns_), "");
-    now_ns_ += 3 * kSecond;  // by the clock that the exchange is told
+    now_ns_ += 3 * kOneSecond;  // by the clock that the exchange is told
     ASSERT_TRUE(settle().has_value());
     EXPECT_EQ(exchange_->ask("next.h5", 8, now_ns_ + 1),
               "a model was looked at a moment ago, the next one may be asked for in 3.0 s");
-    now_ns_ += 3 * kSecond;
+    now_ns_ += 3 * kOneSecond;
   }
   ASSERT_EQ(exchange_->ask("broken.h5", 9, now_ns_), "");
   ASSERT_TRUE(settle().has_value()) << "at once, by that clock";
-  EXPECT_NE(exchange_->ask("next.h5", 10, now_ns_ + kSecond - 1), "");
-  EXPECT_EQ(exchange_->ask("next.h5", 11, now_ns_ + kSecond), "");
+  EXPECT_NE(exchange_->ask("next.h5", 10, now_ns_ + kOneSecond - 1), "");
+  EXPECT_EQ(exchange_->ask("next.h5", 11, now_ns_ + kOneSecond), "");
 }
 
 TEST_F(ModelExchangeTest, SaysWhetherTheModelInUseIsLockedWhateverTheOneBeforeWas) {
@@ -151,7 +151,7 @@ TEST_F(ModelExchangeTest, ARefusedModelChangesNothing) {
     ASSERT_TRUE(outcome.has_value());
     EXPECT_NE(outcome->refusal.find(name), std::string::npos) << outcome->refusal;
     EXPECT_FALSE(exchange_->pending(7));
-    now_ns_ += 10 * kSecond;
+    now_ns_ += 10 * kOneSecond;
   }
   EXPECT_EQ(channels_->next_engine.load(), nullptr);
   EXPECT_EQ(facts_.model_id, before);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "palpate/rt/clock.h"
 #include "palpate/server/pose_subscriber.h"
 
 namespace palpate::server {
@@ -22,7 +23,7 @@ dds::ToolPose pose(std::uint32_t tool, std::uint64_t seq, std::int64_t stamp_ns)
 
 constexpr dds::WriterId kSender = 77;
 constexpr dds::WriterId kOther = 78;
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 
 StepConfig threeTools() {
   StepConfig config;

@@ -7,12 +7,13 @@
 #include <optional>
 #include <string>
 
+#include "palpate/rt/clock.h"
 #include "palpate/testing/files.h"
 
 namespace palpate::server {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using rt::kMs;
 constexpr int kDomain = 3;  // ports 8150 (0x1FD6) to 8399
 
 // A process with the sockets 100 and 101 and one receive thread, as /proc shows it.

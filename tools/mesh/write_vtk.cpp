@@ -13,7 +13,7 @@
 namespace palpate::mesh {
 namespace {
 
-constexpr int kTetrahedron = 10, kQuadraticTetrahedron = 24;  // VTK's cell types
+constexpr int kLinearTetrahedron = 10, kQuadraticTetrahedron = 24;  // VTK's cell types
 
 void writeCells(std::ostream& out, const TetMesh& mesh) {
   const std::size_t count = mesh.tetrahedra.size(), width = mesh.isQuadratic() ? 10 : 4;
@@ -27,7 +27,7 @@ void writeCells(std::ostream& out, const TetMesh& mesh) {
   }
   out << "CELL_TYPES " << count << '\n';
   for (std::size_t t = 0; t < count; ++t)
-    out << (mesh.isQuadratic() ? kQuadraticTetrahedron : kTetrahedron) << '\n';
+    out << (mesh.isQuadratic() ? kQuadraticTetrahedron : kLinearTetrahedron) << '\n';
 }
 
 void writeMarks(std::ostream& out, const char* head, std::size_t count,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "narrow.h"
 #include "palpate/idl/printable.h"
 
 namespace palpate::viewer {
@@ -17,10 +18,6 @@ double sizeOf(const double (&v)[3]) {
 
 device::Point pointOf(const double (&v)[3]) {
   return {{v[0], v[1], v[2]}};
-}
-
-std::array<float, 3> narrow(const device::Point& p) {
-  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
 }
 
 // -n.K n: rise of the organ's push per metre along the normal.

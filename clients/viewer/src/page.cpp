@@ -3,20 +3,10 @@
 
 #include <algorithm>
 
+#include "narrow.h"
 #include "palpate/rt/clock.h"
 
 namespace palpate::viewer {
-namespace {
-
-std::array<float, 3> narrow(const double (&v)[3]) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
-std::array<float, 3> narrow(const device::Point& p) {
-  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
-}
-
-}  // namespace
 
 Page::Page(std::uint64_t id, Viewer& viewer, double max_rate_hz)
     : id_(id),

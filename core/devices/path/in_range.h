@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sstream>
+#include <stdexcept>
 #include <type_traits>
 
 namespace palpate::device {
@@ -15,5 +16,8 @@ void inRange(const char* name, Number value, std::type_identity_t<Number> low,
   line << name << " is " << value << ", expected " << low << " to " << high;
   throw Error(line.str());
 }
+
+/// What a caller gives. @throw std::invalid_argument
+inline constexpr auto& requireRange = inRange<std::invalid_argument, double>;
 
 }  // namespace palpate::device

@@ -7,19 +7,19 @@
 
 namespace palpate::device {
 
-Point operator+(const Point& a, const Point& b) noexcept {
+Point operator+(const Point& a, const Point& b) noexcept PALPATE_NONBLOCKING {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
-Point operator-(const Point& a, const Point& b) noexcept {
+Point operator-(const Point& a, const Point& b) noexcept PALPATE_NONBLOCKING {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-Point operator*(double factor, const Point& a) noexcept {
+Point operator*(double factor, const Point& a) noexcept PALPATE_NONBLOCKING {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
-double dot(const Point& a, const Point& b) noexcept {
+double dot(const Point& a, const Point& b) noexcept PALPATE_NONBLOCKING {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-double length(const Point& a) noexcept {
+double length(const Point& a) noexcept PALPATE_NONBLOCKING {
   return std::sqrt(dot(a, a));
 }
 
@@ -50,7 +50,7 @@ std::size_t Path::indexAt(double t) const noexcept {
   return std::min(static_cast<std::size_t>(found - ends_.begin()), legs_.size() - 1);
 }
 
-Point Path::at(double t) const noexcept {
+Point Path::at(double t) const noexcept PALPATE_NONBLOCKING {
   const std::size_t i = indexAt(t);
   const Point& from = i == 0 ? start_ : legs_[i - 1].target;
   const double x = (t - (ends_[i] - legs_[i].seconds)) / legs_[i].seconds;

@@ -10,11 +10,11 @@ namespace palpate::device {
 /// x, y, z in world frame W, m; or a direction, 1. A type of its own, so that lookup finds the operators below.
 struct Point : std::array<double, 3> {};
 
-[[nodiscard]] Point operator+(const Point& a, const Point& b) noexcept;
-[[nodiscard]] Point operator-(const Point& a, const Point& b) noexcept;
-[[nodiscard]] Point operator*(double factor, const Point& a) noexcept;
-[[nodiscard]] double dot(const Point& a, const Point& b) noexcept;
-[[nodiscard]] double length(const Point& a) noexcept;
+[[nodiscard]] Point operator+(const Point& a, const Point& b) noexcept PALPATE_NONBLOCKING;
+[[nodiscard]] Point operator-(const Point& a, const Point& b) noexcept PALPATE_NONBLOCKING;
+[[nodiscard]] Point operator*(double factor, const Point& a) noexcept PALPATE_NONBLOCKING;
+[[nodiscard]] double dot(const Point& a, const Point& b) noexcept PALPATE_NONBLOCKING;
+[[nodiscard]] double length(const Point& a) noexcept PALPATE_NONBLOCKING;
 
 /// A unit direction along the surface: the one nearest to +x, or to +y where x is the normal.
 /// @param[in] normal  unit length
@@ -38,7 +38,7 @@ class Path {
 
   /// @param[in] t  s since the start; before 0 the start, after seconds() the last target
   /// Real-time: yes. Threads: any.
-  [[nodiscard]] Point at(double t) const noexcept;
+  [[nodiscard]] Point at(double t) const noexcept PALPATE_NONBLOCKING;
   /// Name of the leg at time t. Real-time: yes.
   [[nodiscard]] const std::string& legAt(double t) const noexcept;
   [[nodiscard]] double seconds() const noexcept { return ends_.back(); }

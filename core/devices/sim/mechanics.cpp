@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/devices/sim/mechanics.h"
 
-#include <stdexcept>
-
 #include "core/devices/path/in_range.h"
 
 namespace palpate::device {
-namespace {
-
-constexpr auto& requireRange = inRange<std::invalid_argument, double>;
-
-}  // namespace
 
 void check(const Mechanics& device) {
   requireRange("device mass (kg)", device.mass, 0.001, 10.0);

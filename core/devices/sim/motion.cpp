@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/devices/sim/motion.h"
 
-#include <stdexcept>
-
 #include "core/devices/path/in_range.h"
 
 namespace palpate::device {
@@ -10,8 +8,6 @@ namespace {
 
 constexpr double kShortestHold = 0.8;  // s; the oscillation is judged from 0.5 s on
 constexpr double kRetreat = 0.2;       // s
-
-constexpr auto& requireRange = inRange<std::invalid_argument, double>;
 
 void check(const MotionOptions& options) {
   constexpr double kLeast = 1e-6;  // m

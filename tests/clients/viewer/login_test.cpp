@@ -9,7 +9,7 @@
 namespace palpate::viewer {
 namespace {
 
-constexpr const char* kToken = "0123456789abcdef-_X";
+constexpr const char* kGoodToken = "0123456789abcdef-_X";
 constexpr const char* kCode = "00112233445566778899aabbccddeeff";
 constexpr const char* kPeer = "192.168.1.9";
 constexpr LoginTime kStart{1'000'000'000, 1'800'000'000};
@@ -29,8 +29,8 @@ std::string cookieFor(Login& login, std::string_view bearer, LoginTime now = kSt
 }
 
 TEST(Login, NothingGoesWithoutTheTokenWhereThereIsOne) {
-  Login login(kToken, kCode, kStart);
-  EXPECT_EQ(statusOf(login.refusal({kToken, "", kPeer}, kStart)), 200U);
+  Login login(kGoodToken, kCode, kStart);
+  EXPECT_EQ(statusOf(login.refusal({kGoodToken, "", kPeer}, kStart)), 200U);
   for (const char* bearer :
        {"", "0", "0123456789abcdef-_Y", "0123456789abcdef-_XX", "0123456789abcdef", kCode})
     EXPECT_EQ(statusOf(login.refusal({bearer, "", kPeer}, kStart)), 401U) << bearer;
@@ -40,50 +40,50 @@ TEST(Login, NothingGoesWithoutTheTokenWhereThereIsOne) {
 }
 
 TEST(Login, ACookieLastsTwelveHoursAndOutlivesTheProgramButNotTheToken) {
-  Login login(kToken, "", kStart);
-  const std::string cookie = cookieFor(login, kToken);
+  Login login(kGoodToken, "", kStart);
+  const std::string cookie = cookieFor(login, kGoodToken);
   EXPECT_EQ(statusOf(login.refusal({"", cookie, kPeer}, after(12 * 3600 - 1))), 200U);
   EXPECT_EQ(statusOf(login.refusal({"", cookie, kPeer}, after(12 * 3600))), 401U);
-  EXPECT_FALSE(Login(kToken, kCode, after(10)).needed(cookie, after(10)));
+  EXPECT_FALSE(Login(kGoodToken, kCode, after(10)).needed(cookie, after(10)));
   EXPECT_TRUE(Login("another-token-0123456789", "", after(10)).needed(cookie, after(10)));
 }
 
 TEST(Login, ACookieCannotBeMadeOrProlongedAndDoesNotHoldTheToken) {
-  Login login(kToken, "", kStart);
-  const std::string cookie = cookieFor(login, kToken);
-  EXPECT_EQ(cookie.find(kToken), std::string::npos);
+  Login login(kGoodToken, "", kStart);
+  const std::string cookie = cookieFor(login, kGoodToken);
+  EXPECT_EQ(cookie.find(kGoodToken), std::string::npos);
   const std::string seal = cookie.substr(cookie.find('.'));
   for (const std::string& other :
-       {"1900000000" + seal, seal, std::string("1900000000"), cookie + "0", " " + cookie, std::string(kToken),
-        std::string("99999999999999999999") + seal})
+       {"1900000000" + seal, seal, std::string("1900000000"), cookie + "0", " " + cookie,
+        std::string(kGoodToken), std::string("99999999999999999999") + seal})
     EXPECT_TRUE(login.needed(other, kStart)) << other;
 }
 
 TEST(Login, TheCodeOpensOnceAndForTenMinutes) {
-  Login login(kToken, kCode, kStart);
+  Login login(kGoodToken, kCode, kStart);
   EXPECT_FALSE(login.needed(cookieFor(login, kCode, after(599)), after(600)));
   std::string cookie;
   EXPECT_EQ(statusOf(login.enter({kCode, "", kPeer}, after(599), cookie)), 401U) << "used";
-  Login late(kToken, kCode, kStart);
+  Login late(kGoodToken, kCode, kStart);
   EXPECT_EQ(statusOf(late.enter({kCode, "", kPeer}, after(601), cookie)), 401U) << "too old";
   EXPECT_TRUE(cookie.empty());
-  EXPECT_FALSE(late.needed(cookieFor(late, kToken, after(601)), after(601))) << "the token still opens";
+  EXPECT_FALSE(late.needed(cookieFor(late, kGoodToken, after(601)), after(601))) << "the token still opens";
 }
 
 TEST(Login, WrongTokensOfOneAddressAreCountedAndOthersComeIn) {
-  Login login(kToken, "", kStart);
+  Login login(kGoodToken, "", kStart);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(statusOf(login.refusal({"wrong", "", kPeer}, kStart)), 401U) << i;
   EXPECT_EQ(statusOf(login.refusal({"wrong", "", kPeer}, kStart)), 429U);
-  EXPECT_EQ(statusOf(login.refusal({kToken, "", kPeer}, kStart)), 429U) << "a guess must not show";
-  EXPECT_EQ(statusOf(login.refusal({kToken, "", "192.168.1.10"}, kStart)), 200U);
-  EXPECT_EQ(statusOf(login.refusal({kToken, "", kPeer}, after(7))), 200U) << "10 per minute";
+  EXPECT_EQ(statusOf(login.refusal({kGoodToken, "", kPeer}, kStart)), 429U) << "a guess must not show";
+  EXPECT_EQ(statusOf(login.refusal({kGoodToken, "", "192.168.1.10"}, kStart)), 200U);
+  EXPECT_EQ(statusOf(login.refusal({kGoodToken, "", kPeer}, after(7))), 200U) << "10 per minute";
 }
 
 TEST(Login, APageThatReconnectsIsNeverCounted) {
-  Login login(kToken, "", kStart);
+  Login login(kGoodToken, "", kStart);
   for (int i = 0; i < 100; ++i) {
     EXPECT_EQ(statusOf(login.refusal({"", "1.stale", kPeer}, kStart)), 401U);
-    EXPECT_EQ(statusOf(login.refusal({kToken, "", kPeer}, kStart)), 200U);
+    EXPECT_EQ(statusOf(login.refusal({kGoodToken, "", kPeer}, kStart)), 200U);
   }
 }
 
@@ -105,7 +105,7 @@ TEST(Attempts, ANetworkOfIPv6IsOneSender) {
 
 TEST(Secret, AnEmptyOneMatchesNothing) {
   EXPECT_FALSE(sameSecret("", ""));
-  EXPECT_TRUE(sameSecret(kToken, kToken));
+  EXPECT_TRUE(sameSecret(kGoodToken, kGoodToken));
   EXPECT_NE(randomCode(), randomCode());
   EXPECT_EQ(randomCode().size(), 32U);
 }

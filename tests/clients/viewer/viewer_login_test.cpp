@@ -7,13 +7,13 @@
 namespace palpate::testing {
 namespace {
 
-constexpr const char* kToken = "a-token-of-this-test-0123";
+constexpr const char* kViewerToken = "a-token-of-this-test-0123";
 constexpr const char* kBearer = "Authorization: Bearer a-token-of-this-test-0123\r\n";
 
 class ViewerLogin : public ViewerEndToEnd {
  protected:
   void startWithToken(std::vector<std::string> more = {}) {
-    more.insert(more.end(), {"--token-file", files_.write("token", std::string(kToken) + "\n")});
+    more.insert(more.end(), {"--token-file", files_.write("token", std::string(kViewerToken) + "\n")});
     startViewer(more);
   }
   [[nodiscard]] std::string own() const { return "127.0.0.1:" + std::to_string(viewer_->port()); }
@@ -44,10 +44,10 @@ bool says(const std::string& answer, const std::string& part) {
 
 TEST_F(ViewerLogin, ATokenInTheAddressLetsNobodyIn) {
   startWithToken();
-  EXPECT_EQ(open(std::string("/ws?token=") + kToken, ""), 401);
-  EXPECT_EQ(open(std::string("/ws?token=") + kToken, "", ""), 403);
-  EXPECT_TRUE(says(ask(std::string("POST /login?token=") + kToken), "HTTP/1.1 403"));
-  EXPECT_TRUE(says(ask(std::string("GET /login?token=") + kToken), R"({"needed":true})"));
+  EXPECT_EQ(open(std::string("/ws?token=") + kViewerToken, ""), 401);
+  EXPECT_EQ(open(std::string("/ws?token=") + kViewerToken, "", ""), 403);
+  EXPECT_TRUE(says(ask(std::string("POST /login?token=") + kViewerToken), "HTTP/1.1 403"));
+  EXPECT_TRUE(says(ask(std::string("GET /login?token=") + kViewerToken), R"({"needed":true})"));
 }
 
 TEST_F(ViewerLogin, AProgramBearsTheTokenInAHeader) {
@@ -64,7 +64,7 @@ TEST_F(ViewerLogin, ABrowserGivesTheTokenOnceAndGetsACookie) {
   const std::string answer = ask("POST /login", origin() + kBearer);
   EXPECT_TRUE(says(answer, "HTTP/1.1 200")) << answer;
   EXPECT_TRUE(says(answer, "; Path=/; HttpOnly; SameSite=Strict")) << answer;
-  EXPECT_FALSE(says(answer, kToken)) << "the cookie is another secret";
+  EXPECT_FALSE(says(answer, kViewerToken)) << "the cookie is another secret";
   const std::string cookie = "Cookie: other=1; " + cookieOf(answer) + "\r\n";
   EXPECT_EQ(open("/ws", cookie), 101);
   EXPECT_TRUE(says(ask("GET /login", cookie), R"({"needed":false})"));
@@ -80,7 +80,7 @@ TEST_F(ViewerLogin, ThePrintedAddressLetsOneBrowserIn) {
   const std::string address = said["login_address"];
   const std::string base = said["address"];
   ASSERT_TRUE(address.starts_with(base + "#code=")) << address;
-  EXPECT_FALSE(says(viewer_->announcement(), kToken));
+  EXPECT_FALSE(says(viewer_->announcement(), kViewerToken));
   const std::string code = "Authorization: Bearer " + address.substr(base.size() + 6) + "\r\n";
   EXPECT_EQ(open("/ws", code), 401) << "the code is for the login only";
   EXPECT_TRUE(says(ask("POST /login", origin() + code), "HTTP/1.1 200"));

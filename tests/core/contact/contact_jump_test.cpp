@@ -8,16 +8,12 @@ namespace palpate::testing {
 
 namespace {
 
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
 const ContactSolver kSolver{StepConfig{}.tip_radius};
 
 /// In contact, 2 mm deep, gone there slowly.
 Contact pressing(const ContactLaw& law) {
   Contact contact;
-  for (double z = -0.002; z < 0.002; z += 1e-4) kSolver.update(organ(), law, above(z), contact);
+  for (double z = -0.002; z < 0.002; z += 1e-4) kSolver.update(roundOrgan(), law, above(z), contact);
   return contact;
 }
 
@@ -27,7 +23,7 @@ TEST(ContactJump, ASlowPressHasNone) {
   const ContactLaw law{.friction = 0.3};
   Contact contact;
   for (double z = -0.002; z < 0.004; z += 1e-4) {
-    ASSERT_TRUE(kSolver.update(organ(), law, above(z), contact));
+    ASSERT_TRUE(kSolver.update(roundOrgan(), law, above(z), contact));
     ASSERT_EQ(contact.jump, ContactJump::kNone) << z;
   }
   EXPECT_FALSE(contact.isFree());
@@ -35,7 +31,7 @@ TEST(ContactJump, ASlowPressHasNone) {
 
 TEST(ContactJump, IsACaptureThatIsDeepAtOnce) {
   Contact contact;
-  kSolver.update(organ(), {}, above(0.004), contact);
+  kSolver.update(roundOrgan(), {}, above(0.004), contact);
   EXPECT_EQ(contact.jump, ContactJump::kDeepCapture);
 }
 
@@ -43,7 +39,7 @@ TEST(ContactJump, IsAReleaseThatLeavesAForce) {
   const ContactLaw law{.friction = kInfinity};
   Contact contact = pressing(law);
   const auto go = [&](double depth, double aside) {
-    kSolver.update(organ(), law, above(depth, aside), contact);
+    kSolver.update(roundOrgan(), law, above(depth, aside), contact);
   };
   for (double aside = 0.0; aside < 0.002; aside += 1e-4) go(0.002, aside);  // the anchor sticks
   for (double depth = 0.002; !contact.isFree() && depth > -0.002; depth -= 1e-4) go(depth, 0.002);
@@ -55,7 +51,7 @@ TEST(ContactJump, IsAToolThatLeftWhileNobodySaw) {
   const ContactLaw law{.friction = 0.3};
   Contact contact = pressing(law);
   Budget budget;
-  kSolver.update(organ(), law, above(-0.01), TipWay::kUnseen, budget, contact);
+  kSolver.update(roundOrgan(), law, above(-0.01), TipWay::kUnseen, budget, contact);
   EXPECT_TRUE(contact.isFree());
   EXPECT_EQ(contact.jump, ContactJump::kLeftUnseen);
 }
@@ -64,7 +60,7 @@ TEST(ContactJump, ATipThatLeaptIsEngagedFromTheNearestSide) {
   const ContactLaw law{.friction = 0.3};
   Contact contact = pressing(law);
   Budget budget;
-  kSolver.update(organ(), law, over(2.0, 0.003), TipWay::kNone, budget, contact);
+  kSolver.update(roundOrgan(), law, over(2.0, 0.003), TipWay::kNone, budget, contact);
   EXPECT_FALSE(contact.isFree());
   EXPECT_GT(contact.normal.dot(over(2.0, 0.003).normalized()), 0.99);
   EXPECT_EQ(contact.jump, ContactJump::kDeepCapture);
@@ -74,7 +70,7 @@ TEST(ContactJump, AnAnswerThatIsNotFiniteLeavesTheContactAsItWas) {
   const ContactLaw law{.friction = 0.3}, overflowing{.friction = 0.3, .stiffness_scale = 1e308};
   Contact contact = pressing(law);
   const Contact before = contact;
-  EXPECT_FALSE(kSolver.update(organ(), overflowing, above(0.003), contact));
+  EXPECT_FALSE(kSolver.update(roundOrgan(), overflowing, above(0.003), contact));
   EXPECT_EQ(contact.coupled.response.force, before.coupled.response.force);
   EXPECT_EQ(contact.anchor, before.anchor);
   EXPECT_EQ(contact.imposed, before.imposed);

@@ -14,19 +14,11 @@
 
 namespace palpate::testing {
 
-namespace {
-
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
-}  // namespace
-
 TEST(Coupling, SpringAndOrganCarryTheSameForce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const ContactPoint s = organ().surface().closestPoint(Vec3(0.01, 0.02, 0.05)).s;
-  const PatchResponse patch(organ(), s);
+  const ContactPoint s = roundOrgan().surface().closestPoint(Vec3(0.01, 0.02, 0.05)).s;
+  const PatchResponse patch(roundOrgan(), s);
   for (int trial = 0; trial < 200; ++trial) {
     ContactLaw law;
     law.compliance = 1.0 / std::pow(10.0, 3.0 + 1.5 * uniform(random));
@@ -46,7 +38,7 @@ TEST(Coupling, RenderedStiffnessNeverExceedsTheSprings) {
   StepConfig config = bare(kInfinity);
   config.coupling_stiffness = 300.0;
   config.youngs_modulus = 1e6;
-  Driver driver(organ(), config);
+  Driver driver(roundOrgan(), config);
   for (double d = -0.001; d < 0.006; d += 1e-4) {
     const ToolResult& r = driver.at(over(0.0, d));
     const Mat3 K = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.stiffness.data());

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::uint32_t kOrdinary = kInContact | kRamping;
 
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
 /// What a tool felt on its way.
 struct Felt {
   double largest{0.0};         ///< |force|, N
@@ -41,7 +37,7 @@ void feel(const ToolResult& r, Felt& felt) {
   felt.touched += r.state != 0 ? 1 : 0;
   felt.changes += (r.state != 0) != (felt.state != 0) ? 1 : 0;
   felt.slips += r.state * felt.state == 2 ? 1 : 0;
-  if (r.state != 0) felt.normal = normalAt(organ(), r);
+  if (r.state != 0) felt.normal = normalAt(roundOrgan(), r);
   felt.pulls += force.dot(felt.normal) < -1e-9 * force.norm() ? 1 : 0;
   felt.flags |= r.flags;
   felt.last = force;
@@ -76,7 +72,7 @@ TEST(Poke, AGrazingPassTouchesOnceWithASmallContinuousForce) {
   for (const double mu : {0.0, 0.05, 0.3, 1.0})
     for (const double angle : {0.0, 0.37, 0.9}) {
       SCOPED_TRACE(::testing::Message() << "friction " << mu << ", angle " << angle);
-      Driver driver(organ(), withFriction(mu));
+      Driver driver(roundOrgan(), withFriction(mu));
       const Vec3 nearest = over(angle, kOverlap), way = 0.015 * acrossAt(angle);
       Felt felt;
       wait(driver, nearest - way, 40, felt);
@@ -116,7 +112,7 @@ Felt pokeFast(Driver& driver, double slant, int pause) {
 void expectPushesOnlyAndLeavesNothing(const StepConfig& config, double slant, int pause) {
   SCOPED_TRACE(::testing::Message() << "coupling " << config.coupling_stiffness << ", friction "
                                     << config.friction << ", slant " << slant);
-  Driver driver(organ(), config);
+  Driver driver(roundOrgan(), config);
   const Felt felt = pokeFast(driver, slant, pause);
   EXPECT_GT(felt.touched, 80);
   EXPECT_EQ(felt.changes, 24);
@@ -147,7 +143,7 @@ TEST(Poke, FastAndDeepItPushesOnlyWithinTheLimitAndLeavesNothing) {
 TEST(Poke, ASecondContactRemembersNothingOfTheFirst) {
   constexpr double kClear = -0.003, kDeep = 0.003;  // m
   for (const double apart : {0.05, 0.4}) {          // rad
-    Driver twice(organ()), once(organ());
+    Driver twice(roundOrgan()), once(roundOrgan());
     Felt first, second, alone;
     wait(twice, over(0.0, kClear), 40, first);
     go(twice, over(0.0, kClear), over(0.0, kDeep), 0.1, first);
@@ -171,7 +167,7 @@ TEST(Poke, AToolThatStartsInsideIsPushedOutTheNearestWayAndFreeOnceItIsOut) {
     for (const double mu : {0.0, 0.3}) {
       SCOPED_TRACE(::testing::Message() << "friction " << mu << ", " << depth << " m deep");
       const StepConfig config = withFriction(mu);
-      Driver driver(organ(), config);
+      Driver driver(roundOrgan(), config);
       const Vec3 inside = over(0.3, depth), outside = over(0.3, -0.002);
       Felt felt;
       wait(driver, inside, 40, felt);
@@ -191,7 +187,7 @@ TEST(Poke, AToolThatStartsInsideIsPushedOutTheNearestWayAndFreeOnceItIsOut) {
 
 TEST(Poke, ForceNeverPullsOnARandomWay) {
   for (const double mu : {0.0, 0.05, 0.3, 1.0}) {
-    Driver driver(organ(), withFriction(mu));
+    Driver driver(roundOrgan(), withFriction(mu));
     unsigned seed = 1;
     const auto random = [&] { return (seed = seed * 1664525U + 1013904223U) / 4294967296.0 - 0.5; };
     Vec3 c = over(0.0, -0.003), velocity = Vec3::Zero();
@@ -202,7 +198,7 @@ TEST(Poke, ForceNeverPullsOnARandomWay) {
       velocity = 0.98 * velocity + 0.02 * Vec3(random(), random(), random());
       c += 0.004 * velocity + 0.002 * (over(0.0, 0.001) - c);
       const ToolResult& r = driver.at(c);
-      ASSERT_GE(vec(r.force).dot(normalAt(organ(), r)), -1e-9 * vec(r.force).norm())
+      ASSERT_GE(vec(r.force).dot(normalAt(roundOrgan(), r)), -1e-9 * vec(r.force).norm())
           << mu << ", " << ms << " ms, state " << r.state;
       const auto state = static_cast<ContactState>(r.state);
       if (state == ContactState::kStick && before != ContactState::kFree) {

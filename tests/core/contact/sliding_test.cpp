@@ -17,10 +17,6 @@ namespace palpate::testing {
 
 namespace {
 
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
 /// Presses at the top and drags to an angle, 0.05 mm a tick.
 void drag(Driver& driver, double angle, double depth) {
   for (double d = -0.001; d < depth; d += 5e-5) driver.at(over(0.0, d));
@@ -28,13 +24,13 @@ void drag(Driver& driver, double angle, double depth) {
 }
 
 Vec3 normalAt(const ToolResult& r) {
-  return testing::normalAt(organ(), r);
+  return testing::normalAt(roundOrgan(), r);
 }
 
 }  // namespace
 
 TEST(Sliding, WithoutFrictionTheAnchorStaysBelowTheTool) {
-  Driver driver(organ(), bare(0.0));
+  Driver driver(roundOrgan(), bare(0.0));
   drag(driver, 0.8, 0.002);
   const ToolResult& r = driver.result().tools[0];
   EXPECT_EQ(r.state, static_cast<std::uint32_t>(ContactState::kSlide));
@@ -46,7 +42,7 @@ TEST(Sliding, WithoutFrictionTheAnchorStaysBelowTheTool) {
 
 TEST(Sliding, FrictionIsWhatCoulombAllows) {
   for (const double mu : {0.05, 0.3, 0.8}) {
-    Driver driver(organ(), bare(mu));
+    Driver driver(roundOrgan(), bare(mu));
     drag(driver, 0.6, 0.002);
     const ToolResult& r = driver.result().tools[0];
     ASSERT_EQ(r.state, static_cast<std::uint32_t>(ContactState::kSlide)) << mu;
@@ -57,7 +53,7 @@ TEST(Sliding, FrictionIsWhatCoulombAllows) {
 }
 
 TEST(Sliding, WithoutLimitOfFrictionTheAnchorStays) {
-  Driver driver(organ(), bare(kInfinity));
+  Driver driver(roundOrgan(), bare(kInfinity));
   for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
   const Vec3 anchor = vec(driver.result().tools[0].anchor);
   for (double a = 0.0; a < 0.04; a += 1e-3) ASSERT_EQ(vec(driver.at(over(a, 0.002)).anchor), anchor);
@@ -66,7 +62,7 @@ TEST(Sliding, WithoutLimitOfFrictionTheAnchorStays) {
 
 TEST(Sliding, ForceHasNoClicksOverTrianglesEdgesAndNodes) {
   for (const double azimuth : {0.0, 0.3, 1.1, 2.0, 4.4}) {
-    Driver driver(organ(), bare(0.0));
+    Driver driver(roundOrgan(), bare(0.0));
     for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d, azimuth));
     Vec3 last = vec(driver.at(over(0.0, 0.002, azimuth)).force);
     std::vector<double> steps;
@@ -84,7 +80,7 @@ TEST(Sliding, ForceHasNoClicksOverTrianglesEdgesAndNodes) {
 
 TEST(Sliding, NoEnergyComesOutOfAClosedWay) {
   for (const double mu : {0.0, 0.05, 0.3}) {
-    Driver driver(organ(), bare(mu));
+    Driver driver(roundOrgan(), bare(mu));
     double work = 0.0, most = 0.0;
     Vec3 c = over(0.0, -0.001), force = Vec3::Zero();
     const auto to = [&](const Vec3& next) {
@@ -104,7 +100,7 @@ TEST(Sliding, NoEnergyComesOutOfAClosedWay) {
 
 TEST(Sliding, RenderedStiffnessIsTheSlopeOfTheForceWhileSliding) {
   for (const double mu : {0.0, 0.2}) {
-    Driver driver(organ(), bare(mu));
+    Driver driver(roundOrgan(), bare(mu));
     drag(driver, 0.5, 0.002);
     const Vec3 c = over(0.501, 0.002);
     const Driver before = driver;
@@ -125,7 +121,7 @@ TEST(Sliding, RenderedStiffnessIsTheSlopeOfTheForceWhileSliding) {
 TEST(Sliding, StopsAtTheBorderOfTheAccessiblePartAndSaysSo) {
   StepConfig config = bare(0.0);
   config.ramp_time = 0.03;  // far from its anchor the tool is let go
-  Driver driver(organ(), config);
+  Driver driver(roundOrgan(), config);
   bool flagged = false;
   for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
   Vec3 last = vec(driver.result().tools[0].force);
@@ -136,7 +132,8 @@ TEST(Sliding, StopsAtTheBorderOfTheAccessiblePartAndSaysSo) {
     flagged = flagged || (r.flags & kNotAccessible) != 0;
     if (r.state != 0) {  // on the border itself, a little to the inside counts
       const Vec3 inside = vec(r.anchor) + 1e-6 * Vec3::UnitZ();
-      ASSERT_TRUE(organ().surface().reachable(organ().surface().closestPoint(inside).s.triangle)) << a;
+      ASSERT_TRUE(roundOrgan().surface().reachable(roundOrgan().surface().closestPoint(inside).s.triangle))
+          << a;
     }
   }
   EXPECT_TRUE(flagged);
@@ -144,7 +141,7 @@ TEST(Sliding, StopsAtTheBorderOfTheAccessiblePartAndSaysSo) {
 
 TEST(Safety, APoseThatJumpsIsFlaggedAndEngagedAnew) {
   StepConfig config;
-  Driver driver(organ(), config);
+  Driver driver(roundOrgan(), config);
   for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
   const ToolResult held = driver.settle(over(0.0, 0.002));
   const ToolResult& leapt = driver.at(over(0.7, 0.002));
@@ -157,7 +154,7 @@ TEST(Safety, APoseThatJumpsIsFlaggedAndEngagedAnew) {
 TEST(Safety, ForceChangesNoFasterThanItsRateLimit) {
   StepConfig config = bare(kInfinity);
   config.force_rate_limit = 50.0;
-  Driver driver(organ(), config);
+  Driver driver(roundOrgan(), config);
   Vec3 last = Vec3::Zero();
   bool flagged = false;
   for (double d = -0.001; d < 0.004; d += 5e-4) {
@@ -170,7 +167,7 @@ TEST(Safety, ForceChangesNoFasterThanItsRateLimit) {
 }
 
 TEST(Safety, WhatOneToolDoesAtOnceTheOtherDoesNotFeelAtOnce) {
-  Driver driver(organ(), StepConfig{});
+  Driver driver(roundOrgan(), StepConfig{});
   const auto place = [&driver](std::size_t tool, const Vec3& c, std::int64_t age_ns) {
     driver.input().tools[tool].present = 1;
     driver.input().tools[tool].position = {c.x(), c.y(), c.z()};
@@ -197,11 +194,11 @@ TEST(Sliding, AnAnchorThatLosesItsHoldSlidesToItsBalanceWithoutAJump) {
   const ContactSolver solver(0.005);
   Contact contact;
   const auto at = [&](double angle, double friction) {
-    solver.update(organ(), {friction, 0.0, 1.0}, over(angle, 0.002), contact);
+    solver.update(roundOrgan(), {friction, 0.0, 1.0}, over(angle, 0.002), contact);
     return contact.coupled.response.force;
   };
   for (double depth = -0.001; depth < 0.002; depth += 5e-5)
-    solver.update(organ(), {0.0, 0.0, 1.0}, over(0.0, depth), contact);
+    solver.update(roundOrgan(), {0.0, 0.0, 1.0}, over(0.0, depth), contact);
   for (double angle = 0.0; angle < 0.05; angle += 1e-3) (void)at(angle, kInfinity);
   Vec3 last = at(0.05, kInfinity);
   const Vec3 stuck = last;

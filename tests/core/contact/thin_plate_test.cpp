@@ -12,11 +12,11 @@ namespace palpate::testing {
 
 namespace {
 
-constexpr double kHalf = 0.001;  // of the thickness, m
+constexpr double kHalfThickness = 0.001;  // of the thickness, m
 constexpr double kStiffness = kPlateStiffness;
 
-const MetaModel& plate() {
-  static const MetaModel model = thinPlate(kHalf);
+const MetaModel& thinnestPlate() {
+  static const MetaModel model = thinPlate(kHalfThickness);
   return model;
 }
 
@@ -24,11 +24,11 @@ const MetaModel& plate() {
 class Tip {
  public:
   Tip(double radius, double friction)
-      : radius_(radius), friction_(friction), driver_(plate(), configOf(radius, friction)) {
+      : radius_(radius), friction_(friction), driver_(thinnestPlate(), configOf(radius, friction)) {
     driver_.settle(at(-0.001));
   }
   /// Beyond it the other side is the nearest, m deep.
-  [[nodiscard]] double middle() const { return kHalf + radius_; }
+  [[nodiscard]] double middle() const { return kHalfThickness + radius_; }
   [[nodiscard]] double friction() const { return friction_; }
   /// Goes down from above, a tenth of a millimetre a tick.
   void press(double deep) {
@@ -45,7 +45,7 @@ class Tip {
     return config;
   }
   [[nodiscard]] Vec3 at(double depth, double sideways = 0.0) const {
-    return {0.003 + sideways, 0.002, kHalf + radius_ - depth};
+    return {0.003 + sideways, 0.002, kHalfThickness + radius_ - depth};
   }
   double radius_, friction_;
   Driver driver_;
@@ -71,10 +71,11 @@ TEST(ThinPlate, PressedBeyondItsMiddleItPushesBackToTheSideOfEntry) {
       const ToolResult& r = tip.to(depth);
       ASSERT_NEAR(r.force[2], std::min(3.3, std::max(0.0, kStiffness * depth)), 1e-6) << depth;
       ASSERT_LE(std::abs(r.force[2] - last), 1.01e-4 * kStiffness) << depth << " m deep: a step";
-      ASSERT_NEAR(r.anchor[2], kHalf, 1e-9) << depth;
+      ASSERT_NEAR(r.anchor[2], kHalfThickness, 1e-9) << depth;
       last = r.force[2];
     }
-    EXPECT_LT(plate().surface().closestPoint(Vec3(0.003, 0.002, -1e-4)).position.z(), 0.0) << "it did flip";
+    EXPECT_LT(thinnestPlate().surface().closestPoint(Vec3(0.003, 0.002, -1e-4)).position.z(), 0.0)
+        << "it did flip";
   });
 }
 
@@ -85,7 +86,7 @@ TEST(ThinPlate, DraggedAlongBeyondItsMiddleTheAnchorStaysOnTheSideOfEntry) {
     Vec3 last = vec(tip.to(deep).force);
     for (double x = 0.0; x < 0.02; x += 5e-5) {
       const ToolResult& r = tip.to(deep, x);
-      ASSERT_NEAR(r.anchor[2], kHalf, 1e-9) << x;
+      ASSERT_NEAR(r.anchor[2], kHalfThickness, 1e-9) << x;
       ASSERT_GT(r.force[2], 0.2 * kStiffness * deep) << x;
       ASSERT_LT((vec(r.force) - last).norm(), 1.01 * 5e-5 * kStiffness) << x << ": a step";
       last = vec(r.force);
@@ -140,7 +141,7 @@ void pokeThrough(Tip tip, double step) {
     ASSERT_LE(r.force[2], 3.3 + 1e-9) << depth;
     ASSERT_EQ(r.state != 0, depth > 0.0) << depth << ": held while it is below the side of entry";
     if (r.state != 0) {
-      ASSERT_NEAR(r.anchor[2], kHalf, 1e-9) << depth;
+      ASSERT_NEAR(r.anchor[2], kHalfThickness, 1e-9) << depth;
     }
   };
   double depth = -0.00103;
@@ -169,7 +170,7 @@ TEST(ThinPlate, TouchedFromTheOtherSideItPushesThere) {
     for (; depth > below - 0.0005; depth -= 1e-4) tip.to(depth);
     const ToolResult& r = tip.settle(below - 0.0005);
     EXPECT_NEAR(r.force[2], -kStiffness * 0.0005, 1e-6);
-    EXPECT_NEAR(r.anchor[2], -kHalf, 1e-9);
+    EXPECT_NEAR(r.anchor[2], -kHalfThickness, 1e-9);
   });
 }
 

@@ -70,15 +70,15 @@ TEST(ToolsTogether, HeldStillTheyComeToRest) {
 }
 
 TEST(ToolsTogether, TheSentStiffnessIsThatOfTheForceThatComes) {
-  constexpr double kStep = 1e-5;  // m
+  constexpr double kAdvance = 1e-5;  // m
   for (const double coupling : {300.0, kInfinity}) {
     Driver driver(softOrgan(), bare(kInfinity, coupling));
     press(driver, 3, 0.002);
     const Vec3 before = forceOn(driver, 0);
     const ToolResult sent = driver.result().tools[0];
-    place(driver, 0, 0.002 + kStep);
+    place(driver, 0, 0.002 + kAdvance);
     for (int i = 0; i < 50; ++i) driver.tick();
-    const double slope = (forceOn(driver, 0) - before).z() / -kStep;
+    const double slope = (forceOn(driver, 0) - before).z() / -kAdvance;
     const double off = coupling < kInfinity ? 0.2 : 0.02;  // the springs of the others give way
     EXPECT_NEAR(slope / sent.stiffness[8], 1.0, off) << "coupling " << coupling;
   }
@@ -207,8 +207,8 @@ class Hand {
 }  // namespace
 
 TEST(ToolsTogether, SlidingBesideAnotherToolKeepsTheEnergy) {
-  constexpr double kHeld = 0.0025, kSliding = 0.002, kClear = -0.003, kStep = 2e-5;  // m
-  constexpr double kNear = 0.4, kFar = 1.4;                                          // rad from the held one
+  constexpr double kHeld = 0.0025, kSliding = 0.002, kClear = -0.003, kAdvance = 2e-5;  // m
+  constexpr double kNear = 0.4, kFar = 1.4;  // rad from the held one
   for (const double coupling : {300.0, kInfinity})
     for (const double azimuth : fewUnderSanitizers(1, {0.3, 2.0, 4.0}))
       for (const bool away : {true, false}) {
@@ -216,12 +216,13 @@ TEST(ToolsTogether, SlidingBesideAnotherToolKeepsTheEnergy) {
         config.own[0] = toolSettings(bare(kInfinity))[0];
         Driver driver(reciprocalOrgan(), config);
         Hand held(driver, 0), sliding(driver, 1);
-        for (double depth = -0.001; depth < kHeld; depth += kStep) held.to(over(0.0, depth));
+        for (double depth = -0.001; depth < kHeld; depth += kAdvance) held.to(over(0.0, depth));
         const double from = away ? kNear : kFar, to = away ? kFar : kNear;
-        for (double depth = kClear; depth < kSliding; depth += kStep) sliding.to(over(from, depth, azimuth));
+        for (double depth = kClear; depth < kSliding; depth += kAdvance)
+          sliding.to(over(from, depth, azimuth));
         for (double way = 0.0; way < 1.0; way += 5e-4)
           sliding.to(over(from + way * (to - from), kSliding, azimuth));
-        for (double depth = kSliding; depth > kClear; depth -= kStep) sliding.to(over(to, depth, azimuth));
+        for (double depth = kSliding; depth > kClear; depth -= kAdvance) sliding.to(over(to, depth, azimuth));
         ASSERT_EQ(driver.result().tools[0].state, static_cast<std::uint32_t>(ContactState::kStick));
         ASSERT_EQ(forceOn(driver, 1), Vec3(Vec3::Zero()));
         EXPECT_LT(std::abs(sliding.work()), 0.002 * (held.most() + sliding.most()))

@@ -114,7 +114,7 @@ void expectRefusedBytes(const std::function<void(std::string&)>& spoil, const st
 }
 
 template <class T>
-void put(std::string& bytes, std::size_t at, T value) {
+void putNumber(std::string& bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
@@ -124,8 +124,8 @@ void put(std::string& bytes, std::size_t at, T value) {
 TEST(LoadHostile, ATreeOfNamesThatIsItsOwnChildIsRefused) {
   const auto spoil = [](std::string& bytes) {
     const std::size_t tree = bytes.find("TREE");  // signature, type, level, entries; two siblings; key, child
-    put(bytes, tree + 5, std::uint8_t{1});
-    put(bytes, tree + 32, std::uint64_t{tree});
+    putNumber(bytes, tree + 5, std::uint8_t{1});
+    putNumber(bytes, tree + 32, std::uint64_t{tree});
   };
   expectRefusedBytes(spoil, "the process that parses it ended");
 }
@@ -136,7 +136,7 @@ TEST(LoadHostile, ATextThatClaimsGigabytesIsRefused) {
   const auto spoil = [](std::string& bytes) {
     const std::size_t heap = bytes.find("GCOL");
     const std::string address(reinterpret_cast<const char*>(&heap), sizeof heap);
-    put(bytes, bytes.find(address) - 4, std::uint32_t{0xF0000000});  // the length stands before it
+    putNumber(bytes, bytes.find(address) - 4, std::uint32_t{0xF0000000});  // the length stands before it
   };
   expectRefusedBytes(spoil, "attribute format is no readable text");
 }

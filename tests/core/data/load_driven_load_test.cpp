@@ -23,7 +23,7 @@ namespace {
 
 using modelfile::ModelData;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 struct WrongData {
   std::string name;
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "attribute reference_force is 0, expected more than 0 N",
                   [](ModelData& d) { d.attributes.reference_force = 0.0; }},
         WrongData{"NanReferenceForce", Parameters::kForce, "attribute reference_force is nan",
-                  [](ModelData& d) { d.attributes.reference_force = kNaN; }},
+                  [](ModelData& d) { d.attributes.reference_force = kNotANumber; }},
         WrongData{"Load", Parameters::kLevel, "attribute load is -1, expected more than 0 N",
                   [](ModelData& d) { d.attributes.load = -1.0; }},
         WrongData{"Direction", Parameters::kLevel, "attribute load_direction has length 2, expected 1",
@@ -120,12 +120,12 @@ INSTANTIATE_TEST_SUITE_P(
                     d.attributes.load_direction = {0.0, 0.0, 2.0};
                   }},
         WrongData{"NanDirection", Parameters::kLevel, "attribute load_direction has length nan, expected 1",
-                  [](ModelData& d) { d.attributes.load_direction[1] = kNaN; }},
+                  [](ModelData& d) { d.attributes.load_direction[1] = kNotANumber; }},
         WrongData{"InfiniteDisplacement", Parameters::kForce,
                   "/contact/displacement number 4 is inf, expected a finite number",
                   [](ModelData& d) { d.contact_displacement[4] = std::numeric_limits<double>::infinity(); }},
         WrongData{"NanDisplacement", Parameters::kLevel, "/contact/displacement number 4 is nan",
-                  [](ModelData& d) { d.contact_displacement[4] = kNaN; }},
+                  [](ModelData& d) { d.contact_displacement[4] = kNotANumber; }},
         WrongData{"NoDomain", Parameters::kForce,
                   "/contact/domain_radius number 3 is 0, expected more than 0 N",
                   [](ModelData& d) { d.contact_domain_radius[3] = 0.0; }},
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "/levels/Z number 11 is 0.25, expected 0 at level 0",
                   [](ModelData& d) { d.levels_Z[11] = 0.25; }},
         WrongData{"NanLevelFunction", Parameters::kLevel, "/levels/Z number 7 is nan",
-                  [](ModelData& d) { d.levels_Z[7] = kNaN; }},
+                  [](ModelData& d) { d.levels_Z[7] = kNotANumber; }},
         WrongData{"DirectionByTheLastBits", Parameters::kLevel,
                   "attribute load_direction has length 1.0000001, expected 1",
                   [](ModelData& d) {

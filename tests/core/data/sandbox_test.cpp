@@ -21,11 +21,11 @@ namespace palpate::testing {
 
 namespace {
 
-constexpr std::size_t kMiB = 1U << 20U;
+constexpr std::size_t kMebibyte = 1U << 20U;
 
 /// Locked down, works and ends; for a death test.
 [[noreturn]] void workLockedDown(const std::function<int()>& work, int output = STDERR_FILENO) {
-  lockDown(output, 64 * kMiB);
+  lockDown(output, 64 * kMebibyte);
   ::_exit(work());
 }
 
@@ -41,7 +41,7 @@ TEST_P(LockedDownDeathTest, EndsTheProcess) {
 }
 
 void* mapped(int protection, int flags, int descriptor) {
-  return ::mmap(nullptr, kMiB, protection, flags | MAP_PRIVATE, descriptor, 0);
+  return ::mmap(nullptr, kMebibyte, protection, flags | MAP_PRIVATE, descriptor, 0);
 }
 
 std::vector<Forbidden> forbidden() {
@@ -61,7 +61,7 @@ std::vector<Forbidden> forbidden() {
   };
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their runtimes do
   all.push_back({"WritesToAnotherDescriptor", [] { (void)!::write(STDOUT_FILENO, "x", 1); }});
-  all.push_back({"LetsMemoryRun", [] { (void)::mprotect(nullptr, kMiB, PROT_READ | PROT_EXEC); }});
+  all.push_back({"LetsMemoryRun", [] { (void)::mprotect(nullptr, kMebibyte, PROT_READ | PROT_EXEC); }});
 #endif
   return all;
 }
@@ -74,8 +74,8 @@ TEST(SandboxDeathTest, LeavesMemoryAndAnAnswer) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
   const auto work = [&] {
-    std::vector<double> room(2 * kMiB, 1.0);
-    room.resize(3 * kMiB, 2.0);
+    std::vector<double> room(2 * kMebibyte, 1.0);
+    room.resize(3 * kMebibyte, 2.0);
     return ::write(ends[1], "done", 4) == 4 && room.back() == 2.0 ? 0 : 1;
   };
   EXPECT_EXIT(workLockedDown(work, ends[1]), ::testing::ExitedWithCode(0), "");
@@ -90,7 +90,7 @@ TEST(SandboxDeathTest, LeavesMemoryAndAnAnswer) {
 TEST(SandboxDeathTest, MoreMemoryThanItsRoomIsNotThere) {
   EXPECT_EXIT(workLockedDown([] {
                 try {
-                  const std::vector<double> room(10 * kMiB);
+                  const std::vector<double> room(10 * kMebibyte);
                   return static_cast<int>(room.front());
                 } catch (const std::bad_alloc&) {
                   return 7;

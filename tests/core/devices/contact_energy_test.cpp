@@ -10,19 +10,19 @@
 namespace palpate::device {
 namespace {
 
-const Point kSurface{0, 0, 0.05};
-const Point kUp{0, 0, 1};
+const Point kTop{0, 0, 0.05};
+const Point kNormal{0, 0, 1};
 constexpr double kLag =
     1.5e-3;  // s: the answer acts a period later and is held for one, which lags by half of it
 
 Point spring(double stiffness, const Point& tip) {
   const double depth = 0.055 - tip[2];
-  return depth > 0.0 ? stiffness * depth * kUp : Point{};
+  return depth > 0.0 ? stiffness * depth * kNormal : Point{};
 }
 
 Trace tapped(double stiffness, const Mechanics& device = {0.045, 0.005, 0.0}, const Hand& hand = {},
              std::size_t delay = 1) {
-  const Motion motion = makeMotion("tap", kSurface, kUp, {.lead = leadOf(device, hand)});
+  const Motion motion = makeMotion("tap", kTop, kNormal, {.lead = leadOf(device, hand)});
   HeldDevice held(device, hand, motion.path);
   return closedLoop(
       held, motion, [&](const Point& tip) { return spring(stiffness, tip); }, delay);

@@ -16,12 +16,12 @@ namespace {
 
 /// u += sum_i w_i (Z_i + N_i) K d.
 void addLinear(const ContactPoint& s, const Vec3& d, std::vector<double>& u) {
-  const ModelView& v = organ().view();
+  const ModelView& v = touchedOrgan().view();
   const std::size_t n = v.modes();
-  PatchNodes patch = organ().patches().room();
-  organ().patches().at(s, false, patch);
+  PatchNodes patch = touchedOrgan().patches().room();
+  touchedOrgan().patches().at(s, false, patch);
   PatchStiffness::Value stiffness;
-  organ().stiffness().at(organ().surface(), s, stiffness);
+  touchedOrgan().stiffness().at(touchedOrgan().surface(), s, stiffness);
   for (std::size_t j = 0; j < patch.count; ++j) {
     const Vec3 f = patch.weight[j] * (stiffness.K * d);
     const auto g = static_cast<std::size_t>(
@@ -46,9 +46,9 @@ void addLinear(const ContactPoint& s, const Vec3& d, std::vector<double>& u) {
 
 /// u += sum over the edges round s of 4 lambda_a lambda_b times what their middles add.
 void addEdges(const ContactPoint& s, const std::vector<double>& monomial, std::vector<double>& u) {
-  const ModelView& v = organ().view();
+  const ModelView& v = touchedOrgan().view();
   const std::size_t E = v.edge_offset.size() - 1, C = v.edge_scale.size() / E;
-  const std::array<std::int32_t, 6>& place = organ().places().of(s.triangle);
+  const std::array<std::int32_t, 6>& place = touchedOrgan().places().of(s.triangle);
   for (std::size_t corner = 0; corner < 3 && place[3] >= 0; ++corner) {
     const double w = 4.0 * s.barycentric[(corner + 1) % 3] * s.barycentric[(corner + 2) % 3];
     const std::size_t e = static_cast<std::size_t>(place[3 + corner]) - v.positions();
@@ -63,14 +63,14 @@ void addEdges(const ContactPoint& s, const std::vector<double>& monomial, std::v
 
 /// The sum of the format's text, term by term, in double precision.
 std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
-  const ModelView& v = organ().view();
-  const std::size_t C = static_cast<std::size_t>(organ().functions().size()) - 3, n = v.modes();
+  const ModelView& v = touchedOrgan().view();
+  const std::size_t C = static_cast<std::size_t>(touchedOrgan().functions().size()) - 3, n = v.modes();
   std::vector<double> all(C + 3), u(v.surface_positions.size());
   MonomialBasis(options().order).evaluate(d / options().reference_displacement, all);
   const std::vector<double> monomial(all.begin() + 3, all.end());
   addLinear(s, d, u);
   addEdges(s, monomial, u);
-  const Stencil mix = organ().mixing().at(organ().surface(), s);
+  const Stencil mix = touchedOrgan().mixing().at(touchedOrgan().surface(), s);
   for (std::size_t b = 0; b < mix.count; ++b) {
     const auto m = static_cast<std::size_t>(mix.position[b]);
     const auto first = static_cast<std::size_t>(v.near_offset[m]);
@@ -93,7 +93,7 @@ std::vector<double> plainField(const ContactPoint& s, const Vec3& d) {
 }  // namespace
 
 TEST(Field, IsTheSumOfTheFormat) {
-  Random random;
+  RandomTouch random;
   for (int trial = 0; trial < 10; ++trial) {
     const ContactPoint s = random.contactPoint();
     const Vec3 d = random.vector(0.004);
@@ -104,13 +104,13 @@ TEST(Field, IsTheSumOfTheFormat) {
 }
 
 TEST(Field, SourcesAddWithTheirGains) {
-  Random random;
+  RandomTouch random;
   const FieldSource a{random.contactPoint(), random.vector(0.003), 1.0};
   const FieldSource b{random.contactPoint(), random.vector(0.003), 0.25};
-  FieldScratch scratch(organ());
-  std::vector<float> both(organ().view().surface_positions.size());
+  FieldScratch scratch(touchedOrgan());
+  std::vector<float> both(touchedOrgan().view().surface_positions.size());
   const std::array<FieldSource, 2> sources{a, b};
-  evaluateField(organ(), sources, scratch, both);
+  evaluateField(touchedOrgan(), sources, scratch, both);
   const std::vector<float> one = field(a.s, a.parameter), other = field(b.s, b.parameter);
   for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(both[i], one[i] + 0.25F * other[i], 1e-8);
 }

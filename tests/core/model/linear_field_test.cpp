@@ -21,23 +21,23 @@ namespace {
 Vec3 interpolated(const std::vector<float>& u, const ContactPoint& s) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::int32_t node = organ().view().surface_triangles[3 * index(s.triangle) + k];
+    const std::int32_t node = touchedOrgan().view().surface_triangles[3 * index(s.triangle) + k];
     sum += s.barycentric[k] * Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * node).cast<double>();
   }
   return sum;
 }
 
 Vec3 fieldAtOwnAnchor(const ContactPoint& s, const Vec3& d) {
-  FieldScratch scratch(organ());
+  FieldScratch scratch(touchedOrgan());
   const FieldSource source{s, d, 1.0};
   Vec3 u;
-  fieldAt(organ(), std::span(&source, 1), scratch, std::span(&s, 1), std::span(&u, 1));
+  fieldAt(touchedOrgan(), std::span(&source, 1), scratch, std::span(&s, 1), std::span(&u, 1));
   return u;
 }
 
 Mat3 stiffnessAt(const ContactPoint& s) {
   PatchStiffness::Value value;
-  organ().stiffness().at(organ().surface(), s, value);
+  touchedOrgan().stiffness().at(touchedOrgan().surface(), s, value);
   return value.K;
 }
 
@@ -122,9 +122,9 @@ TEST(LinearField, ALoadInTheMiddleOfAnEdgeIsNotCarriedWithoutBothEnds) {
 }
 
 TEST(ContactDimple, IsTheFieldAtContactPositions) {
-  Random random;
-  for (std::size_t m = 0; m < organ().view().positions(); m += 3) {
-    const ContactPoint s = organ().surface().atNode(organ().view().contact_node[m]);
+  RandomTouch random;
+  for (std::size_t m = 0; m < touchedOrgan().view().positions(); m += 3) {
+    const ContactPoint s = touchedOrgan().surface().atNode(touchedOrgan().view().contact_node[m]);
     const Vec3 d = random.vector(0.004);
     const Vec3 expected = interpolated(field(s, d), s);
     EXPECT_LT((fieldAtOwnAnchor(s, d) - expected).norm(), 1e-6 * expected.norm()) << m;
@@ -134,13 +134,14 @@ TEST(ContactDimple, IsTheFieldAtContactPositions) {
 
 /// The organ's edges have every degree of its fields. Beyond r_max too.
 TEST(ContactDimple, IsTheFieldAtEdgeMidpoints) {
-  Random random;
-  const std::size_t M = organ().view().positions();
-  ASSERT_GT(organ().places().size(), 2 * M);
-  ASSERT_EQ(organ().edgeCoefficients() + kLinearCoefficients, index(organ().functions().size()));
+  RandomTouch random;
+  const std::size_t M = touchedOrgan().view().positions();
+  ASSERT_GT(touchedOrgan().places().size(), 2 * M);
+  ASSERT_EQ(touchedOrgan().edgeCoefficients() + kLinearCoefficients,
+            index(touchedOrgan().functions().size()));
   double bent = 0.0;
-  for (std::size_t place = M; place < organ().places().size(); place += 5) {
-    const ContactPoint s = organ().places().views(place).front().s;
+  for (std::size_t place = M; place < touchedOrgan().places().size(); place += 5) {
+    const ContactPoint s = touchedOrgan().places().views(place).front().s;
     const Vec3 d = random.vector(0.008);
     const Vec3 expected = interpolated(field(s, d), s);
     EXPECT_LT((fieldAtOwnAnchor(s, d) - expected).norm(), 1e-5 * d.norm()) << place;
@@ -152,23 +153,23 @@ TEST(ContactDimple, IsTheFieldAtEdgeMidpoints) {
 
 /// As in a page: to the last bit, in any order of touches.
 TEST(ContactDimple, IsTheSameWhereItIsMadeWhenTouched) {
-  const ContactDimple touched(organ().dimpleParts(), DimpleTable::kWhenTouched);
-  Random random;
-  std::vector<double> phi(index(organ().functions().size()));
+  const ContactDimple touched(touchedOrgan().dimpleParts(), DimpleTable::kWhenTouched);
+  RandomTouch random;
+  std::vector<double> phi(index(touchedOrgan().functions().size()));
   for (int trial = 0; trial < 300; ++trial) {
     const ContactPoint s = random.contactPoint();
-    const PositionMix mix = organ().surface().mix(s);
-    fieldFunctions(organ(), random.vector(0.006), 0.005, phi);
-    const Vec3 u = touched.at(organ().dimpleParts(), s, mix, phi);
-    EXPECT_EQ(u, organ().dimple().at(organ().dimpleParts(), s, mix, phi)) << trial;
+    const PositionMix mix = touchedOrgan().surface().mix(s);
+    fieldFunctions(touchedOrgan(), random.vector(0.006), 0.005, phi);
+    const Vec3 u = touched.at(touchedOrgan().dimpleParts(), s, mix, phi);
+    EXPECT_EQ(u, touchedOrgan().dimple().at(touchedOrgan().dimpleParts(), s, mix, phi)) << trial;
     EXPECT_GT(u.norm(), 0.0);
   }
 }
 
 TEST(ContactDimple, IsContinuousOverTheEdgesOfItsTriangles) {
   const Vec3 d(0.001, -0.002, 0.003);
-  for (int t = 0; t < organ().surface().triangles(); t += 3) {
-    if (!organ().surface().complete(t)) continue;
+  for (int t = 0; t < touchedOrgan().surface().triangles(); t += 3) {
+    if (!touchedOrgan().surface().complete(t)) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       ContactPoint before{t, {}}, after{t, {}};
       before.barycentric[k] = 0.5 - 1e-9, after.barycentric[k] = 0.5 + 1e-9;
@@ -181,21 +182,21 @@ TEST(ContactDimple, IsContinuousOverTheEdgesOfItsTriangles) {
 
 TEST(AddOthersAt, AddsTheFieldOfTheWholeSurface) {
   constexpr double kDifference = 3e-4;  // ownField()'s over its step, of own - d
-  Random random;
-  FieldScratch scratch(organ());
-  Touches touches(organ());
+  RandomTouch random;
+  FieldScratch scratch(touchedOrgan());
+  Touches touches(touchedOrgan());
   for (int trial = 0; trial < 200; ++trial) {
     const ContactPoint s = random.contactPoint();
     const Vec3 d = random.vector(0.004);
     const ToolPart part{s, d, trial % 2 == 0 ? d : Vec3(d + random.vector(0.004)), 0.7};
-    std::array<FieldSource, 2> sources = ownField(organ(), s, d, part.own);
+    std::array<FieldSource, 2> sources = ownField(touchedOrgan(), s, d, part.own);
     for (FieldSource& source : sources) source.gain *= part.gain;
     const std::array<ContactPoint, 3> at{random.contactPoint(), s, ContactPoint{}};
-    std::vector<float> u(organ().view().surface_positions.size());
-    evaluateField(organ(), sources, scratch, u);
+    std::vector<float> u(touchedOrgan().view().surface_positions.size());
+    evaluateField(touchedOrgan(), sources, scratch, u);
     const Vec3 before = random.vector(0.001);
     std::array<Vec3, 3> found{before, before, before};
-    addOthersAt(organ(), std::span(&part, 1), touches, at, found);
+    addOthersAt(touchedOrgan(), std::span(&part, 1), touches, at, found);
     EXPECT_LT((found[0] - before - interpolated(u, at[0])).norm(),
               1e-6 * d.norm() + kDifference * (part.own - d).norm())
         << trial;
@@ -205,14 +206,14 @@ TEST(AddOthersAt, AddsTheFieldOfTheWholeSurface) {
 }
 
 TEST(PatchMotion, AtRestIsTheLinearFieldOfOnePatchAveragedOverTheOther) {
-  Random random;
-  Touches touches(organ());
+  RandomTouch random;
+  Touches touches(touchedOrgan());
   Touch &from = touches.all[0], &to = touches.all[1];
   for (int trial = 0; trial < 100; ++trial) {
     const ContactPoint a = random.contactPoint(), b = trial == 0 ? a : random.contactPoint();
-    touchWith(organ(), a, Vec3::Zero(), 0.0, from);
-    to.patch.moveTo(organ(), b);
-    const Mat3 C = patchMotion(organ(), from, to).slope() * stiffnessAt(a).inverse();
+    touchWith(touchedOrgan(), a, Vec3::Zero(), 0.0, from);
+    to.patch.moveTo(touchedOrgan(), b);
+    const Mat3 C = patchMotion(touchedOrgan(), from, to).slope() * stiffnessAt(a).inverse();
     const PatchNodes& patch = to.patch.nodes();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double f = 1e-7;  // N, so small that the rest of the field vanishes
@@ -228,20 +229,21 @@ TEST(PatchMotion, AtRestIsTheLinearFieldOfOnePatchAveragedOverTheOther) {
 
 TEST(TouchField, AnswersAfterAPlaceWithoutAnAnswerInItsTriangle) {
   int tried = 0;
-  for (std::int32_t t = 0; t < organ().surface().triangles(); ++t)
+  for (std::int32_t t = 0; t < touchedOrgan().surface().triangles(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       ContactPoint corner{t, {0.0, 0.0, 0.0}}, inside{t, {0.4, 0.3, 0.3}};
       corner.barycentric[k] = 1.0;
-      if (organ().surface().mix(corner).count > 0 || organ().surface().mix(inside).count == 0) continue;
-      Touch touch(organ()), fresh(organ()), at(organ());
-      at.patch.moveTo(organ(), inside);
-      touchWith(organ(), corner, Vec3(0.0, 0.0, -0.001), 0.0, touch);
-      (void)patchMotion(organ(), touch, at);
+      if (touchedOrgan().surface().mix(corner).count > 0 || touchedOrgan().surface().mix(inside).count == 0)
+        continue;
+      Touch touch(touchedOrgan()), fresh(touchedOrgan()), at(touchedOrgan());
+      at.patch.moveTo(touchedOrgan(), inside);
+      touchWith(touchedOrgan(), corner, Vec3(0.0, 0.0, -0.001), 0.0, touch);
+      (void)patchMotion(touchedOrgan(), touch, at);
       for (const double depth : {0.001, 0.002, 0.003}) {
-        touchWith(organ(), inside, Vec3(0.0, 0.0, -depth), 0.0, touch);
-        touchWith(organ(), inside, Vec3(0.0, 0.0, -depth), 0.0, fresh);
-        const Vec3 u = patchMotion(organ(), touch, at).at(Vec3::Zero());
-        EXPECT_EQ(u, patchMotion(organ(), fresh, at).at(Vec3::Zero())) << t << ' ' << depth;
+        touchWith(touchedOrgan(), inside, Vec3(0.0, 0.0, -depth), 0.0, touch);
+        touchWith(touchedOrgan(), inside, Vec3(0.0, 0.0, -depth), 0.0, fresh);
+        const Vec3 u = patchMotion(touchedOrgan(), touch, at).at(Vec3::Zero());
+        EXPECT_EQ(u, patchMotion(touchedOrgan(), fresh, at).at(Vec3::Zero())) << t << ' ' << depth;
         tried += u.norm() > 0.0 ? 1 : 0;
       }
     }

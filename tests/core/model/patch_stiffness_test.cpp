@@ -18,7 +18,7 @@ namespace {
 constexpr double kHalf = 0.01;  // of the plate's thickness, m
 
 /// A stiffness that turns and grows over the plane z = const, N/m.
-Mat3 stiffnessAt(const Vec3& X) {
+Mat3 plateStiffnessAt(const Vec3& X) {
   const double p = 40.0 * X.x() + 25.0 * X.y();
   Mat3 K;
   K << 300.0 + 50.0 * std::sin(p), 20.0 * std::cos(p), 10.0 * std::sin(2.0 * p), 20.0 * std::cos(p), 400.0,
@@ -36,7 +36,7 @@ const MetaModel& plate() {
     for (std::size_t i = 2; i < data.surface_positions.size(); i += 3)
       data.surface_positions[i] = kHalf * std::clamp(data.surface_positions[i] / 0.015, -1.0, 1.0);
     std::copy(data.surface_positions.begin(), data.surface_positions.end(), data.mesh_nodes.begin());
-    fillStiffness(data, stiffnessAt);
+    fillStiffness(data, plateStiffnessAt);
     const TemporaryFile file("plane.h5");
     modelfile::writeModel(file.path(), data);
     return MetaModel::load(file.path());
@@ -135,7 +135,7 @@ TEST(PatchStiffness, BetweenItsPlacesFollowsTheFunctionAndItsSlopesAreItsDerivat
   for (int t = 0; t < model.surface().triangles(); ++t) {
     const double a = uniform(random), b = uniform(random) * (1.0 - a);
     const ContactPoint s{t, {1.0 - a - b, a, b}};
-    const Mat3 exact = stiffnessAt(model.surface().position(s));
+    const Mat3 exact = plateStiffnessAt(model.surface().position(s));
     worst = std::max(worst, (at(model, s).K - exact).norm() / exact.norm());
     for (std::size_t k = 0; k < 2; ++k) {
       constexpr double kStep = 1e-6;

@@ -11,19 +11,19 @@
 namespace palpate::testing {
 
 TEST(Response, StiffnessIsTheDerivativeOfForceInsideAndBeyondTheDomain) {
-  Random random;
+  RandomTouch random;
   for (const double size : {0.004, 0.02}) {
     for (int trial = 0; trial < 50; ++trial) {
       const ContactPoint s = random.contactPoint();
       const Vec3 d = random.vector(size);
       Response here, plus, minus;
-      const ResponseStatus status = respond(organ(), s, d, here);
+      const ResponseStatus status = respond(touchedOrgan(), s, d, here);
       if (std::abs(d.norm() - here.series_radius) < 1e-6) continue;  // the kink
       EXPECT_EQ(status, d.norm() > here.domain_radius ? ResponseStatus::kBeyond : ResponseStatus::kOk);
       const double h = 1e-7;
       for (Eigen::Index j = 0; j < 3; ++j) {
-        (void)respond(organ(), s, d + h * Vec3::Unit(j), plus);
-        (void)respond(organ(), s, d - h * Vec3::Unit(j), minus);
+        (void)respond(touchedOrgan(), s, d + h * Vec3::Unit(j), plus);
+        (void)respond(touchedOrgan(), s, d - h * Vec3::Unit(j), minus);
         EXPECT_LT((here.stiffness.col(j) - (plus.force - minus.force) / (2.0 * h)).norm(), 1e-3);
       }
       if (d.norm() < here.series_radius) {
@@ -34,19 +34,20 @@ TEST(Response, StiffnessIsTheDerivativeOfForceInsideAndBeyondTheDomain) {
 }
 
 TEST(Response, BetweenTheDomainAndTheEndOfThePolynomialsTheyRunOnFlagged) {
-  Random random;
+  RandomTouch random;
   for (int trial = 0; trial < 20; ++trial) {
     const ContactPoint s = random.contactPoint();
     const Vec3 direction = random.vector(1.0).normalized();
     Response out;
-    EXPECT_EQ(respond(organ(), s, 0.999 * options().domain_radius * direction, out), ResponseStatus::kOk);
+    EXPECT_EQ(respond(touchedOrgan(), s, 0.999 * options().domain_radius * direction, out),
+              ResponseStatus::kOk);
     const Vec3 d = 0.5 * (options().domain_radius + options().series_radius) * direction;
-    EXPECT_EQ(respond(organ(), s, d, out), ResponseStatus::kBeyond);
+    EXPECT_EQ(respond(touchedOrgan(), s, d, out), ResponseStatus::kBeyond);
     EXPECT_NEAR(out.domain_radius, options().domain_radius, 1e-15);
     EXPECT_NEAR(out.series_radius, options().series_radius, 1e-15);
     EXPECT_EQ(out.displacement, d);
     EXPECT_EQ(out.parameter, d);
-    const PatchResponse patch(organ(), s);
+    const PatchResponse patch(touchedOrgan(), s);
     const double h = 1e-7;
     for (int j = 0; j < 3; ++j)
       EXPECT_NEAR((patch.energy(d + h * Vec3::Unit(j)) - patch.energy(d - h * Vec3::Unit(j))) / (2.0 * h),
@@ -55,13 +56,13 @@ TEST(Response, BetweenTheDomainAndTheEndOfThePolynomialsTheyRunOnFlagged) {
 }
 
 TEST(Response, WhereThePolynomialsEndTheForceGoesOnAlongTheStiffnessThatPushesBack) {
-  Random random;
+  RandomTouch random;
   const ContactPoint s = random.contactPoint();
   const Vec3 d(0.003, 0.02, -0.01);
   const Vec3 on_edge = d.normalized() * options().series_radius;
   Response far, edge;
-  EXPECT_EQ(respond(organ(), s, d, far), ResponseStatus::kBeyond);
-  (void)respond(organ(), s, on_edge * (1.0 - 1e-12), edge);
+  EXPECT_EQ(respond(touchedOrgan(), s, d, far), ResponseStatus::kBeyond);
+  (void)respond(touchedOrgan(), s, on_edge * (1.0 - 1e-12), edge);
   EXPECT_NEAR(far.displacement.norm(), kShownRadii * options().series_radius, 1e-15);
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(edge.stiffness);
   const Mat3& V = eigen.eigenvectors();
@@ -71,12 +72,12 @@ TEST(Response, WhereThePolynomialsEndTheForceGoesOnAlongTheStiffnessThatPushesBa
 }
 
 TEST(Response, BeyondItsPolynomialsTheFieldIsExtrapolatedLinearlyAndThenStays) {
-  Random random;
+  RandomTouch random;
   for (int sample = 0; sample < 10; ++sample) {
     const ContactPoint s = random.contactPoint();
     const Vec3 direction = random.vector(1.0).normalized();
     Response here;
-    (void)respond(organ(), s, direction, here);
+    (void)respond(touchedOrgan(), s, direction, here);
     const Vec3 edge = here.series_radius * direction;
     const double h = 1e-3;
     const std::vector<float> at_edge = field(s, edge), before = field(s, (1.0 - h) * edge),
@@ -95,8 +96,8 @@ TEST(Response, BeyondItsPolynomialsTheFieldIsExtrapolatedLinearlyAndThenStays) {
 
 /// Inside, extrapolated, and where a tool's own part goes on in proportion.
 TEST(FieldGradients, AreTheDerivativeOfAToolsOwnPart) {
-  Random random;
-  const auto size = index(organ().functions().size());
+  RandomTouch random;
+  const auto size = index(touchedOrgan().functions().size());
   std::vector<double> plus(size), minus(size);
   std::vector<Vec3> gradient(size);
   for (const double radii : {0.6, 1.5, 1.9, 2.6})
@@ -104,12 +105,12 @@ TEST(FieldGradients, AreTheDerivativeOfAToolsOwnPart) {
       const ContactPoint s = random.contactPoint();
       const double limit = options().series_radius, h = 1e-6 * limit;
       const Vec3 d = radii * limit * random.vector(1.0).normalized();
-      fieldGradients(organ(), d, limit, gradient);
+      fieldGradients(touchedOrgan(), d, limit, gradient);
       double largest = 0.0;
       for (const Vec3& g : gradient) largest = std::max(largest, g.norm());
       const auto part = [&](const Vec3& at, std::vector<double>& phi) {
-        const FieldSource own = ownPart(organ(), s, at);
-        fieldFunctions(organ(), own.parameter, limit, phi);
+        const FieldSource own = ownPart(touchedOrgan(), s, at);
+        fieldFunctions(touchedOrgan(), own.parameter, limit, phi);
         for (double& value : phi) value *= own.gain;
       };
       for (Eigen::Index i = 0; i < 3; ++i) {
@@ -122,14 +123,14 @@ TEST(FieldGradients, AreTheDerivativeOfAToolsOwnPart) {
 }
 
 TEST(Response, ForceHasNoCliffAtTheDomainAndItsStiffnessIsItsSlope) {
-  Random random;
+  RandomTouch random;
   for (int sample = 0; sample < 50; ++sample) {
     const ContactPoint s = random.contactPoint();
     const Vec3 direction = random.vector(1.0).normalized();
     Response last, now;
-    (void)respond(organ(), s, Vec3::Zero(), last);
+    (void)respond(touchedOrgan(), s, Vec3::Zero(), last);
     for (double size = 1e-5; size < 0.02; size += 1e-5) {
-      (void)respond(organ(), s, size * direction, now);
+      (void)respond(touchedOrgan(), s, size * direction, now);
       ASSERT_LT((now.force - last.force).norm(),
                 1e-5 * 2.0 * std::max(now.stiffness.norm(), last.stiffness.norm()));
       last = now;
@@ -137,10 +138,10 @@ TEST(Response, ForceHasNoCliffAtTheDomainAndItsStiffnessIsItsSlope) {
     const double h = 1e-7;
     for (int j = 0; j < 3; ++j) {
       Response plus, minus;
-      (void)respond(organ(), s, 0.012 * direction + h * Vec3::Unit(j), plus);
-      (void)respond(organ(), s, 0.012 * direction - h * Vec3::Unit(j), minus);
+      (void)respond(touchedOrgan(), s, 0.012 * direction + h * Vec3::Unit(j), plus);
+      (void)respond(touchedOrgan(), s, 0.012 * direction - h * Vec3::Unit(j), minus);
       Response here;
-      (void)respond(organ(), s, 0.012 * direction, here);
+      (void)respond(touchedOrgan(), s, 0.012 * direction, here);
       EXPECT_LT((here.stiffness.col(j) - (plus.force - minus.force) / (2.0 * h)).norm(),
                 1e-3 * here.stiffness.norm());
     }
@@ -148,11 +149,11 @@ TEST(Response, ForceHasNoCliffAtTheDomainAndItsStiffnessIsItsSlope) {
 }
 
 TEST(Response, AHugeDisplacementIsAnsweredWithANumber) {
-  Random random;
+  RandomTouch random;
   const ContactPoint s = random.contactPoint();
   for (const double size : {1.0, 1e10, 1e200}) {
     Response far;
-    EXPECT_EQ(respond(organ(), s, size * Vec3(1.0, 1.0, -1.0), far), ResponseStatus::kBeyond);
+    EXPECT_EQ(respond(touchedOrgan(), s, size * Vec3(1.0, 1.0, -1.0), far), ResponseStatus::kBeyond);
     EXPECT_TRUE(far.force.allFinite());
     EXPECT_TRUE(far.stiffness.allFinite());
     EXPECT_GT(far.force.dot(Vec3(1.0, 1.0, -1.0)), 0.0);

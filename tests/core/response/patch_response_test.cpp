@@ -25,7 +25,7 @@ std::array<Organ, 2> organs() {
   static const SyntheticOptions steep{
       .subdivisions = 2, .order = 4, .force_order = kMostForceOrder, .series_radius = 0.01};
   static const MetaModel model = loadSynthetic(steep);
-  return {{{organ(), options()}, {model, steep}}};
+  return {{{touchedOrgan(), options()}, {model, steep}}};
 }
 
 /// What degree 2 of W is at X, J.
@@ -53,23 +53,23 @@ double mixedEnergy(const Organ& of, const ContactPoint& s, const Vec3& d) {
 
 TEST(Response, StiffnessAtANodeIsTheSumOverDRef) {
   constexpr double kRounding = 1e-15;
-  const ModelView& v = organ().view();
+  const ModelView& v = touchedOrgan().view();
   const MonomialBasis basis(options().force_order);
   std::vector<Vec3> gradient(static_cast<std::size_t>(basis.size()));
   for (std::size_t m = 0; m < v.positions(); m += 5) {
     const Vec3 d(0.0011, -0.0023, -0.0037);
     basis.gradient(d / options().reference_displacement, gradient);
     Mat3 sum = Mat3::Zero();
-    const ContactPoint s = organ().surface().atNode(v.contact_node[m]);
+    const ContactPoint s = touchedOrgan().surface().atNode(v.contact_node[m]);
     PatchStiffness::Value stiffness;
-    organ().stiffness().at(organ().surface(), s, stiffness);
+    touchedOrgan().stiffness().at(touchedOrgan().surface(), s, stiffness);
     for (std::size_t k = 0; k < gradient.size(); ++k) {
       const Vec3 f = k < 3 ? Vec3(options().reference_displacement * stiffness.K.col(Eigen::Index(k)))
                            : Eigen::Map<const Vec3>(v.contact_force.data() + 3 * (m * gradient.size() + k));
       sum += f * gradient[k].transpose();
     }
     Response out;
-    ASSERT_EQ(respond(organ(), s, d, out), ResponseStatus::kOk);
+    ASSERT_EQ(respond(touchedOrgan(), s, d, out), ResponseStatus::kOk);
     sum /= options().reference_displacement;
     EXPECT_LT((out.stiffness - sum).norm(), kRounding * sum.norm());
     EXPECT_LT((out.stiffness - out.stiffness.transpose()).norm(), kRounding * sum.norm());
@@ -80,7 +80,7 @@ TEST(Response, ForceIsAGradientEvenWhereTheFileHasOneThatIsNot) {
   const MetaModel model = spoiled(options(), [](modelfile::ModelData& data) {
     for (std::size_t i = 0; i < data.contact_force.size(); i += 2) data.contact_force[i] *= 1.1;
   });
-  Random random;
+  RandomTouch random;
   for (int trial = 0; trial < 50; ++trial) {
     const PatchResponse patch(model, random.contactPoint());
     const Vec3 d = random.vector(0.004);
@@ -95,7 +95,7 @@ TEST(Response, ForceIsAGradientEvenWhereTheFileHasOneThatIsNot) {
 }
 
 TEST(Response, ForceIsGradientOfEnergy) {
-  Random random;
+  RandomTouch random;
   for (const Organ& of : organs())
     for (int trial = 0; trial < 50; ++trial) {
       const ContactPoint s = random.contactPoint();
@@ -114,7 +114,7 @@ TEST(Response, ForceIsGradientOfEnergy) {
 }
 
 TEST(Response, StiffnessIsTheDerivativeOfTheForceOfAnyDegree) {
-  Random random;
+  RandomTouch random;
   for (const Organ& of : organs())
     for (int trial = 0; trial < 50; ++trial) {
       const PatchResponse patch(of.model, random.contactPoint());
@@ -132,9 +132,9 @@ TEST(Response, StiffnessIsTheDerivativeOfTheForceOfAnyDegree) {
 }
 
 TEST(Response, ForceIsGradientOfTheEnergyThatIsReported) {
-  Random random;
+  RandomTouch random;
   for (int trial = 0; trial < 100; ++trial) {
-    const PatchResponse patch(organ(), random.contactPoint());
+    const PatchResponse patch(touchedOrgan(), random.contactPoint());
     const Vec3 d = random.vector(0.004);
     Response out;
     ASSERT_EQ(patch.at(d, out), ResponseStatus::kOk);
@@ -148,12 +148,12 @@ TEST(Response, ForceIsGradientOfTheEnergyThatIsReported) {
 }
 
 TEST(Response, EnergySlopeIsTheDerivativeOfTheEnergyAsTheAnchorMoves) {
-  Random random;
+  RandomTouch random;
   for (int trial = 0; trial < 50; ++trial) {
     const ContactPoint s = random.contactPoint();
     const Vec3 d = random.vector(0.004);
-    if (!organ().surface().complete(s.triangle)) continue;  // mixed linearly, and no anchor goes there
-    const PatchResponse here(organ(), s);
+    if (!touchedOrgan().surface().complete(s.triangle)) continue;  // mixed linearly, and no anchor goes there
+    const PatchResponse here(touchedOrgan(), s);
     const double h = 1e-6;
     for (std::size_t k = 0; k < 3; ++k) {
       ContactPoint plus = s, minus = s;
@@ -163,7 +163,8 @@ TEST(Response, EnergySlopeIsTheDerivativeOfTheEnergyAsTheAnchorMoves) {
         there.barycentric[(k + 1) % 3] -= way * h;
       }
       const double slope =
-          (PatchResponse(organ(), plus).energy(d) - PatchResponse(organ(), minus).energy(d)) / (2.0 * h);
+          (PatchResponse(touchedOrgan(), plus).energy(d) - PatchResponse(touchedOrgan(), minus).energy(d)) /
+          (2.0 * h);
       const Vec3 found = here.energySlope(d);
       EXPECT_NEAR(found[Eigen::Index(k)] - found[Eigen::Index((k + 1) % 3)], slope,
                   1e-8 * here.energy(d) + 1e-12);
@@ -172,20 +173,20 @@ TEST(Response, EnergySlopeIsTheDerivativeOfTheEnergyAsTheAnchorMoves) {
 }
 
 TEST(Response, HasNoAnswerOnTheFixedPart) {
-  const ContactPoint s = organ().surface().closestPoint(Vec3(0.0, 0.0, -1.0)).s;
+  const ContactPoint s = touchedOrgan().surface().closestPoint(Vec3(0.0, 0.0, -1.0)).s;
   Response out;
-  EXPECT_EQ(respond(organ(), s, Vec3(0.0, 0.0, 0.001), out), ResponseStatus::kNoAnswer);
+  EXPECT_EQ(respond(touchedOrgan(), s, Vec3(0.0, 0.0, 0.001), out), ResponseStatus::kNoAnswer);
   EXPECT_EQ(out.force, Vec3::Zero());
-  EXPECT_EQ(respond(organ(), ContactPoint{}, Vec3::Zero(), out), ResponseStatus::kNoAnswer);
+  EXPECT_EQ(respond(touchedOrgan(), ContactPoint{}, Vec3::Zero(), out), ResponseStatus::kNoAnswer);
   const auto still = field(s, Vec3(0.0, 0.0, 0.001));
   ASSERT_FALSE(still.empty());
   for (const float u : still) ASSERT_EQ(u, 0.0F);
 }
 
 TEST(Response, ZeroDisplacementGivesZeroForceAndFiniteStiffness) {
-  Random random;
+  RandomTouch random;
   Response out;
-  EXPECT_EQ(respond(organ(), random.contactPoint(), Vec3::Zero(), out), ResponseStatus::kOk);
+  EXPECT_EQ(respond(touchedOrgan(), random.contactPoint(), Vec3::Zero(), out), ResponseStatus::kOk);
   EXPECT_EQ(out.force, Vec3::Zero());
   EXPECT_GT(out.stiffness.trace(), 0.0);
 }
@@ -212,9 +213,9 @@ TEST(Field, ForceAndFieldAreContinuousWhileTheAnchorCrossesEdgesAndNodes) {
       int triangle = -1, crossings = 0;
       force_step = 0.0;
       for (int i = 0; i <= steps; ++i) {
-        const ContactPoint s = organ().surface().closestPoint(path(1.0 * i / steps)).s;
+        const ContactPoint s = touchedOrgan().surface().closestPoint(path(1.0 * i / steps)).s;
         Response out;
-        EXPECT_NE(respond(organ(), s, d, out), ResponseStatus::kNoAnswer);
+        EXPECT_NE(respond(touchedOrgan(), s, d, out), ResponseStatus::kNoAnswer);
         const std::vector<float> u = field(s, d);
         if (i > 0) {
           field_step = std::max(field_step, largestDifference(u, last));
@@ -237,7 +238,7 @@ TEST(Field, ForceAndFieldAreContinuousWhileTheAnchorCrossesEdgesAndNodes) {
 
 // A replay of a session finds d at another place in memory than the session did.
 TEST(Response, IsTheSameBitForBitWhereverItsDisplacementLies) {
-  Random random;
+  RandomTouch random;
   struct alignas(16) Places {
     Vec3 aligned;
     double gap[2];
@@ -249,8 +250,8 @@ TEST(Response, IsTheSameBitForBitWhereverItsDisplacementLies) {
     d.aligned = d.shifted = random.vector(0.03);  // mostly beyond the domain
     const ContactPoint s = random.contactPoint();
     Response here, there;
-    (void)respond(organ(), s, d.aligned, here);
-    (void)respond(organ(), s, d.shifted, there);
+    (void)respond(touchedOrgan(), s, d.aligned, here);
+    (void)respond(touchedOrgan(), s, d.shifted, there);
     ASSERT_EQ(here.stiffness, there.stiffness) << i;
     ASSERT_EQ(here.force, there.force) << i;
   }

@@ -17,12 +17,12 @@ inline const SyntheticOptions& options() {
   return instance;
 }
 
-inline const MetaModel& organ() {
+inline const MetaModel& touchedOrgan() {
   static const MetaModel model = loadSynthetic(options());
   return model;
 }
 
-class Random {
+class RandomTouch {
  public:
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
@@ -32,9 +32,9 @@ class Random {
   ContactPoint contactPoint() {
     for (;;) {
       const auto triangle =
-          static_cast<int>(engine_() % static_cast<unsigned>(organ().surface().triangles()));
+          static_cast<int>(engine_() % static_cast<unsigned>(touchedOrgan().surface().triangles()));
       const double a = uniform(0.0, 1.0), b = uniform(0.0, 1.0 - a);
-      if (organ().surface().accessible(triangle)) return {triangle, {1.0 - a - b, a, b}};
+      if (touchedOrgan().surface().accessible(triangle)) return {triangle, {1.0 - a - b, a, b}};
     }
   }
 
@@ -43,9 +43,9 @@ class Random {
 };
 
 inline std::vector<float> field(const ContactPoint& s, const Vec3& d) {
-  FieldScratch scratch(organ());
-  std::vector<float> u(organ().view().surface_positions.size());
-  evaluateField(organ(), s, d, scratch, u);
+  FieldScratch scratch(touchedOrgan());
+  std::vector<float> u(touchedOrgan().view().surface_positions.size());
+  evaluateField(touchedOrgan(), s, d, scratch, u);
   return u;
 }
 

@@ -135,14 +135,14 @@ TEST(ContactPatchesOfAModel, RefusesPatchesThatWouldFillTheMemory) {
   }
 }
 
-constexpr double kStep = 1e-5;  // m
+constexpr double kDisplaced = 1e-5;  // m
 
 /// Two touches, and what the one does to the patch of the other.
 class Pair {
  public:
   explicit Pair(const MetaModel& model) : model_(model), touches_(model) {}
   PatchMotion motion(const ContactPoint& s, const Vec3& d, const ContactPoint& at) {
-    touchWith(model_, s, d, kStep, touches_.all[0]);
+    touchWith(model_, s, d, kDisplaced, touches_.all[0]);
     touches_.all[1].patch.moveTo(model_, at);
     return patchMotion(model_, touches_.all[0], touches_.all[1]);
   }

@@ -17,22 +17,14 @@
 
 namespace palpate::testing {
 
-namespace {
-
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
-}  // namespace
-
 TEST(ContactSurface, PointsGoToTheRestSurfaceAndBack) {
-  const ContactSurface& surface = organ().contactSurface();
+  const ContactSurface& surface = roundOrgan().contactSurface();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   for (int trial = 0; trial < 500; ++trial) {
     const double a = uniform(random), b = uniform(random) * (1.0 - a);
     const ContactPoint s{
-        static_cast<std::int32_t>(random() % static_cast<unsigned>(organ().surface().triangles())),
+        static_cast<std::int32_t>(random() % static_cast<unsigned>(roundOrgan().surface().triangles())),
         {1.0 - a - b, a, b}};
     const ContactPoint back = surface.rest(surface.fine(s));
     EXPECT_EQ(back.triangle, s.triangle);
@@ -41,18 +33,19 @@ TEST(ContactSurface, PointsGoToTheRestSurfaceAndBack) {
 }
 
 TEST(ContactSurface, IsRounderThanTheTriangles) {
-  const SurfaceMesh& fine = organ().contactSurface().mesh();
+  const SurfaceMesh& fine = roundOrgan().contactSurface().mesh();
   double flat = 0.0, rounded = 0.0;
-  for (int t = 0; t < organ().surface().triangles(); ++t) {
+  for (int t = 0; t < roundOrgan().surface().triangles(); ++t) {
     const ContactPoint middle{t, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
-    flat = std::max(flat, std::abs(organ().surface().position(middle).norm() - 0.05));
-    rounded = std::max(rounded, std::abs(fine.position(organ().contactSurface().fine(middle)).norm() - 0.05));
+    flat = std::max(flat, std::abs(roundOrgan().surface().position(middle).norm() - 0.05));
+    rounded =
+        std::max(rounded, std::abs(fine.position(roundOrgan().contactSurface().fine(middle)).norm() - 0.05));
   }
   EXPECT_LT(rounded, 0.1 * flat);
 }
 
 TEST(Projection, FindsThePointThatTheTipLiesStraightAbove) {
-  const SurfaceMesh& fine = organ().contactSurface().mesh();
+  const SurfaceMesh& fine = roundOrgan().contactSurface().mesh();
   for (double angle = 0.0; angle < 2.0; angle += 0.013) {
     const Vec3 c = over(angle, 0.001);
     ContactPoint s = fine.closestPoint(c).s;

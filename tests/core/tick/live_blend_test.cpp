@@ -15,10 +15,6 @@ namespace palpate::testing {
 
 namespace {
 
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
 StepConfig open() {
   StepConfig config;
   config.friction = config.force_limit = kInfinity;
@@ -63,7 +59,7 @@ constexpr double kMostAtOnce = 0.05;  // of the whole change, in one tick; ramp_
 TEST(LiveBlend, AStuckToolUnderTensionIsLetGoWithoutAStep) {
   for (const auto& [depth, aside] : {std::pair(0.002, 0.004), std::pair(0.001, 0.006)}) {  // f_t / f_n 1.3, 4
     StepConfig config = open();
-    Driver driver(organ(), config);
+    Driver driver(roundOrgan(), config);
     press(driver, depth, aside);
     LiveParameters live = liveParameters(config);
     live.friction = 0.3;
@@ -76,7 +72,7 @@ TEST(LiveBlend, AStuckToolUnderTensionIsLetGoWithoutAStep) {
 TEST(LiveBlend, AForceLimitComesFromInfinityWithoutAStepAndIsKept) {
   StepConfig config = open();
   config.youngs_modulus = 6e6;
-  Driver driver(organ(), config);
+  Driver driver(roundOrgan(), config);
   press(driver, 0.006, 0.0);
   LiveParameters live = liveParameters(config);
   live.force_limit = 3.3;
@@ -95,7 +91,7 @@ TEST(LiveBlend, ACouplingComesAndGoesWithoutAStep) {
   for (const double E : {1e4, 1e6}) {
     StepConfig config = open();
     config.youngs_modulus = E;
-    Driver driver(organ(), config);
+    Driver driver(roundOrgan(), config);
     press(driver, 0.003, 0.0);
     LiveParameters live = liveParameters(config);
     live.coupling_stiffness = 300.0;
@@ -114,7 +110,7 @@ TEST(LiveBlend, ARateLimitThatRisesLetsGoWithoutAStep) {
   for (const double rate : {1e6, kInfinity}) {
     StepConfig config = open();
     config.force_rate_limit = 10.0;
-    Driver driver(organ(), config);
+    Driver driver(roundOrgan(), config);
     for (double z = -0.001; z < 0.004; z += 5e-5) driver.at(above(z));
     LiveParameters live = liveParameters(config);
     live.force_rate_limit = rate;
@@ -127,7 +123,7 @@ TEST(LiveBlend, ARateLimitThatRisesLetsGoWithoutAStep) {
 TEST(LiveBlend, AChangeDuringATickWithoutAGoodPoseIsNotForgotten) {
   StepConfig config = open();
   config.youngs_modulus = 1e6;
-  Driver driver(organ(), config);
+  Driver driver(roundOrgan(), config);
   press(driver, 0.003, 0.0);
   const Vec3 before = vec(driver.result().tools[0].force);
   driver.input().has_settings = 1;
@@ -152,12 +148,12 @@ TEST(LiveBlend, TheDampingFitsTheCouplingOnTheWayToo) {
 }
 
 TEST(LiveParameters, ForceScalesWithTheModulusAndNeverJumps) {
-  Driver driver(organ(), bare(kInfinity));
+  Driver driver(roundOrgan(), bare(kInfinity));
   for (double d = -0.001; d < 0.002; d += 5e-5) driver.at(over(0.0, d));
   const double before = vec(driver.at(over(0.0, 0.002)).force).norm();
   driver.input().has_settings = 1;
   driver.input().settings[0].live = liveParameters(bare(kInfinity));
-  driver.input().settings[0].live.youngs_modulus = 2.0 * organ().attributes().E;
+  driver.input().settings[0].live.youngs_modulus = 2.0 * roundOrgan().attributes().E;
   double last = before;
   for (int ms = 0; ms < 150; ++ms) {
     const double now = vec(driver.at(over(0.0, 0.002)).force).norm();

@@ -16,10 +16,6 @@ namespace palpate::testing {
 
 namespace {
 
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
 std::vector<float> copyOf(std::span<const float> field) {
   return {field.begin(), field.end()};
 }
@@ -35,7 +31,7 @@ Vec3 dentOf(const ToolResult& r) {
 TEST(ShownSurface, ThatNobodyTakesChangesNoAnswer) {
   StepConfig config;
   config.friction = 0.1;
-  Driver every(organ(), config), seldom(organ(), config);
+  Driver every(roundOrgan(), config), seldom(roundOrgan(), config);
   int compared = 0;
   const auto play = [&](const Vec3& first, const Vec3& second, bool taken) {
     seldom.show(taken);
@@ -52,8 +48,8 @@ TEST(ShownSurface, ThatNobodyTakesChangesNoAnswer) {
       ASSERT_EQ(a.force, b.force);
       ASSERT_EQ(a.anchor, b.anchor);
       ASSERT_EQ(a.proxy, b.proxy);
-      const ContactPoint here = organ().surface().closestPoint(vec(a.anchor)).s;
-      const Vec3 shown = interpolated(organ().surface(), every.field(), here);
+      const ContactPoint here = roundOrgan().surface().closestPoint(vec(a.anchor)).s;
+      const Vec3 shown = interpolated(roundOrgan().surface(), every.field(), here);
       const double off = (vec(a.proxy) - vec(a.anchor) - shown).norm();
       ASSERT_LT(off, jumped ? 2e-4 : 2e-5)
           << "tool " << i << ": the proxy is on the surface, of a travel of 3 mm";
@@ -73,7 +69,7 @@ TEST(ShownSurface, ThatNobodyTakesChangesNoAnswer) {
 }
 
 TEST(ShownSurface, IsEvaluatedOnlyWhereItChanged) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.002);
   const SurfaceState before = driver.work().surface();
   EXPECT_FALSE(driver.surface().show(before));
@@ -86,7 +82,7 @@ TEST(ShownSurface, IsEvaluatedOnlyWhereItChanged) {
 
 TEST(ShownSurface, OfAJumpThatWasNotShownBlendsFromTheLastOneThatWas) {
   const Vec3 away(0.2, 0.0, 0.0);
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.002);
   const std::vector<float> before = copyOf(driver.field());
   driver.show(false);
@@ -99,7 +95,7 @@ TEST(ShownSurface, OfAJumpThatWasNotShownBlendsFromTheLastOneThatWas) {
 
 // Two jumps between two fields: the second one's weight, and all of what was shown before the first.
 TEST(ShownSurface, OfTwoJumpsThatWereNotShownBlendsByTheLastOne) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.002);
   const std::vector<float> before = copyOf(driver.field());
   driver.show(false);
@@ -109,7 +105,7 @@ TEST(ShownSurface, OfTwoJumpsThatWereNotShownBlendsByTheLastOne) {
   for (int ms = 0; ms < 2; ++ms) driver.at(above(0.001));
   driver.show(true);
   driver.at(above(0.001));
-  ShownSurface pure(organ());
+  ShownSurface pure(roundOrgan());
   SurfaceState now = driver.work().surface();
   EXPECT_GE(now.jumps, 2U);
   EXPECT_NEAR(now.blend, 0.9, 0.04);
@@ -122,7 +118,7 @@ TEST(ShownSurface, OfTwoJumpsThatWereNotShownBlendsByTheLastOne) {
 }
 
 TEST(ShownSurface, ThatNobodySawIsNotBlendedFrom) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.002);
   driver.surface().forget();
   driver.at(Vec3(0.2, 0.0, 0.0));
@@ -131,7 +127,7 @@ TEST(ShownSurface, ThatNobodySawIsNotBlendedFrom) {
 }
 
 TEST(ShownSurface, ThatIsForgottenWithinABlendGoesOnWithout) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.002);
   driver.at(Vec3(0.2, 0.0, 0.0));
   EXPECT_LT(std::ranges::min(driver.field()), -1e-4F);
@@ -150,7 +146,7 @@ float stepOf(const Driver& driver, std::vector<float>& last) {
 }
 
 TEST(ShownSurface, IsContinuousWhenAContactJumps) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   std::vector<float> last(driver.field().size());
   const auto play = [&](const Vec3& c, int ticks, std::int64_t age_ns, const char* what) {
     for (int ms = 0; ms < ticks; ++ms) {
@@ -169,11 +165,11 @@ TEST(ShownSurface, IsContinuousWhenAContactJumps) {
 
 // Two tools; the other one comes and goes at once, 20 mm beside.
 TEST(Proxy, IsContinuousWhenAContactJumps) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.004);
   Vec3 last = vec(driver.result().tools[0].proxy);
   double moved = 0.0;
-  const Vec3 side = organ().surface().closestPoint(Vec3(0.02, 0.0, 0.05)).position * 1.02;
+  const Vec3 side = roundOrgan().surface().closestPoint(Vec3(0.02, 0.0, 0.05)).position * 1.02;
   for (int ms = 0; ms < 200; ++ms) {
     ToolInput& other = driver.input().tools[1];
     other.present = 1;
@@ -190,7 +186,7 @@ TEST(Proxy, IsContinuousWhenAContactJumps) {
 }
 
 TEST(Proxy, OfAToolThatLeaptElsewhereBeginsOnTheSurfaceThere) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.004);
   ASSERT_GT(dentOf(driver.result().tools[0]).norm(), 0.0015);
   driver.at(Vec3(0.052, 0.0, 0.0));

@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;  // ns
 
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
 /// Force and field, tick by tick after a stall of so many ns, at one place. @return largest step of the force
 double steepestAfter(Driver& driver, std::int64_t stall_ns, const Vec3& c, float& field_step) {
   Vec3 last = vec(driver.result().tools[0].force);
@@ -44,7 +40,7 @@ double steepestAfter(Driver& driver, std::int64_t stall_ns, const Vec3& c, float
 TEST(Stall, AToolThatIsDeepAfterwardsIsEngagedByARamp) {
   for (const double start : {-0.002, 0.001}) {  // free before, and in contact before
     for (const std::int64_t stall : {12 * kMs, 30 * kMs, 90 * kMs, 5000 * kMs}) {
-      Driver driver(organ());
+      Driver driver(roundOrgan());
       for (double z = -0.002; z < start; z += 5e-5) driver.at(above(z));
       driver.settle(above(start));
       float field_step = 0.0F;
@@ -58,7 +54,7 @@ TEST(Stall, AToolThatIsDeepAfterwardsIsEngagedByARamp) {
 }
 
 TEST(Stall, OfATickWithoutAGoodPoseIsNotForgotten) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   for (double z = -0.002; z < 0.001; z += 5e-5) driver.at(above(z));
   driver.settle(above(0.001));
   const Vec3 held = vec(driver.result().tools[0].force);
@@ -71,7 +67,7 @@ TEST(Stall, OfATickWithoutAGoodPoseIsNotForgotten) {
 TEST(Stall, AnAbsurdPeriodGivesABoundedForceAndNoStaleOne) {
   for (const std::int64_t period : {std::int64_t{0}, -kMs, std::numeric_limits<std::int64_t>::min(),
                                     std::numeric_limits<std::int64_t>::max()}) {
-    Driver driver(organ());
+    Driver driver(roundOrgan());
     driver.input().period_ns = period;
     for (double z = -0.002; z < 0.003; z += 5e-5) driver.at(above(z));
     const double before = vec(driver.settle(above(0.003)).force).norm();
@@ -85,7 +81,7 @@ TEST(Stall, AnAbsurdPeriodGivesABoundedForceAndNoStaleOne) {
 }
 
 TEST(Stall, ShorterThanTenPeriodsIsAnsweredByTheModel) {
-  Driver driver(organ()), even(organ());
+  Driver driver(roundOrgan()), even(roundOrgan());
   for (Driver* one : {&driver, &even}) {
     for (double z = -0.002; z < 0.002; z += 5e-5) one->at(above(z));
     one->settle(above(0.002));
@@ -96,7 +92,7 @@ TEST(Stall, ShorterThanTenPeriodsIsAnsweredByTheModel) {
 }
 
 TEST(Stall, LiveParametersGoOnByTwoPeriods) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   driver.at(above(-0.002));
   driver.input().has_settings = 1;
   driver.input().settings[0].live = liveParameters(StepConfig{});
@@ -107,7 +103,7 @@ TEST(Stall, LiveParametersGoOnByTwoPeriods) {
 }
 
 TEST(Stall, StalenessIsThePosesAgeAllTheSame) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   for (double z = -0.002; z < 0.002; z += 5e-5) driver.at(above(z));
   driver.settle(above(0.002));
   driver.input().dt_ns = 60 * kMs;

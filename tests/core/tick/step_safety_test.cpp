@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
 bool isFinite(const ToolResult& r) {
   return vec(r.force).allFinite() && vec(r.proxy).allFinite() && vec(r.anchor).allFinite() &&
          std::isfinite(r.stiffness[0] + r.stiffness[4] + r.stiffness[8]);
@@ -29,7 +25,7 @@ bool isFinite(const ToolResult& r) {
 TEST(Step, ForceStaysWithinTheLimitAndKeepsItsDirection) {
   StepConfig config;
   config.force_limit = 0.5;
-  Driver driver(organ(), config), free(organ());
+  Driver driver(roundOrgan(), config), free(roundOrgan());
   press(driver, 0.004);
   press(free, 0.004);
   const ToolResult& r = driver.result().tools[0];
@@ -39,7 +35,7 @@ TEST(Step, ForceStaysWithinTheLimitAndKeepsItsDirection) {
 }
 
 TEST(Step, StalePoseRampsToZeroWithinFiftyMilliseconds) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   const double full = vec(driver.result().tools[0].force).norm();
   double last = full;
@@ -58,7 +54,7 @@ TEST(Step, StalePoseRampsToZeroWithinFiftyMilliseconds) {
 }
 
 TEST(Step, RampEndsInTimeAtALowRateToo) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   driver.input().dt_ns = 25'000'000;
   driver.at(above(0.003), 25'000'000);
@@ -69,7 +65,7 @@ TEST(Step, ForceIsContinuousWhenAStalePoseComesBack) {
   for (const int silent : {30, 45, 80}) {
     for (const Vec3& back :
          {above(0.003), above(0.006), Vec3(above(0.004) + Vec3(0.003, 0.0, 0.0)), above(-0.01)}) {
-      Driver driver(organ());
+      Driver driver(roundOrgan());
       press(driver, 0.003);
       for (int ms = 1; ms <= silent; ++ms) driver.at(above(0.003), ms * 1'000'000LL);
       Vec3 last = vec(driver.result().tools[0].force);
@@ -83,7 +79,7 @@ TEST(Step, ForceIsContinuousWhenAStalePoseComesBack) {
 }
 
 TEST(Step, NonFinitePoseIsNeverPassedOn) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   const Vec3 before = vec(driver.result().tools[0].force);
   for (int ms = 1; ms <= 60; ++ms) {
@@ -105,7 +101,7 @@ TEST(Step, NonFinitePoseIsNeverPassedOn) {
 }
 
 TEST(Step, NonUnitQuaternionIsAnsweredLikeAStalePose) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   for (const std::array<double, 4>& bad :
        {std::array{0.0, 0.0, 0.0, 0.0}, std::array{0.0, 0.0, 0.0, 1.5}, std::array{kNaN, 0.0, 0.0, 1.0}}) {
@@ -144,7 +140,7 @@ TEST(Step, OverflowInTheFieldAloneLeavesTheForceAndShowsNoField) {
   const TemporaryFile file("field-overflow.h5");
   modelfile::writeModel(file.path(), data);
   const MetaModel model = MetaModel::load(file.path());
-  Driver driver(model), sound(organ());
+  Driver driver(model), sound(roundOrgan());
   press(driver, 0.004);
   press(sound, 0.004);
   EXPECT_EQ(driver.result().tools[0].flags, kInContact | kNonFiniteForce);
@@ -155,7 +151,7 @@ TEST(Step, OverflowInTheFieldAloneLeavesTheForceAndShowsNoField) {
 }
 
 TEST(Step, ShutdownFadesToZeroForGood) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   const double full = vec(driver.result().tools[0].force).norm();
   driver.input().shutting_down = 1;
@@ -171,7 +167,7 @@ TEST(Step, ShutdownFadesToZeroForGood) {
 }
 
 TEST(Step, ToolThatIsGoneIsForgotten) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   driver.input().tools[0].present = 0;
   driver.tick();

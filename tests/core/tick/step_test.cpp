@@ -14,17 +14,8 @@
 
 namespace palpate::testing {
 
-namespace {
-
-/// One organ for all tests here.
-const MetaModel& organ() {
-  return roundOrgan();
-}
-
-}  // namespace
-
 TEST(Step, FreeToolFeelsNothing) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   const ToolResult& r = driver.settle(above(-0.002));
   EXPECT_EQ(r.flags, 0U);
   EXPECT_EQ(driver.status(), StepStatus::kOk);
@@ -34,30 +25,30 @@ TEST(Step, FreeToolFeelsNothing) {
 }
 
 TEST(Step, PressIsAnsweredByTheModelsForceOnTheTool) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.002);
   const ToolResult& r = driver.result().tools[0];
   EXPECT_EQ(r.flags, kInContact);
   EXPECT_EQ(r.state, static_cast<std::uint32_t>(ContactState::kStick));
-  const NearestPoint top = organ().surface().closestPoint(Vec3(0.0, 0.0, 1.0));
+  const NearestPoint top = roundOrgan().surface().closestPoint(Vec3(0.0, 0.0, 1.0));
   EXPECT_LT((vec(r.anchor) - top.position).norm(), 1e-9);
   EXPECT_LT((vec(r.displacement) - Vec3(0.0, 0.0, -0.002)).norm(), 1e-12);
   EXPECT_NEAR(r.penetration, 0.002, 1e-4);
   Response response;
-  ASSERT_EQ(respond(organ(), top.s, Vec3(0.0, 0.0, -0.002), response), ResponseStatus::kOk);
+  ASSERT_EQ(respond(roundOrgan(), top.s, Vec3(0.0, 0.0, -0.002), response), ResponseStatus::kOk);
   EXPECT_LT((vec(r.force) + response.force).norm(), 1e-9);
   EXPECT_GT(r.force[2], 0.5);
 }
 
 TEST(Step, ProxyIsTheDeformedSurfaceAtTheAnchor) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   const ToolResult& r = driver.result().tools[0];
-  const NearestPoint top = organ().surface().closestPoint(Vec3(0.0, 0.0, 1.0));
-  FieldScratch scratch(organ());
+  const NearestPoint top = roundOrgan().surface().closestPoint(Vec3(0.0, 0.0, 1.0));
+  FieldScratch scratch(roundOrgan());
   std::vector<float> u(driver.field().size());
-  evaluateField(organ(), top.s, vec(r.displacement), scratch, u);
-  EXPECT_LT((vec(r.proxy) - vec(r.anchor) - interpolated(organ().surface(), u, top.s)).norm(), 1e-7);
+  evaluateField(roundOrgan(), top.s, vec(r.displacement), scratch, u);
+  EXPECT_LT((vec(r.proxy) - vec(r.anchor) - interpolated(roundOrgan().surface(), u, top.s)).norm(), 1e-7);
   EXPECT_LT(r.proxy[2], r.anchor[2]);
 }
 
@@ -66,7 +57,7 @@ TEST(Step, StiffnessIsTheSlopeOfTheRenderedForce) {
     StepConfig config;
     config.force_limit = limit;
     for (const double depth : {0.002, 0.009}) {  // the second one lies beyond the domain
-      Driver driver(organ(), config);
+      Driver driver(roundOrgan(), config);
       press(driver, depth);
       const Vec3 c = above(depth) + Vec3(2e-4, -1e-4, 0.0);
       const ToolResult here = driver.settle(c);
@@ -84,7 +75,7 @@ TEST(Step, StiffnessIsTheSlopeOfTheRenderedForce) {
 }
 
 TEST(Step, FarBeyondTheDomainIsClampedAndFlagged) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.02);
   const ToolResult& r = driver.result().tools[0];
   EXPECT_EQ(r.flags & kBeyondDomain, kBeyondDomain);
@@ -94,7 +85,7 @@ TEST(Step, FarBeyondTheDomainIsClampedAndFlagged) {
 }
 
 TEST(Step, LiftedToolIsReleasedAndCapturedAgainElsewhere) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.003);
   const Vec3 first = vec(driver.result().tools[0].anchor);
   EXPECT_EQ(driver.settle(above(-0.004)).state, 0U);
@@ -109,7 +100,7 @@ TEST(Step, LiftedToolIsReleasedAndCapturedAgainElsewhere) {
 }
 
 TEST(Step, ToolDrawnOffSidewaysIsLetGo) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   press(driver, 0.002);
   Vec3 last = vec(driver.result().tools[0].force);
   ASSERT_GT(last.norm(), 0.5);
@@ -126,14 +117,14 @@ TEST(Step, ToolDrawnOffSidewaysIsLetGo) {
 }
 
 TEST(Step, FixedPartHasNoForceAndAFlag) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   const ToolResult& r = driver.settle(Vec3(0.0, 0.0, -0.05));
   EXPECT_EQ(r.flags, kNotAccessible);
   EXPECT_EQ(vec(r.force), Vec3::Zero());
 }
 
 TEST(Step, ToolThatAppearsInsideIsNotKicked) {
-  Driver driver(organ());
+  Driver driver(roundOrgan());
   const ToolResult& first = driver.at(above(0.004));
   EXPECT_LT(vec(first.force).norm(), 0.1);
   EXPECT_GT(vec(driver.settle(above(0.004)).force).norm(), 1.0);
@@ -145,7 +136,7 @@ TEST(Step, TwoToolsFeelEachOtherAsTheModelSays) {
     input.tools[i].position = {c.x(), c.y(), c.z()};
   };
   const Vec3 top = above(0.003), side(0.052, 0.0, 0.0);
-  Driver first(organ()), second(organ()), both(organ());
+  Driver first(roundOrgan()), second(roundOrgan()), both(roundOrgan());
   place(first.input(), 0, top);
   place(second.input(), 3, side);
   place(both.input(), 0, top);
@@ -153,16 +144,18 @@ TEST(Step, TwoToolsFeelEachOtherAsTheModelSays) {
   for (int i = 0; i < 40; ++i) first.tick(), second.tick(), both.tick();
   ASSERT_NE(both.result().tools[0].state, 0U);
   ASSERT_NE(both.result().tools[3].state, 0U);
-  const auto anchorOf = [](const ToolResult& r) { return organ().surface().closestPoint(vec(r.anchor)).s; };
+  const auto anchorOf = [](const ToolResult& r) {
+    return roundOrgan().surface().closestPoint(vec(r.anchor)).s;
+  };
   const std::array<ContactPoint, 2> s{anchorOf(both.result().tools[0]), anchorOf(both.result().tools[3])};
   const std::array<Vec3, 2> d{vec(both.result().tools[0].displacement),
                               vec(both.result().tools[3].displacement)};
   std::array<Vec3, 2> own;
-  Touches touches(organ());
-  ownDisplacements(organ(), s, d, touches, own);
+  Touches touches(roundOrgan());
+  ownDisplacements(roundOrgan(), s, d, touches, own);
   for (std::size_t i = 0; i < 2; ++i) {
     Response response;
-    (void)respond(organ(), s[i], d[i], response);
+    (void)respond(roundOrgan(), s[i], d[i], response);
     const Vec3 f = response.force + response.stiffness * (own[i] - d[i]);
     EXPECT_LT((f + vec(both.result().tools[3 * i].force)).norm(), 1e-3 * f.norm());
   }

@@ -67,6 +67,13 @@ inline TriangleSurface cube() {
   return surface;
 }
 
+// A copy of `text` with `from` replaced by `to`; the test is wrong if it is not there.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
 }  // namespace palpate::mesh::test
 
 // The names of the wrong entity and the reason must both be in the message.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/mesh/midsides.h"
 
+#include "core/base/index.h"
 #include "helpers.h"
 #include "tools/mesh/box_mesh.h"
 #include "tools/mesh/checks.h"
@@ -9,10 +10,6 @@
 
 namespace palpate::mesh::test {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 TetMesh box() {
   return quadraticOf(makeBox({0.1, 0.2, 0.3}, {2, 3, 4}));
@@ -25,9 +22,9 @@ TEST(Midsides, OfARaisedMeshAreInOrder) {
 TEST(Midsides, AreMovedOntoStraightEdges) {
   TetMesh mesh = box();
   const TetMesh straight = mesh;
-  mesh.nodes[at(mesh.midsides[3][1])].x() += 0.004;
-  mesh.nodes[at(mesh.midsides[9][4])].z() -= 0.007;
-  mesh.nodes[at(mesh.midsides[20][0])].y() += 1e-7;  // rounding in a file of six digits
+  mesh.nodes[index(mesh.midsides[3][1])].x() += 0.004;
+  mesh.nodes[index(mesh.midsides[9][4])].z() -= 0.007;
+  mesh.nodes[index(mesh.midsides[20][0])].y() += 1e-7;  // rounding in a file of six digits
   const CurvedEdges curved = straighten(mesh);
   EXPECT_EQ(curved.count, 2U);
   EXPECT_NEAR(curved.farthest, 0.007, 1e-12);
@@ -44,10 +41,10 @@ TEST(Midsides, OfAnotherOrderAreRefused) {
 TEST(Midsides, OffTheMiddleAreRefusedByNumberAndDistance) {
   TetMesh mesh = box();
   const std::int32_t node = mesh.midsides[3][1];
-  mesh.nodes[at(node)].x() += 0.004;
-  const std::string named = "node " + std::to_string(mesh.node_tags[at(node)]);
+  mesh.nodes[index(node)].x() += 0.004;
+  const std::string named = "node " + std::to_string(mesh.node_tags[index(node)]);
   EXPECT_REFUSED(checkMesh(mesh), named.c_str(), "is 4 mm off");
-  mesh.nodes[at(node)].x() = 0.0 / 0.0;
+  mesh.nodes[index(node)].x() = 0.0 / 0.0;
   EXPECT_REFUSED(checkMesh(mesh), "not finite");
 }
 
@@ -61,7 +58,7 @@ TEST(Midsides, ThatAreACornerOrOnTwoEdgesAreRefused) {
 
 TEST(Midsides, ThatNeighboursDoNotShareAreRefused) {
   TetMesh mesh = box();
-  mesh.nodes.push_back(mesh.nodes[at(mesh.midsides[0][2])]);
+  mesh.nodes.push_back(mesh.nodes[index(mesh.midsides[0][2])]);
   mesh.node_tags.push_back(4711);
   mesh.midsides[0][2] = static_cast<std::int32_t>(mesh.nodes.size() - 1);  // crosses the cell: six share it
   EXPECT_REFUSED(checkMesh(mesh), "node 4711 of tetrahedron 1", "on the same edge");

@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/index.h"
 #include "helpers.h"
 #include "tools/mesh/box_mesh.h"
 #include "tools/mesh/topology.h"
 
 namespace palpate::mesh::test {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 TetMesh boxClampedAtX0() {
   TetMesh box = makeBox({1, 2, 3}, {2, 3, 4});
@@ -34,9 +31,11 @@ TEST_F(QuadraticMesh, HasANodeInTheMiddleOfEachEdge) {
   ASSERT_EQ(mesh_.midsides.size(), linear_.tetrahedra.size());
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
     for (std::size_t e = 0; e < 6; ++e) {
-      const auto a = mesh_.tetrahedra[t][at(kTetEdges[e][0])], b = mesh_.tetrahedra[t][at(kTetEdges[e][1])];
+      const auto a = mesh_.tetrahedra[t][index(kTetEdges[e][0])],
+                 b = mesh_.tetrahedra[t][index(kTetEdges[e][1])];
       edges.insert(std::minmax(a, b));
-      EXPECT_EQ(mesh_.nodes[at(mesh_.midsides[t][e])], 0.5 * (mesh_.nodes[at(a)] + mesh_.nodes[at(b)]));
+      EXPECT_EQ(mesh_.nodes[index(mesh_.midsides[t][e])],
+                0.5 * (mesh_.nodes[index(a)] + mesh_.nodes[index(b)]));
     }
   EXPECT_EQ(mesh_.nodes.size(), linear_.nodes.size() + edges.size());
   const std::set<std::int64_t> tags(mesh_.node_tags.begin(), mesh_.node_tags.end());
@@ -50,7 +49,7 @@ TEST_F(QuadraticMesh, AGroupTakesTheMiddlesBetweenItsNodes) {
   EXPECT_EQ(fixed.size(), 3U * 4U);
   EXPECT_EQ(all.size(), 5U * 7U);
   EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
-  for (const std::int32_t node : all) EXPECT_EQ(mesh_.nodes[at(node)].x(), 0.0);
+  for (const std::int32_t node : all) EXPECT_EQ(mesh_.nodes[index(node)].x(), 0.0);
 }
 
 // The diagonal of a cell joins two nodes of the surface through the inside.
@@ -67,7 +66,7 @@ TEST(QuadraticGroups, OfSurfaceNodesStayOnTheSurface) {
   EXPECT_EQ(mesh.groups.at("tissue").size(), 8U + 19U);
   EXPECT_EQ(mesh.groups.at("skin").size(), 8U + 18U);
   for (const auto node : mesh.groups.at("skin"))
-    EXPECT_NE(mesh.nodes[at(node)], Eigen::Vector3d(0.5, 0.5, 0.5));
+    EXPECT_NE(mesh.nodes[index(node)], Eigen::Vector3d(0.5, 0.5, 0.5));
 }
 
 TEST_F(QuadraticMesh, EachFaceOfTheBoundaryIsFourFlatTriangles) {
@@ -76,7 +75,7 @@ TEST_F(QuadraticMesh, EachFaceOfTheBoundaryIsFourFlatTriangles) {
   ASSERT_EQ(boundary.triangles.size(), 4 * old.triangles.size());
   EXPECT_EQ(old.faces, old.triangles);
   const auto normalOf = [&](const std::array<std::int32_t, 3>& t) -> Eigen::Vector3d {
-    const auto x = [&](std::size_t i) { return mesh_.nodes[at(boundary.nodes[at(t[i])])]; };
+    const auto x = [&](std::size_t i) { return mesh_.nodes[index(boundary.nodes[index(t[i])])]; };
     return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
   };
   for (std::size_t f = 0; f < boundary.faces.size(); ++f) {

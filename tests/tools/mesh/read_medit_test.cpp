@@ -9,19 +9,13 @@ namespace {
 
 using Nodes = std::vector<std::int32_t>;
 
-TetMesh readText(const std::string& text) {
+TetMesh readMedit(const std::string& text) {
   const TemporaryFolder folder;
   return readMesh(folder.write("a.mesh", text));
 }
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 TEST(ReadMedit, TakesReferencesAsGroupsAndSkipsWhatItDoesNotNeed) {
-  const TetMesh mesh = readText(kMedit);
+  const TetMesh mesh = readMedit(kMedit);
   EXPECT_EQ(mesh.node_tags, (std::vector<std::int64_t>{1, 2, 4, 5, 6}));
   EXPECT_EQ(mesh.tetrahedron_tags, (std::vector<std::int64_t>{1, 2}));
   ASSERT_EQ(mesh.groups.size(), 3U);
@@ -33,24 +27,25 @@ TEST(ReadMedit, TakesReferencesAsGroupsAndSkipsWhatItDoesNotNeed) {
 }
 
 TEST(ReadMedit, RefusesOtherFiles) {
-  EXPECT_REFUSED(readText("hello"), "no MeshVersionFormatted");
-  EXPECT_REFUSED(readText(with(kMedit, "Dimension 3", "Dimension 2")), "line 3", "dimension is not 3");
-  EXPECT_REFUSED(readText(with(kMedit, "Normals\n1", "?what 3")), "not a keyword");
+  EXPECT_REFUSED(readMedit("hello"), "no MeshVersionFormatted");
+  EXPECT_REFUSED(readMedit(with(kMedit, "Dimension 3", "Dimension 2")), "line 3", "dimension is not 3");
+  EXPECT_REFUSED(readMedit(with(kMedit, "Normals\n1", "?what 3")), "not a keyword");
 }
 
 TEST(ReadMedit, RefusesOtherVolumeElements) {
-  EXPECT_REFUSED(readText(with(kMedit, "Tetrahedra", "Hexahedra")), "Hexahedra");
-  EXPECT_REFUSED(readText(with(kMedit, "Tetrahedra", "TetrahedraP2")), "TetrahedraP2");
+  EXPECT_REFUSED(readMedit(with(kMedit, "Tetrahedra", "Hexahedra")), "Hexahedra");
+  EXPECT_REFUSED(readMedit(with(kMedit, "Tetrahedra", "TetrahedraP2")), "TetrahedraP2");
 }
 
 TEST(ReadMedit, RefusesANodeThatIsNotThere) {
-  EXPECT_REFUSED(readText(with(kMedit, "2 4 5 6 7", "2 4 5 7 7")), "tetrahedron 2", "node 7");
-  EXPECT_REFUSED(readText(with(kMedit, "2 4 5 6 7", "0 4 5 6 7")), "tetrahedron 2", "node 0");
+  EXPECT_REFUSED(readMedit(with(kMedit, "2 4 5 6 7", "2 4 5 7 7")), "tetrahedron 2", "node 7");
+  EXPECT_REFUSED(readMedit(with(kMedit, "2 4 5 6 7", "0 4 5 6 7")), "tetrahedron 2", "node 0");
 }
 
 TEST(ReadMedit, RefusesCountsThatDoNotFit) {
-  EXPECT_REFUSED(readText(with(kMedit, "Vertices\n6", "Vertices\n6000000")), "number of Vertices is 6000000");
-  EXPECT_REFUSED(readText(with(kMedit, "Tetrahedra\n2", "Tetrahedra\n3")), "node or reference of Tetrahedra",
+  EXPECT_REFUSED(readMedit(with(kMedit, "Vertices\n6", "Vertices\n6000000")),
+                 "number of Vertices is 6000000");
+  EXPECT_REFUSED(readMedit(with(kMedit, "Tetrahedra\n2", "Tetrahedra\n3")), "node or reference of Tetrahedra",
                  "'End'");
 }
 

@@ -10,16 +10,9 @@ namespace {
 
 using Nodes = std::vector<std::int32_t>;
 
-TetMesh readText(const std::string& name, const std::string& text) {
+TetMesh readMsh(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   return readMesh(folder.write(name, text));
-}
-
-// A copy of `text` with `from` replaced by `to`; the test is wrong if it is not there.
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 void expectTwoTetrahedra(const TetMesh& mesh) {
@@ -33,7 +26,7 @@ void expectTwoTetrahedra(const TetMesh& mesh) {
 }
 
 TEST(ReadMsh, Version1KeepsNumbersAndDropsTheIdleNode) {
-  const TetMesh mesh = readText("a.msh", kMsh1);
+  const TetMesh mesh = readMsh("a.msh", kMsh1);
   expectTwoTetrahedra(mesh);
   ASSERT_EQ(mesh.groups.size(), 3U);
   EXPECT_EQ(mesh.groups.at("5"), (Nodes{0, 1}));
@@ -42,7 +35,7 @@ TEST(ReadMsh, Version1KeepsNumbersAndDropsTheIdleNode) {
 }
 
 TEST(ReadMsh, Version2NamesGroupsAndTellsDimensionsApart) {
-  const TetMesh mesh = readText("a.msh", kMsh2);
+  const TetMesh mesh = readMsh("a.msh", kMsh2);
   expectTwoTetrahedra(mesh);
   ASSERT_EQ(mesh.groups.size(), 4U);
   EXPECT_EQ(mesh.groups.at("lower face"), (Nodes{1, 2, 3}));
@@ -52,7 +45,7 @@ TEST(ReadMsh, Version2NamesGroupsAndTellsDimensionsApart) {
 }
 
 TEST(ReadMsh, Version4TakesGroupsFromEntities) {
-  const TetMesh mesh = readText("a.msh", kMsh4);
+  const TetMesh mesh = readMsh("a.msh", kMsh4);
   expectTwoTetrahedra(mesh);
   ASSERT_EQ(mesh.groups.size(), 4U);
   EXPECT_EQ(mesh.groups.at("lower face"), (Nodes{1, 2, 3}));
@@ -62,18 +55,18 @@ TEST(ReadMsh, Version4TakesGroupsFromEntities) {
 }
 
 TEST(ReadMsh, GroupsOfTheSameNameAreOne) {
-  const TetMesh mesh = readText("a.msh", with(with(kMsh2, "\n2\n2 6", "\n3\n0 6 \"lower face\"\n2 6"),
-                                              "9 15 2 6 1 50", "9 15 2 6 1 10"));
+  const TetMesh mesh = readMsh("a.msh", with(with(kMsh2, "\n2\n2 6", "\n3\n0 6 \"lower face\"\n2 6"),
+                                             "9 15 2 6 1 50", "9 15 2 6 1 10"));
   EXPECT_EQ(mesh.groups.at("lower face"), (Nodes{0, 1, 2, 3}));
 }
 
 TEST(ReadMsh, TetrahedronListedOncePerGroupIsOne) {
-  const TetMesh two = readText("a.msh", with(with(kMsh2, "$Elements\n5", "$Elements\n6"), "9 15 2 6",
-                                             "11 4 2 9 1 2 30 4 50\n9 15 2 6"));
+  const TetMesh two = readMsh("a.msh", with(with(kMsh2, "$Elements\n5", "$Elements\n6"), "9 15 2 6",
+                                            "11 4 2 9 1 2 30 4 50\n9 15 2 6"));
   expectTwoTetrahedra(two);
   EXPECT_EQ(two.groups.at("upper"), two.groups.at("9"));
   const TetMesh one =
-      readText("a.msh", with(with(kMsh1, "$ELM\n4", "$ELM\n5"), "$ENDELM", "11 4 9 1 4 2 30 4 50\n$ENDELM"));
+      readMsh("a.msh", with(with(kMsh1, "$ELM\n4", "$ELM\n5"), "$ENDELM", "11 4 9 1 4 2 30 4 50\n$ENDELM"));
   expectTwoTetrahedra(one);
   EXPECT_EQ(one.groups.at("7"), one.groups.at("9"));
 }
@@ -81,8 +74,8 @@ TEST(ReadMsh, TetrahedronListedOncePerGroupIsOne) {
 TEST(ReadMsh, TetrahedronListedTwiceInOneGroupIsRefusedByTheCheck) {
   const auto refused = [](const std::string& group) {
     return checkMesh(
-        readText("a.msh", with(with(kMsh2, "$Elements\n5", "$Elements\n7"), "9 15 2 6",
-                               "11 4 2 9 1 2 30 4 50\n12 4 2 " + group + " 1 2 30 4 50\n9 15 2 6")));
+        readMsh("a.msh", with(with(kMsh2, "$Elements\n5", "$Elements\n7"), "9 15 2 6",
+                              "11 4 2 9 1 2 30 4 50\n12 4 2 " + group + " 1 2 30 4 50\n9 15 2 6")));
   };
   EXPECT_REFUSED(refused("7"), "tetrahedron 12", "same nodes as tetrahedron 8");
   EXPECT_REFUSED(refused("9"), "tetrahedron 12", "same nodes as tetrahedron 8");
@@ -92,7 +85,7 @@ TEST(ReadMsh, TetrahedronListedTwiceInOneGroupIsRefusedByTheCheck) {
 TEST(ReadMsh, TakesCarriageReturns) {
   std::string text = kMsh2;
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');
-  expectTwoTetrahedra(readText("a.msh", text));
+  expectTwoTetrahedra(readMsh("a.msh", text));
 }
 
 TEST(ReadMsh, RefusesMissingFileFolderAndEmptyFile) {
@@ -104,53 +97,53 @@ TEST(ReadMsh, RefusesMissingFileFolderAndEmptyFile) {
 }
 
 TEST(ReadMsh, RefusesAnUnknownExtension) {
-  EXPECT_REFUSED(readText("a.stp", kMsh2), "'.stp'", ".msh, .vtk, .mesh");
+  EXPECT_REFUSED(readMsh("a.stp", kMsh2), "'.stp'", ".msh, .vtk, .mesh");
 }
 
 TEST(ReadMsh, RefusesWhatIsNotAMesh) {
-  EXPECT_REFUSED(readText("a.msh", "hello world"), "line 1", "not a Gmsh mesh");
-  EXPECT_REFUSED(readText("a.msh", std::string("\x7f"
-                                               "ELF\0\1\2\3",
-                                               8)),
+  EXPECT_REFUSED(readMsh("a.msh", "hello world"), "line 1", "not a Gmsh mesh");
+  EXPECT_REFUSED(readMsh("a.msh", std::string("\x7f"
+                                              "ELF\0\1\2\3",
+                                              8)),
                  "not a Gmsh mesh");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh2, "2.2 0 8", "3.0 0 8")), "line 2", "version is '3.0'");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh2, "2.2 0 8", "2.2 0 4")), "data size is 4");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh4, "4.1 0 8", "4 1 8")), "binary files of version 4.0");
-  EXPECT_REFUSED(readText("a.msh", kMsh2.substr(kMsh2.find("$Nodes"))), "before $MeshFormat");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "2.2 0 8", "3.0 0 8")), "line 2", "version is '3.0'");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "2.2 0 8", "2.2 0 4")), "data size is 4");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh4, "4.1 0 8", "4 1 8")), "binary files of version 4.0");
+  EXPECT_REFUSED(readMsh("a.msh", kMsh2.substr(kMsh2.find("$Nodes"))), "before $MeshFormat");
 }
 
 TEST(ReadMsh, RefusesANodeThatIsNotThere) {
-  EXPECT_REFUSED(readText("a.msh", with(kMsh1, "4 2 30 4 50", "4 2 30 4 51")), "tetrahedron 8", "node 51");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh2, "6 6 2 30 4", "6 6 2 31 4")), "group 'lower face'", "node 31");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh1, "4 2 30 4 50", "4 2 30 4 51")), "tetrahedron 8", "node 51");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "6 6 2 30 4", "6 6 2 31 4")), "group 'lower face'", "node 31");
 }
 
 TEST(ReadMsh, RefusesANodeThatIsThereTwice) {
-  EXPECT_REFUSED(readText("a.msh", with(kMsh1, "30 0 1 0", "10 0 1 0")), "node 10 is there twice");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh1, "30 0 1 0", "10 0 1 0")), "node 10 is there twice");
 }
 
 TEST(ReadMsh, RefusesVolumeElementsThatAreNotTetrahedra) {
-  EXPECT_REFUSED(readText("a.msh", with(kMsh2, "8 4 4 7", "8 29 4 7")), "element 8", "type 29");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh2, "8 4 4 7", "8 5 4 7")), "element 8", "type 5");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh2, "8 4 4 7", "8 77 4 7")), "element 8", "type 77");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "8 4 4 7", "8 29 4 7")), "element 8", "type 29");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "8 4 4 7", "8 5 4 7")), "element 8", "type 5");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "8 4 4 7", "8 77 4 7")), "element 8", "type 77");
 }
 
 TEST(ReadMsh, RefusesAMeshWithoutTetrahedra) {
-  EXPECT_REFUSED(readText("a.msh", with(with(kMsh1, "3 4 0 1 4 10 2 30 4\n8 4 7 1 4 2 30 4 50\n", ""),
-                                        "$ELM\n4", "$ELM\n2")),
+  EXPECT_REFUSED(readMsh("a.msh", with(with(kMsh1, "3 4 0 1 4 10 2 30 4\n8 4 7 1 4 2 30 4 50\n", ""),
+                                       "$ELM\n4", "$ELM\n2")),
                  "holds no tetrahedra");
 }
 
 TEST(ReadMsh, RefusesCountsThatTheFileCannotHold) {
   for (const char* count : {"999999999999", "9223372036854775807", "-3", "many", "6.5"}) {
-    EXPECT_REFUSED(readText("a.msh", with(kMsh2, "$Nodes\n6", std::string("$Nodes\n") + count)),
+    EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "$Nodes\n6", std::string("$Nodes\n") + count)),
                    "number of nodes", count);
-    EXPECT_REFUSED(readText("a.msh", with(kMsh2, "$Elements\n5", std::string("$Elements\n") + count)),
+    EXPECT_REFUSED(readMsh("a.msh", with(kMsh2, "$Elements\n5", std::string("$Elements\n") + count)),
                    "number of elements", count);
-    EXPECT_REFUSED(readText("a.msh", with(kMsh4, "2 1 2 1\n", std::string("2 1 2 ") + count + "\n")),
+    EXPECT_REFUSED(readMsh("a.msh", with(kMsh4, "2 1 2 1\n", std::string("2 1 2 ") + count + "\n")),
                    "size of a block", count);
   }
-  EXPECT_REFUSED(readText("a.msh", "$NOD\n3\n1 0 0 0\n2 0 0 0"), "number of nodes is 3, but only 16 bytes");
-  EXPECT_REFUSED(readText("a.msh", "$NOD\n2\n1 0 0 0\n2 0 0 0"), "the file ends where $ENDNOD is expected");
+  EXPECT_REFUSED(readMsh("a.msh", "$NOD\n3\n1 0 0 0\n2 0 0 0"), "number of nodes is 3, but only 16 bytes");
+  EXPECT_REFUSED(readMsh("a.msh", "$NOD\n2\n1 0 0 0\n2 0 0 0"), "the file ends where $ENDNOD is expected");
 }
 
 // All elements of an entity would be listed in each of its groups.
@@ -159,29 +152,28 @@ TEST(ReadMsh, RefusesAnEntityInMoreGroupsThanAnyHas) {
   const auto file = [&](const std::string& entities) {
     return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 " + entities + "$EndEntities\n";
   };
-  EXPECT_REFUSED(readText("a.msh", file("1\n" + entity + "17 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 0\n")),
+  EXPECT_REFUSED(readMsh("a.msh", file("1\n" + entity + "17 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 0\n")),
                  "line 6", "an entity is in 17 physical groups, expected at most 16");
   EXPECT_REFUSED(
-      readText("a.msh", file("2\n" + entity + "9 1 2 3 4 5 6 7 8 9 0\n" + entity + "8 1 2 3 4 5 6 7 8 0\n")),
+      readMsh("a.msh", file("2\n" + entity + "9 1 2 3 4 5 6 7 8 9 0\n" + entity + "8 1 2 3 4 5 6 7 8 0\n")),
       "an entity is in 17 physical groups");
-  EXPECT_REFUSED(readText("a.msh", file("1\n" + entity + "1 -9223372036854775808 0\n")),
+  EXPECT_REFUSED(readMsh("a.msh", file("1\n" + entity + "1 -9223372036854775808 0\n")),
                  "an entity's physical group is -9223372036854775808");
 }
 
 TEST(ReadMsh, RefusesCountsThatDoNotMatch) {
-  EXPECT_REFUSED(readText("a.msh", with(kMsh1, "$NOD\n6", "$NOD\n5")), "does not end with $ENDNOD");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh1, "8 4 7 1 4", "8 4 7 1 5")), "element 8 has 5 nodes");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh4, "2 6 2 99", "2 7 2 99")), "6 nodes, the section announces 7");
-  EXPECT_REFUSED(readText("a.msh", with(kMsh4, "4 4 1 8", "4 5 1 8")), "4 elements, the section announces 5");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh1, "$NOD\n6", "$NOD\n5")), "does not end with $ENDNOD");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh1, "8 4 7 1 4", "8 4 7 1 5")), "element 8 has 5 nodes");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh4, "2 6 2 99", "2 7 2 99")), "6 nodes, the section announces 7");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh4, "4 4 1 8", "4 5 1 8")), "4 elements, the section announces 5");
 }
 
 TEST(ReadMsh, RefusesACoordinateThatIsNoNumber) {
-  EXPECT_REFUSED(readText("a.msh", with(kMsh1, "30 0 1 0", "30 0 x1 0")), "line 6", "'x1'");
+  EXPECT_REFUSED(readMsh("a.msh", with(kMsh1, "30 0 1 0", "30 0 x1 0")), "line 6", "'x1'");
 }
 
 TEST(ReadMsh, NonFiniteCoordinateIsFoundByTheCheck) {
-  EXPECT_REFUSED(checkMesh(readText("a.msh", with(kMsh1, "30 0 1 0", "30 0 nan 0"))), "node 30",
-                 "not finite");
+  EXPECT_REFUSED(checkMesh(readMsh("a.msh", with(kMsh1, "30 0 1 0", "30 0 nan 0"))), "node 30", "not finite");
 }
 
 TEST(ReadMsh, ReadsTheLiverOfTheSofaFramework) {

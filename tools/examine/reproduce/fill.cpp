@@ -60,4 +60,10 @@ std::string table(const Json& rows, const std::vector<Column>& columns) {
   return out.str();
 }
 
+std::string withFolder(std::string text, const std::string& figures) {
+  for (std::size_t at = text.find("(@"); at != std::string::npos; at = text.find("(@", at))
+    text.replace(at + 1, 1, figures);
+  return text;
+}
+
 }  // namespace palpate::reproduce

@@ -15,6 +15,9 @@ namespace palpate::reproduce {
 /// @throw ReproduceError naming a missing result
 [[nodiscard]] std::string fill(std::string_view text, const Json& results);
 
+/// @param figures  the folder that takes the place of each "@" behind "(": "(@a.png)" becomes "(figures/a.png)"
+[[nodiscard]] std::string withFolder(std::string text, const std::string& figures);
+
 /// A column of a Markdown table: its head, the key in each row, a format such as "{:.3g}", a factor.
 struct Column {
   std::string head, key, format;

@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kTravel = 8e-3;  // m, median displacement of the contact under the load in linear theory
+constexpr double kMedianTravel =
+    8e-3;  // m, median displacement of the contact under the load in linear theory
 
 /// Evenly chosen positions, as touches under the study's load.
 std::vector<Touch> someOf(const solver::SolverSetup& setup, const Vec3& load, int count,
@@ -54,7 +55,7 @@ void studyTenTerms(const LiverOptions& options, Output& out, Json& results) {
   const mesh::TetMesh mesh = organ::makePaperLiver(options.coarse_element_size);
   const solver::SolverSetup setup(wholeBoundary({}), mesh);
   double load = 1.0;
-  const solver::BodyProblem problem = downwardProblem(setup, kTravel, load);
+  const solver::BodyProblem problem = downwardProblem(setup, kMedianTravel, load);
   solver::ExplicitOptions pgd;
   pgd.steps = options.steps;
   pgd.tolerance = 0.03;  // dimples are a larger part of an organ's displacement than of a beam's

@@ -7,7 +7,7 @@ namespace palpate::reproduce {
 
 namespace {
 
-constexpr const char* kProblem = R"(## 2. The beam (Section 4.2, Figures 2 to 4)
+constexpr const char* kBeamProblem = R"(## 2. The beam (Section 4.2, Figures 2 to 4)
 
 A beam of 400 x 40 x 40 mm, clamped at one end, {nodes:.0f} nodes ({nodes_along:s}), {tetrahedra:.0f} tetrahedra, E = {E_MPa:.1f} MPa, nu =
 {nu:.2f}; a vertical load at any node of the upper surface ({positions_count:.0f} free ones).
@@ -76,16 +76,10 @@ constexpr const char* kPicture = R"(
 
 )";
 
-std::string withFolder(std::string text, const std::string& figures) {
-  for (std::size_t at = text.find("(@"); at != std::string::npos; at = text.find("(@", at))
-    text.replace(at + 1, 1, figures);
-  return text;
-}
-
 }  // namespace
 
 std::string beamChapter(const Json& results, const std::string& figures) {
-  std::string text = withFolder(fill(kProblem, results), figures);
+  std::string text = withFolder(fill(kBeamProblem, results), figures);
   text +=
       table(results.at("load_curve"), {{"level t", "level", "{:.2f}"},
                                        {"Newton, mm", "newton_mm", "{:.4f}"},

@@ -7,7 +7,7 @@ namespace palpate::reproduce {
 
 namespace {
 
-constexpr const char* kProblem = R"(## 3. The liver (Section 4.3, Figures 5 to 7)
+constexpr const char* kLiverProblem = R"(## 3. The liver (Section 4.3, Figures 5 to 7)
 
 {mesh}: {nodes:.0f} nodes, {tetrahedra:.0f} tetrahedra, {surface_nodes:.0f} nodes on the boundary; E = {E_kPa:.0f} kPa, nu = {nu:.2f},
 clamped at `fixed` ({fixed_nodes:.0f} nodes), the whole free boundary accessible ({positions_count:.0f} load positions), load downward.
@@ -90,16 +90,10 @@ GHz).
 
 )";
 
-std::string withFolder(std::string text, const std::string& figures) {
-  for (std::size_t at = text.find("(@"); at != std::string::npos; at = text.find("(@", at))
-    text.replace(at + 1, 1, figures);
-  return text;
-}
-
 }  // namespace
 
 std::string liverChapter(const Json& results, const std::string& figures) {
-  std::string text = withFolder(fill(kProblem, results), figures);
+  std::string text = withFolder(fill(kLiverProblem, results), figures);
   text +=
       table(results.at("linear").at("pairs_table"), {{"n", "pairs", "{:.0f}"},
                                                      {"best (SVD), %", "svd_energy_error", "{:.3f}", 100.0},

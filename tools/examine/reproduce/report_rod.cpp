@@ -7,7 +7,7 @@ namespace palpate::reproduce {
 
 namespace {
 
-constexpr const char* kProblem = R"(## 1. The rod (Section 4.1, Figure 1)
+constexpr const char* kRodProblem = R"(## 1. The rod (Section 4.1, Figure 1)
 
 A bar of length {length_mm:.0f} mm, cross section {area_mm2:.0f} mm2, E = {E_MPa:.1f} MPa, pulled by F = {force_N:.0f} N applied at any
 point s of its axis: u(x, s) is two-dimensional. Mesh: {elements:.0f} linear elements, {elements:.0f} load positions (every free node).
@@ -49,7 +49,7 @@ diverges at this load (K = {K:.2f}).
 }  // namespace
 
 std::string rodChapter(const Json& results, const std::string& figures) {
-  std::string text = fill(kProblem, results);
+  std::string text = fill(kRodProblem, results);
   for (const auto& [key, name] : {std::pair{"ten_term", "Ten terms"},
                                   {"forward_euler", "Forward Euler"},
                                   {"constant_tangent", "Constant tangent"}}) {

@@ -8,15 +8,12 @@
 #include <string>
 #include <variant>
 
+#include "core/base/index.h"
 #include "tools/mesh/topology.h"
 
 namespace palpate::solver {
 
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// @param place  file, line and key that name the group  @param kind  of group, for the message
 const std::vector<std::int32_t>& membersOf(const std::map<std::string, std::vector<std::int32_t>>& groups,
@@ -45,14 +42,14 @@ std::map<std::int32_t, double> areasOf(const mesh::TetMesh& mesh, const mesh::Bo
   std::map<std::int32_t, double> areas;
   for (std::size_t begin = 0; begin < boundary.triangles.size(); begin += flat) {
     const auto node = [&](std::size_t t, std::size_t k) {
-      return boundary.nodes[at(boundary.triangles[begin + t][k])];
+      return boundary.nodes[index(boundary.triangles[begin + t][k])];
     };
     bool inside = true;
     for (std::size_t t = 0; t < flat; ++t)
       for (std::size_t k = 0; k < 3; ++k)
         inside = inside && std::binary_search(group.begin(), group.end(), node(t, k));
     if (!inside) continue;
-    const auto X = [&](std::size_t k) { return mesh.nodes[at(node(flat - 1, k))]; };
+    const auto X = [&](std::size_t k) { return mesh.nodes[index(node(flat - 1, k))]; };
     const double area = static_cast<double>(flat) * 0.5 * (X(1) - X(0)).cross(X(2) - X(0)).norm();
     for (std::size_t k = 0; k < 3; ++k) areas[node(flat - 1, k)] += area / 3.0;
   }
@@ -69,11 +66,11 @@ Material materialOf(const Case& c, const mesh::TetMesh& mesh) {
   for (const RegionCase& r : c.regions) {
     const auto number = static_cast<std::int32_t>(material.regions.size());
     for (const std::int32_t e : membersOf(mesh.regions, r.group, r.place, "tetrahedra")) {
-      std::int32_t& region = material.region_of_element[at(e)];
+      std::int32_t& region = material.region_of_element[index(e)];
       if (region != 0)
         throw CaseError(r.place + " = \"" + r.group + "\" overlaps region \"" +
-                        material.regions[at(region)].name + "\" in tetrahedron " +
-                        std::to_string(mesh.tetrahedron_tags[at(e)]));
+                        material.regions[index(region)].name + "\" in tetrahedron " +
+                        std::to_string(mesh.tetrahedron_tags[index(e)]));
       region = number;
     }
     material.regions.push_back(regionOf(r, c));

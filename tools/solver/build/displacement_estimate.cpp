@@ -111,12 +111,12 @@ double sharedSeconds(double loaded, double sources, double rows, double rate) {
 /// @param others  blocks lie around them  @param block  how many of them
 double partSeen(const PatchSurface& surface, std::span<const std::int32_t> others, std::size_t block,
                 double near_radius) {
-  constexpr std::size_t kTried = 64;
+  constexpr std::size_t kSeenFrom = 64;
   const double area = std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
   const double part = static_cast<double>(block) / static_cast<double>(std::max(block, others.size()));
   const double reach = 3.0 * near_radius + std::sqrt(part * area / std::numbers::pi);
   double pairs = 0.0, seen = 0.0;
-  for (std::size_t i = 0; i < others.size(); i += std::max<std::size_t>(1, others.size() / kTried))
+  for (std::size_t i = 0; i < others.size(); i += std::max<std::size_t>(1, others.size() / kSeenFrom))
     for (const Vec3& X : surface.positions) {
       ++pairs;
       seen += (X - surface.positions[static_cast<std::size_t>(others[i])]).norm() < reach ? 1.0 : 0.0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/index.h"
 #include "tools/solver/base/journal.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/displacement_builder.h"
@@ -18,10 +19,6 @@ namespace {
 constexpr double kBegin = 0.6;              ///< of the modes that an error is expected to want
 constexpr double kWider = 4.0 / 3.0;        ///< near fields, where the most modes are not enough
 constexpr double kWidestNearField = 8.001;  ///< in patch radii
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::string text(double x) {
   char buffer[32];
@@ -75,7 +72,7 @@ void DisplacementBuilder::checkNear() const {
 std::vector<NearNodes> DisplacementBuilder::nearOf(std::span<const std::int32_t> nodes) const {
   std::vector<NearNodes> near;
   for (const std::int32_t node : nodes)
-    near.push_back(nearNodes(setup_.surface, setup_.surface.positions[at(node)], near_radius_));
+    near.push_back(nearNodes(setup_.surface, setup_.surface.positions[index(node)], near_radius_));
   return near;
 }
 
@@ -84,7 +81,7 @@ std::vector<FitSource> DisplacementBuilder::fitSources(std::span<const std::int3
                                                        std::span<const double> travel) const {
   std::vector<FitSource> sources;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec3& place = setup_.surface.positions[at(nodes[i])];
+    const Vec3& place = setup_.surface.positions[index(nodes[i])];
     // Large travel is rare and must not cost accuracy at small travel.
     const double ball = travel.empty() ? d_ref_ : std::min(d_ref_, travel[i]);
     sources.push_back({place, fitWeights(setup_.surface, place, near_radius_), ball, d_ref_});

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/index.h"
 #include "tools/solver/base/lanes.h"
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/base/progress.h"
@@ -24,10 +25,6 @@ namespace palpate::solver {
 
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Nodes where floats can say that they are, so that the file's mesh is the one that is solved. Moves them by less than 1e-7 of
 /// the organ's size: floats have 24 bits, of which the middle of an edge needs one more than its ends.
 mesh::TetMesh inFloats(mesh::TetMesh mesh) {
@@ -40,8 +37,8 @@ mesh::TetMesh inFloats(mesh::TetMesh mesh) {
   for (std::size_t t = 0; t < mesh.midsides.size(); ++t)
     for (std::size_t e = 0; e < 6; ++e) {
       const auto [one, other] = mesh::kTetEdges[e];
-      mesh.nodes[at(mesh.midsides[t][e])] =
-          0.5 * (mesh.nodes[at(mesh.tetrahedra[t][at(one)])] + mesh.nodes[at(mesh.tetrahedra[t][at(other)])]);
+      mesh.nodes[index(mesh.midsides[t][e])] = 0.5 * (mesh.nodes[index(mesh.tetrahedra[t][index(one)])] +
+                                                      mesh.nodes[index(mesh.tetrahedra[t][index(other)])]);
     }
   return mesh;
 }
@@ -121,7 +118,7 @@ SeriesSink DisplacementBuilder::seriesSink() {
     std::copy(force.begin(), force.end(),
               data_.contact_force.begin() + static_cast<std::ptrdiff_t>(position * force.size()));
   };
-  return {2 + 3 * at(force_basis_.size()), numbers, store};
+  return {2 + 3 * index(force_basis_.size()), numbers, store};
 }
 
 /// The fields of unit loads at single nodes.
@@ -130,7 +127,7 @@ void DisplacementBuilder::solveGreens(FieldTable& greens) {
   CloseGreens close(setup_.surface, loaded_, kWidest * setup_.patch_radius);
   const Blocks& blocks = greens.blocks();
   Progress progress("nodal Green's functions", blocks.ownEnd() - blocks.ownBegin(), options_.quiet);
-  std::vector<std::unique_ptr<NodalGreens>> solvers(at(options_.workers));
+  std::vector<std::unique_ptr<NodalGreens>> solvers(index(options_.workers));
   const auto sourcesOf = [&](std::size_t chunk) {
     const std::size_t first = chunk * NodalGreens::kMost;
     return blocks.order().subspan(first, std::min(NodalGreens::kMost, blocks.order().size() - first));
@@ -138,26 +135,26 @@ void DisplacementBuilder::solveGreens(FieldTable& greens) {
   const auto restore = [&](std::size_t chunk, record::ByteSource& kept) {
     std::vector<float> fields;
     for (const std::int32_t source : sourcesOf(chunk)) {
-      if (kept.get<std::uint32_t>() != greens.checksum(at(source), fields))
+      if (kept.get<std::uint32_t>() != greens.checksum(index(source), fields))
         throw record::RecordError("the scratch file has other fields");
-      close.keep(at(source),
+      close.keep(index(source),
                  Eigen::Map<const Eigen::MatrixXf>(fields.data(), Eigen::Index(greens.rows()), 3));
     }
     progress.skip(sourcesOf(chunk).size());
   };
   const auto solve = [&](int worker, std::size_t chunk) {
-    auto& solver = solvers[at(worker)];
+    auto& solver = solvers[index(worker)];
     if (!solver) solver = std::make_unique<NodalGreens>(setup_.model, factor_, setup_.surface);
     const auto sources = sourcesOf(chunk);
     std::vector<std::int32_t> nodes;
-    for (const std::int32_t source : sources) nodes.push_back(loaded_[at(source)]);
+    for (const std::int32_t source : sources) nodes.push_back(loaded_[index(source)]);
     solver->solve(nodes);
     record::Bytes kept;
     for (std::size_t i = 0; i < sources.size(); ++i) {
       const Eigen::MatrixXf W = solver->of(i).cast<float>();
       const std::span<const float> fields(W.data(), static_cast<std::size_t>(W.size()));
-      close.keep(at(sources[i]), W);
-      greens.write(at(sources[i]), fields);
+      close.keep(index(sources[i]), W);
+      greens.write(index(sources[i]), fields);
       record::put(kept, FieldTable::checksum(fields));
     }
     progress.advance(sources.size());
@@ -165,7 +162,7 @@ void DisplacementBuilder::solveGreens(FieldTable& greens) {
   };
   parallelParts(options_.workers, partsOf(blocks, NodalGreens::kMost), options_.journal("greens"), restore,
                 solve);
-  share(blocks, [&](std::int32_t source) { return close.of(at(source)); });
+  share(blocks, [&](std::int32_t source) { return close.of(index(source)); });
   data_.contact_stiffness = patchStiffness(setup_, patches_, close, options_.workers, *options_.ranks);
 }
 
@@ -174,7 +171,7 @@ modelfile::ModelData DisplacementBuilder::run() {
   const std::size_t rows = 3 * setup_.surface.nodes.size();
   const Ranks& ranks = *options_.ranks;
   FieldTable table(options_.scratchFile("series"), blocksOf(setup_, setup_.positions.nodes, kLanes, ranks),
-                   at(basis_.size()), rows);
+                   index(basis_.size()), rows);
   solveAllSeries(setup_, mesh_, case_, factor_, SeriesKind::kDisplacement, options_, table, seriesSink());
   FieldTable greens(options_.scratchFile("greens"), blocksOf(setup_, loaded_, NodalGreens::kMost, ranks), 3,
                     rows);

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/index.h"
 #include "tools/mesh/eighths.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/mesh/topology.h"
@@ -21,10 +22,6 @@ using Barycentric = Eigen::Vector4d;
 
 constexpr double kOn = 1e-9;  // barycentric weight of a node that is on a face
 
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Shape functions of an element of 4 or 10 nodes.
 double shape(std::size_t nodes, std::size_t a, const Barycentric& L) {
   const auto of = [&](int i) { return L[i]; };
@@ -37,7 +34,7 @@ double shape(std::size_t nodes, std::size_t a, const Barycentric& L) {
 std::set<std::array<std::int32_t, 3>> cutFaces(const mesh::TetMesh& mesh,
                                                std::span<const std::int32_t> chosen) {
   mesh::TetMesh part;
-  for (const std::int32_t t : chosen) part.tetrahedra.push_back(mesh.tetrahedra[at(t)]);
+  for (const std::int32_t t : chosen) part.tetrahedra.push_back(mesh.tetrahedra[index(t)]);
   std::set<std::array<std::int32_t, 3>> cut, outer;
   const auto alone = [](const mesh::TetMesh& of, std::set<std::array<std::int32_t, 3>>& into) {
     for (const mesh::TetFace& face : mesh::sortedFaces(of))
@@ -53,7 +50,7 @@ std::set<std::array<std::int32_t, 3>> cutFaces(const mesh::TetMesh& mesh,
 
 std::array<Vec3, 3> cornersOf(const PatchSurface& surface, std::size_t face) {
   const auto& t = surface.faces[face];
-  return {surface.positions[at(t[0])], surface.positions[at(t[1])], surface.positions[at(t[2])]};
+  return {surface.positions[index(t[0])], surface.positions[index(t[1])], surface.positions[index(t[2])]};
 }
 
 /// Unknowns to nodes.
@@ -112,7 +109,7 @@ std::vector<std::int32_t> elementsNear(const mesh::TetMesh& mesh, const Vec3& x,
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const auto& corners = mesh.tetrahedra[t];
     if (std::any_of(corners.begin(), corners.end(),
-                    [&](std::int32_t node) { return (mesh.nodes[at(node)] - x).norm() < reach; }))
+                    [&](std::int32_t node) { return (mesh.nodes[index(node)] - x).norm() < reach; }))
       chosen.push_back(static_cast<std::int32_t>(t));
   }
   return chosen;
@@ -127,7 +124,7 @@ FinePart::FinePart(const SolverSetup& setup, const mesh::TetMesh& mesh, const Co
   if (!material_.regions.empty()) {
     material_.region_of_element.clear();
     for (const std::int32_t t : parent_)
-      material_.region_of_element.push_back(setup.model.material().region_of_element[at(t)]);
+      material_.region_of_element.push_back(setup.model.material().region_of_element[index(t)]);
   }
   follow(setup, mesh, coarse, cutFaces(mesh, chosen));
 }
@@ -137,10 +134,10 @@ void FinePart::follow(const SolverSetup& setup, const mesh::TetMesh& mesh, const
   given_ = Columns::Zero(3 * static_cast<Eigen::Index>(mesh_.nodes.size()), 3);
   std::vector<bool> held(mesh_.nodes.size(), false);
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
-    const auto& corners = mesh.tetrahedra[at(parent_[t])];
+    const auto& corners = mesh.tetrahedra[index(parent_[t])];
     Mat3 edges;
     for (std::size_t k = 0; k < 3; ++k)
-      edges.col(Eigen::Index(k)) = mesh.nodes[at(corners[k + 1])] - mesh.nodes[at(corners[0])];
+      edges.col(Eigen::Index(k)) = mesh.nodes[index(corners[k + 1])] - mesh.nodes[index(corners[0])];
     const Mat3 inverse = edges.inverse();
     std::array<bool, 4> is_cut{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -153,7 +150,7 @@ void FinePart::follow(const SolverSetup& setup, const mesh::TetMesh& mesh, const
     if (mesh_.isQuadratic()) own.insert(own.end(), mesh_.midsides[t].begin(), mesh_.midsides[t].end());
     const std::span<const std::int32_t> from = setup.model.elementNodes(parent_[t]);
     for (const std::int32_t node : own) {
-      const Vec3 l = inverse * (mesh_.nodes[at(node)] - mesh.nodes[at(corners[0])]);
+      const Vec3 l = inverse * (mesh_.nodes[index(node)] - mesh.nodes[index(corners[0])]);
       const Barycentric L(1.0 - l.sum(), l[0], l[1], l[2]);
       bool clamped = true, at_cut = false;
       for (std::size_t k = 0; k < 4; ++k) {
@@ -162,7 +159,7 @@ void FinePart::follow(const SolverSetup& setup, const mesh::TetMesh& mesh, const
         clamped = clamped && (on || !setup.model.isFree(corners[k]));
       }
       if (!at_cut && !clamped) continue;
-      held[at(node)] = true;
+      held[index(node)] = true;
       auto u = given_.middleRows<3>(3 * node);
       u.setZero();
       for (std::size_t a = 0; a < from.size(); ++a)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/index.h"
 #include "tools/solver/build/build_model_parts.h"
 #include "tools/solver/build/displacement_builder.h"
 #include "tools/solver/build/displacement_fields.h"
@@ -11,21 +12,13 @@
 
 namespace palpate::solver {
 
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 /// By node of the near fields of loads, how far the whole force of a patch there moves it over abs(d).
 std::vector<float> DisplacementBuilder::greenSizes() const {
   std::vector<float> sizes;
   for (std::size_t g = 0; g < loaded_.size(); ++g) {
-    const Vec3& place = setup_.surface.positions[at(loaded_[g])];
+    const Vec3& place = setup_.surface.positions[index(loaded_[g])];
     const auto apart = [&](std::int32_t node) {
-      return (setup_.surface.positions[at(node)] - place).squaredNorm();
+      return (setup_.surface.positions[index(node)] - place).squaredNorm();
     };
     const auto nearest =
         std::min_element(setup_.positions.nodes.begin(), setup_.positions.nodes.end(),

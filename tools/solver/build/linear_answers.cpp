@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/index.h"
 #include "core/surface/smooth_places.h"
 #include "tools/solver/base/blocks.h"
 #include "tools/solver/base/parallel.h"
@@ -16,10 +17,6 @@ namespace palpate::solver {
 namespace {
 
 using Eigen::Matrix3d;
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// K at one place, and its gradient over the surface.
 struct Stiffness {
@@ -56,7 +53,7 @@ std::span<const double> numbers(const std::vector<Vec3>& points) {
 std::vector<std::int32_t> positionOfNode(const SolverSetup& setup) {
   std::vector<std::int32_t> position(setup.surface.nodes.size(), -1);
   for (std::size_t p = 0; p < setup.positions.nodes.size(); ++p)
-    position[at(setup.positions.nodes[p])] = static_cast<std::int32_t>(p);
+    position[index(setup.positions.nodes[p])] = static_cast<std::int32_t>(p);
   return position;
 }
 
@@ -64,11 +61,12 @@ std::vector<std::int32_t> positionOfNode(const SolverSetup& setup) {
 
 CloseGreens::CloseGreens(const PatchSurface& surface, std::span<const std::int32_t> sources, double reach)
     : source_of_(surface.nodes.size(), -1) {
-  for (std::size_t i = 0; i < sources.size(); ++i) source_of_[at(sources[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    source_of_[index(sources[i])] = static_cast<std::int32_t>(i);
   first_.push_back(0);
   for (const std::int32_t source : sources) {
     for (std::size_t j = 0; j < surface.nodes.size(); ++j)
-      if ((surface.positions[j] - surface.positions[at(source)]).norm() < reach)
+      if ((surface.positions[j] - surface.positions[index(source)]).norm() < reach)
         node_.push_back(static_cast<std::int32_t>(j));
     first_.push_back(node_.size());
   }
@@ -87,7 +85,7 @@ std::span<float> CloseGreens::of(std::size_t which) {
 void CloseGreens::apply(const PatchNodes& patch, std::vector<Matrix3d>& Q) const {
   Q.assign(patch.count, Matrix3d::Zero());
   for (std::size_t i = 0; i < patch.count; ++i) {
-    const std::size_t source = at(source_of_[at(patch.node[i])]);
+    const std::size_t source = index(source_of_[index(patch.node[i])]);
     std::size_t k = first_[source];
     for (std::size_t j = 0; j < patch.count; ++j) {  // both ascending
       while (k < first_[source + 1] && node_[k] < patch.node[j]) ++k;
@@ -123,9 +121,9 @@ std::vector<double> patchStiffness(const SolverSetup& setup, const ContactPatche
       patches.at(view.s, true, patch);
       greens.apply(patch, Q);
       if (addView(view, patch, Q, K)) continue;
-      const std::int32_t node = triangles[at(view.s.triangle)][0];
+      const std::int32_t node = triangles[index(view.s.triangle)][0];
       throw std::runtime_error("the compliance of the contact patch beside volume node " +
-                               std::to_string(setup.surface.nodes[at(node)]) +
+                               std::to_string(setup.surface.nodes[index(node)]) +
                                " is not positive definite: the mesh there cannot be loaded");
     }
     double* number = out.data() + kNumbers * place;
@@ -135,7 +133,8 @@ std::vector<double> patchStiffness(const SolverSetup& setup, const ContactPatche
         for (const Matrix3d& part : K.gradient) *number++ = part(i, j);
       }
   });
-  share(blocks, [&](std::int32_t place) { return std::span(out).subspan(kNumbers * at(place), kNumbers); });
+  share(blocks,
+        [&](std::int32_t place) { return std::span(out).subspan(kNumbers * index(place), kNumbers); });
   return out;
 }
 

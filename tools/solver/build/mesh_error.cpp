@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/index.h"
 #include "tools/mesh/quadratic.h"
 #include "tools/solver/base/parallel.h"
 #include "tools/solver/build/fine_part.h"
@@ -19,19 +20,16 @@ namespace palpate::solver {
 
 namespace {
 
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// On faces of three accessible positions.
 std::vector<ContactPoint> draw(const SolverSetup& setup, int count) {
   std::vector<bool> accessible(setup.surface.nodes.size(), false);
   for (std::size_t p = 0; p < setup.positions.nodes.size(); ++p)
-    accessible[at(setup.positions.nodes[p])] = setup.positions.accessible[p] != 0;
+    accessible[index(setup.positions.nodes[p])] = setup.positions.accessible[p] != 0;
   std::vector<double> areas;
   for (std::size_t f = 0; f < setup.surface.faces.size(); ++f) {
     const auto& t = setup.surface.faces[f];
-    const bool all = std::all_of(t.begin(), t.end(), [&](std::int32_t node) { return accessible[at(node)]; });
+    const bool all =
+        std::all_of(t.begin(), t.end(), [&](std::int32_t node) { return accessible[index(node)]; });
     const auto [a, b, c] = cornersOf(setup.surface, f);
     areas.push_back(all ? (b - a).cross(c - a).norm() : 0.0);
   }
@@ -50,10 +48,10 @@ std::vector<ContactPoint> draw(const SolverSetup& setup, int count) {
 /// Whether a spring holds one of the elements; the finer part has none.
 bool hasSprings(const FeModel& model, std::span<const std::int32_t> elements) {
   std::vector<bool> sprung(static_cast<std::size_t>(model.nodeCount()), false);
-  for (const Spring& spring : model.springs()) sprung[at(spring.node)] = true;
+  for (const Spring& spring : model.springs()) sprung[index(spring.node)] = true;
   return std::any_of(elements.begin(), elements.end(), [&](std::int32_t element) {
     const std::span<const std::int32_t> nodes = model.elementNodes(element);
-    return std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return sprung[at(node)]; });
+    return std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return sprung[index(node)]; });
   });
 }
 
@@ -113,7 +111,7 @@ bool MeshErrors::raised() const noexcept {
 std::optional<double> MeshErrors::at(const ContactPoint& s) const {
   const SolverSetup& setup = state_->setup;
   const Vec3 x = setup.surface.position(s);
-  const auto [a, b, c] = cornersOf(setup.surface, solver::at(s.triangle));
+  const auto [a, b, c] = cornersOf(setup.surface, index(s.triangle));
   const Vec3 n = (b - a).cross(c - a).normalized();
   const Patch patch = makePatch(setup.model, setup.surface, s, setup.patch_radius);
   const Columns coarse = nodal(setup.model, state_->factor.solve(loads(setup.model, patch)));

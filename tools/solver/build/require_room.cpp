@@ -12,7 +12,7 @@ namespace palpate::solver {
 
 namespace {
 
-constexpr double kTooHigh = 1.3;  // an estimate at most, over what it estimates
+constexpr double kOverestimate = 1.3;  // an estimate at most, over what it estimates
 
 std::string gigabytes(double bytes) {
   char text[32];
@@ -44,7 +44,7 @@ void requireRoom(const Estimate& estimate, const Case& c, const BuildOptions& op
     throw CaseError(options.scratch.string() + ": needs " + gigabytes(estimate.scratch) + " of scratch, " +
                     gigabytes(room) + " are free: --scratch takes a folder of another disk, or " +
                     lowerOrder(c, estimate.scratch) + " need less");
-  if (const double room = freeIn(output); !output.empty() && estimate.file > kTooHigh * room)
+  if (const double room = freeIn(output); !output.empty() && estimate.file > kOverestimate * room)
     throw CaseError(output.string() + ": the model file needs about " + gigabytes(estimate.file) + ", " +
                     gigabytes(room) + " are free: --output takes a folder of another disk; " +
                     (c.handheld() ? "--size-limit" : "--target handheld") + " or " +
@@ -53,7 +53,7 @@ void requireRoom(const Estimate& estimate, const Case& c, const BuildOptions& op
   // A limit of address space is each process's own.
   const int sharing = memory.limit == "ulimit -v" ? 1 : options.ranks->onMachine();
   const double room = estimate.resident + static_cast<double>(memory.bytes) / sharing;
-  if (estimate.memory > kTooHigh * room)
+  if (estimate.memory > kOverestimate * room)
     throw CaseError(c.mesh.string() + ": needs about " + gigabytes(estimate.memory) + " of memory, " +
                     gigabytes(room) + " are available (" + memory.limit +
                     (sharing > 1 ? ", shared by " + std::to_string(sharing) + " processes" : "") +

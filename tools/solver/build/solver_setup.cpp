@@ -8,16 +8,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/index.h"
 #include "tools/mesh/topology.h"
 #include "tools/solver/build/case_material.h"
 
 namespace palpate::solver {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 const std::vector<std::int32_t>& groupOf(const Case& c, const mesh::TetMesh& mesh, const std::string& name) {
   const auto found = mesh.groups.find(name);
@@ -38,10 +35,11 @@ std::vector<bool> accessibleNodes(const Case& c, const mesh::TetMesh& mesh, cons
                                   const PatchSurface& surface) {
   std::vector<bool> by_volume_node(mesh.nodes.size(), !c.accessible.has_value());
   if (c.accessible)
-    for (const std::int32_t node : groupOf(c, mesh, *c.accessible)) by_volume_node[at(node)] = true;
+    for (const std::int32_t node : groupOf(c, mesh, *c.accessible)) by_volume_node[index(node)] = true;
   std::vector<bool> accessible = surface.corners();
   for (std::size_t i = 0; i < surface.nodes.size(); ++i)
-    accessible[i] = accessible[i] && by_volume_node[at(surface.nodes[i])] && model.isFree(surface.nodes[i]);
+    accessible[i] =
+        accessible[i] && by_volume_node[index(surface.nodes[i])] && model.isFree(surface.nodes[i]);
   if (std::none_of(accessible.begin(), accessible.end(), [](bool yes) { return yes; }))
     throw CaseError(c.mesh.string() + ": no accessible node on the free surface");
   return accessible;
@@ -52,15 +50,15 @@ void clampedLast(const FeModel& model, mesh::BoundarySurface& boundary) {
   std::vector<int> order(boundary.nodes.size()), place(boundary.nodes.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(),
-                        [&](int node) { return model.isFree(boundary.nodes[at(node)]); });
+                        [&](int node) { return model.isFree(boundary.nodes[index(node)]); });
   const std::vector<std::int32_t> nodes = boundary.nodes;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    boundary.nodes[i] = nodes[at(order[i])];
-    place[at(order[i])] = static_cast<int>(i);
+    boundary.nodes[i] = nodes[index(order[i])];
+    place[index(order[i])] = static_cast<int>(i);
   }
   for (auto* list : {&boundary.triangles, &boundary.faces})
     for (auto& triangle : *list)
-      for (std::int32_t& node : triangle) node = place[at(node)];
+      for (std::int32_t& node : triangle) node = place[index(node)];
 }
 
 PatchSurface surfaceOf(const FeModel& model, const mesh::TetMesh& mesh) {
@@ -106,7 +104,7 @@ double patchRadius(const Case& c, const PatchSurface& surface) {
 void storeSurface(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile::ModelData& data) {
   data.position_of_node.assign(setup.surface.nodes.size(), -1);
   for (std::size_t p = 0; p < setup.positions.nodes.size(); ++p)
-    data.position_of_node[at(setup.positions.nodes[p])] = static_cast<std::int32_t>(p);
+    data.position_of_node[index(setup.positions.nodes[p])] = static_cast<std::int32_t>(p);
   data.contact_node = setup.positions.nodes;
   data.contact_accessible = setup.positions.accessible;
   for (const auto& t : setup.surface.triangles)
@@ -114,7 +112,7 @@ void storeSurface(const SolverSetup& setup, const mesh::TetMesh& mesh, modelfile
   for (const auto& t : setup.surface.faces)
     data.contact_triangles.insert(data.contact_triangles.end(), t.begin(), t.end());
   for (std::size_t i = 0; i < setup.surface.nodes.size(); ++i) {
-    data.surface_mesh_tag.push_back(mesh.node_tags[at(setup.surface.nodes[i])]);
+    data.surface_mesh_tag.push_back(mesh.node_tags[index(setup.surface.nodes[i])]);
     for (int c = 0; c < 3; ++c) data.surface_positions.push_back(setup.surface.positions[i][c]);
   }
 }
@@ -152,8 +150,8 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
   constexpr double kEnough = 0.05;
   std::vector<bool> wanted = accessible;
   for (const auto& t : surface.faces)
-    if (std::any_of(t.begin(), t.end(), [&](std::int32_t node) { return accessible[at(node)]; }))
-      for (const std::int32_t node : t) wanted[at(node)] = true;
+    if (std::any_of(t.begin(), t.end(), [&](std::int32_t node) { return accessible[index(node)]; }))
+      for (const std::int32_t node : t) wanted[index(node)] = true;
   std::vector<std::int32_t> centres;
   for (std::size_t node = 0; node < wanted.size(); ++node)
     if (wanted[node]) centres.push_back(static_cast<std::int32_t>(node));
@@ -166,7 +164,7 @@ ContactPositions contactPositions(const FeModel& model, const PatchSurface& surf
       patches.at(surface.atNode(static_cast<int>(node)), false, nodes);
       Patch patch = patchOf(surface, nodes);
       if (patch.nodes.empty() && !helpers)
-        throw CaseError("node " + std::to_string(mesh.node_tags[at(surface.nodes[node])]) +
+        throw CaseError("node " + std::to_string(mesh.node_tags[index(surface.nodes[node])]) +
                         ": its contact patch lies on clamped nodes only");
       if (helpers && patch.free_share < kEnough) continue;
       positions.nodes.push_back(static_cast<std::int32_t>(node));
@@ -187,7 +185,7 @@ SolverSetup::SolverSetup(const Case& c, const mesh::TetMesh& mesh)
 
 std::vector<double> SolverSetup::positionAreas() const {
   std::vector<double> areas;
-  for (const std::int32_t node : positions.nodes) areas.push_back(surface.areas[at(node)]);
+  for (const std::int32_t node : positions.nodes) areas.push_back(surface.areas[index(node)]);
   return areas;
 }
 

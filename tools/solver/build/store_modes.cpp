@@ -4,20 +4,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/index.h"
+
 namespace palpate::solver {
 
 namespace {
 
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Surface node of each volume node, -1 inside.
 std::vector<std::int32_t> surfaceNodeOf(const SolverSetup& setup) {
-  std::vector<std::int32_t> index(at(setup.model.nodeCount()), -1);
+  std::vector<std::int32_t> surface_node(index(setup.model.nodeCount()), -1);
   for (std::size_t i = 0; i < setup.surface.nodes.size(); ++i)
-    index[at(setup.surface.nodes[i])] = static_cast<std::int32_t>(i);
-  return index;
+    surface_node[index(setup.surface.nodes[i])] = static_cast<std::int32_t>(i);
+  return surface_node;
 }
 
 }  // namespace
@@ -35,7 +33,7 @@ void storeModes(const SolverSetup& setup, const Eigen::MatrixXf& X, const Eigen:
     const Patch& patch = setup.positions.patches[s];
     Eigen::MatrixXd average = Eigen::MatrixXd::Zero(3, X.cols());
     for (std::size_t i = 0; i < patch.nodes.size(); ++i)
-      average += patch.weights[i] * X.middleRows<3>(3 * surface_node[at(patch.nodes[i])]).cast<double>();
+      average += patch.weights[i] * X.middleRows<3>(3 * surface_node[index(patch.nodes[i])]).cast<double>();
     const Eigen::Index column = static_cast<Eigen::Index>(s) * C;
     Eigen::Map<Eigen::MatrixXd>(data.contact_displacement.data() + 3 * column, 3, C) =
         average * Y.middleCols(column, C).cast<double>();

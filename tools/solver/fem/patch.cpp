@@ -5,17 +5,15 @@
 #include <span>
 #include <utility>
 
+#include "core/base/index.h"
+
 namespace palpate::solver {
 
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::vector<Vec3> positionsOf(const FeModel& model, const std::vector<std::int32_t>& nodes) {
   std::vector<Vec3> positions;
-  for (const std::int32_t node : nodes) positions.push_back(model.nodes()[at(node)]);
+  for (const std::int32_t node : nodes) positions.push_back(model.nodes()[index(node)]);
   return positions;
 }
 
@@ -41,14 +39,14 @@ PatchSurface::PatchSurface(const FeModel& model, std::vector<std::int32_t> surfa
 
 Vec3 PatchSurface::position(const ContactPoint& s) const {
   Vec3 x = Vec3::Zero();
-  for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * positions[at(faces[at(s.triangle)][k])];
+  for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * positions[index(faces[index(s.triangle)][k])];
   return x;
 }
 
 std::vector<bool> PatchSurface::corners() const {
   std::vector<bool> corner(nodes.size(), false);
   for (const auto& face : faces)
-    for (const std::int32_t node : face) corner[at(node)] = true;
+    for (const std::int32_t node : face) corner[index(node)] = true;
   return corner;
 }
 
@@ -56,7 +54,7 @@ double PatchSurface::medianEdge() const {
   std::vector<double> lengths;
   for (const auto& t : faces)
     for (std::size_t k = 0; k < 3; ++k)
-      lengths.push_back((positions[at(t[k])] - positions[at(t[(k + 1) % 3])]).norm());
+      lengths.push_back((positions[index(t[k])] - positions[index(t[(k + 1) % 3])]).norm());
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
   return *middle;
@@ -70,7 +68,7 @@ std::vector<std::uint8_t> freeNodes(const FeModel& model, const PatchSurface& su
 
 Patch patchOf(const PatchSurface& surface, const PatchNodes& nodes) {
   Patch patch;
-  for (std::size_t i = 0; i < nodes.count; ++i) patch.nodes.push_back(surface.nodes[at(nodes.node[i])]);
+  for (std::size_t i = 0; i < nodes.count; ++i) patch.nodes.push_back(surface.nodes[index(nodes.node[i])]);
   patch.weights.assign(nodes.weight.begin(), nodes.weight.begin() + static_cast<std::ptrdiff_t>(nodes.count));
   patch.free_share = nodes.free_share;
   return patch;

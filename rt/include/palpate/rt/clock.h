@@ -7,6 +7,8 @@
 
 namespace palpate::rt {
 
+inline constexpr std::int64_t kMs = 1'000'000;  // ns
+
 // Trusted: clock_gettime() reads a page that the kernel keeps up to date (vDSO); there is no system call.
 PALPATE_TRUSTED_BEGIN
 /// Time on CLOCK_MONOTONIC, the only clock that decides anything here (deadlines, age of a pose), ns.

@@ -19,8 +19,8 @@ namespace {
 using program::Json;
 using query::test::BoxModel;
 
-constexpr double kTravel = 0.002;
-constexpr TouchRange kRange{kTravel, {}, false};
+constexpr double kExaminedTravel = 0.002;
+constexpr TouchRange kRange{kExaminedTravel, {}, false};
 constexpr std::uint64_t kSeed = 1;  // not that of the content, which another processor rounds otherwise
 
 /// The model of the box, and the same one spoiled: its forces are too large by 2 %.
@@ -45,10 +45,10 @@ class Box : public ::testing::Test {
 
   static Examination examined(const MetaModel& model, std::size_t samples, int threads = 2) {
     TouchSampler touches(model, kRange, kSeed);
-    return examine(model, box_->organ, touches, kTravel, {samples, threads});
+    return examine(model, box_->organ, touches, kExaminedTravel, {samples, threads});
   }
   static Json certificate(const MetaModel& model, std::size_t samples) {
-    return certificateOf(model, {{kTravel, "asked for"}, kRange, kSeed}, examined(model, samples));
+    return certificateOf(model, {{kExaminedTravel, "asked for"}, kRange, kSeed}, examined(model, samples));
   }
 };
 
@@ -98,14 +98,14 @@ TEST_F(Box, AGoodModelIsFoundGood) {
 TEST_F(Box, ForcesTooLargeByTwoPercentAreFoundSo) {
   const auto found = [](const MetaModel& model) {
     TouchSampler touches(model, kRange, kSeed);
-    return examine(model, box_->organ, touches, kTravel, {59, 2});
+    return examine(model, box_->organ, touches, kExaminedTravel, {59, 2});
   };
   const Examination good = found(box_->model), spoiled = found(*spoiled_);
   ASSERT_EQ(good.findings.size(), spoiled.findings.size());
   for (std::size_t i = 0; i < good.findings.size(); ++i)
     EXPECT_NEAR(spoiled.findings[i].force_error, kTooLarge - 1.0,
                 kTooLarge * good.findings[i].force_error + 1e-6);
-  const Drawing drawing{{kTravel, "asked for"}, kRange, kSeed};
+  const Drawing drawing{{kExaminedTravel, "asked for"}, kRange, kSeed};
   const Json c = certificateOf(*spoiled_, drawing, spoiled);
   EXPECT_NEAR(c["force_error"]["p50"].get<double>(), kTooLarge - 1.0, 0.003);
   EXPECT_GT(c["force_error"]["bound_95_95"].get<double>(), kTooLarge - 1.0);
@@ -114,7 +114,7 @@ TEST_F(Box, ForcesTooLargeByTwoPercentAreFoundSo) {
 
 TEST_F(Box, ATouchWithoutASolutionIsNotCertified) {
   Examination found = examined(box_->model, 5, 2);
-  const Drawing drawing{{kTravel, ""}, kRange, 1};
+  const Drawing drawing{{kExaminedTravel, ""}, kRange, 1};
   const auto share = [&] {
     return certificateOf(box_->model, drawing, found)["certified_area_fraction"].get<double>();
   };
@@ -136,8 +136,8 @@ TEST_F(Box, TooFewSamplesClaimNoBound) {
 }
 
 TEST_F(Box, AnswersDoNotDependOnTheThreads) {
-  EXPECT_EQ(certificateOf(box_->model, {{kTravel, ""}, kRange, 1}, examined(box_->model, 5, 1)),
-            certificateOf(box_->model, {{kTravel, ""}, kRange, 1}, examined(box_->model, 5, 2)));
+  EXPECT_EQ(certificateOf(box_->model, {{kExaminedTravel, ""}, kRange, 1}, examined(box_->model, 5, 1)),
+            certificateOf(box_->model, {{kExaminedTravel, ""}, kRange, 1}, examined(box_->model, 5, 2)));
 }
 
 TEST_F(Box, WhatIsBeyondTheDomainIsCountedApart) {
@@ -213,13 +213,13 @@ TEST_F(Box, ForcesOfTheFileWithoutAnEnergyAreFoundSo) {
 
 TEST_F(Box, TheFloorOfTheForceErrorIsOfTheForceAtTheTravel) {
   Finding finding;
-  finding.touch = TouchSampler(box_->model, {kTravel, 1e-6, false}, 4).next();
+  finding.touch = TouchSampler(box_->model, {kExaminedTravel, 1e-6, false}, 4).next();
   const query::FullSolution truth =
       box_->solve({finding.touch.s, finding.touch.position, 0}, finding.touch.d);
-  compare(*spoiled_, box_->organ, truth, kTravel, finding);
+  compare(*spoiled_, box_->organ, truth, kExaminedTravel, finding);
   Response at_touch, at_travel;
   ASSERT_EQ(respond(*spoiled_, finding.touch.s, finding.touch.d, at_touch), ResponseStatus::kOk);
-  (void)respond(*spoiled_, finding.touch.s, kTravel * finding.touch.d.normalized(), at_travel);
+  (void)respond(*spoiled_, finding.touch.s, kExaminedTravel * finding.touch.d.normalized(), at_travel);
   ASSERT_LT(truth.state.force.norm(), 0.05 * at_travel.force.norm());  // so short is the touch
   EXPECT_NEAR(finding.force_error,
               (at_touch.force - truth.state.force).norm() / (0.05 * at_travel.force.norm()), 1e-9);

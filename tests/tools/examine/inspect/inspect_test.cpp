@@ -29,7 +29,7 @@ TEST(Inspect, JsonHoldsWhatTheFileHolds) {
   const ProgramResult run = inspect({"--json", file.path().string()});
   ASSERT_EQ(run.exit_code, 0);
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_EQ(json["digest"]["sha256"].get<std::string>().substr(0, 40), json["model_id"]);
+  EXPECT_EQ(json["digest"]["sha256"].get<std::string>().substr(0, 40), json["model_id"].get<std::string>());
   EXPECT_TRUE(json["digest"]["verified"]);
   EXPECT_EQ(json["parameters"], "displacement");
   EXPECT_EQ(json["nodes"], 163);

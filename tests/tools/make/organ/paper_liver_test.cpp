@@ -18,13 +18,13 @@ namespace {
 
 using mesh::TetMesh;
 
-const TetMesh& liver() {
+const TetMesh& paperLiver() {
   static const TetMesh mesh = makePaperLiver();
   return mesh;
 }
 
 TEST(PaperLiver, HasTheSizeAndResolutionOfTheDesign) {
-  const mesh::MeshStatistics s = mesh::statisticsOf(liver(), mesh::boundaryOf(liver()));
+  const mesh::MeshStatistics s = mesh::statisticsOf(paperLiver(), mesh::boundaryOf(paperLiver()));
   EXPECT_GE(s.surface_nodes, 1700U);
   EXPECT_LE(s.surface_nodes, 2300U);
   const Eigen::Vector3d size = s.box_max - s.box_min;
@@ -34,17 +34,17 @@ TEST(PaperLiver, HasTheSizeAndResolutionOfTheDesign) {
 }
 
 TEST(PaperLiver, IsASoundMeshWithoutSlivers) {
-  EXPECT_NO_THROW(mesh::checkMesh(liver()));
-  EXPECT_GT(mesh::statisticsOf(liver(), mesh::boundaryOf(liver())).worst_quality, 0.2);
+  EXPECT_NO_THROW(mesh::checkMesh(paperLiver()));
+  EXPECT_GT(mesh::statisticsOf(paperLiver(), mesh::boundaryOf(paperLiver())).worst_quality, 0.2);
 }
 
 TEST(PaperLiver, HasNoSharpCrease) {
-  const auto boundary = mesh::boundaryOf(liver());
+  const auto boundary = mesh::boundaryOf(paperLiver());
   std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector3d>
       normals;  // by the edge as the triangle passes it
   for (const auto& t : boundary.triangles) {
     const auto at = [&](std::size_t i) -> const Eigen::Vector3d& {
-      return liver().nodes[static_cast<std::size_t>(boundary.nodes[static_cast<std::size_t>(t[i])])];
+      return paperLiver().nodes[static_cast<std::size_t>(boundary.nodes[static_cast<std::size_t>(t[i])])];
     };
     const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
     for (std::size_t i = 0; i < 3; ++i) normals[{t[i], t[(i + 1) % 3]}] = normal;
@@ -56,12 +56,12 @@ TEST(PaperLiver, HasNoSharpCrease) {
 }
 
 TEST(PaperLiver, IsHeldAtTheBackByOnePatch) {
-  const auto boundary = mesh::boundaryOf(liver());
-  const auto& fixed = liver().groups.at("fixed");
+  const auto boundary = mesh::boundaryOf(paperLiver());
+  const auto& fixed = paperLiver().groups.at("fixed");
   const double share = static_cast<double>(fixed.size()) / static_cast<double>(boundary.nodes.size());
   EXPECT_GE(share, 0.08);
   EXPECT_LE(share, 0.12);
-  for (const auto node : fixed) EXPECT_GT(liver().nodes[static_cast<std::size_t>(node)].y(), 0);
+  for (const auto node : fixed) EXPECT_GT(paperLiver().nodes[static_cast<std::size_t>(node)].y(), 0);
   // Walk over the surface's edges from one fixed node to all others.
   std::set<std::int32_t> wanted(fixed.begin(), fixed.end());
   std::set<std::int32_t> reached{fixed.front()};
@@ -80,12 +80,12 @@ TEST(PaperLiver, IsHeldAtTheBackByOnePatch) {
 }
 
 TEST(PaperLiver, AccessibleIsTheSurfaceAwayFromTheClamp) {
-  const auto& accessible = liver().groups.at("accessible");
-  for (const auto node : mesh::boundaryOf(liver()).nodes) {
+  const auto& accessible = paperLiver().groups.at("accessible");
+  for (const auto node : mesh::boundaryOf(paperLiver()).nodes) {
     double distance = 1.0;
-    for (const auto held : liver().groups.at("fixed"))
-      distance = std::min(distance, (liver().nodes[static_cast<std::size_t>(node)] -
-                                     liver().nodes[static_cast<std::size_t>(held)])
+    for (const auto held : paperLiver().groups.at("fixed"))
+      distance = std::min(distance, (paperLiver().nodes[static_cast<std::size_t>(node)] -
+                                     paperLiver().nodes[static_cast<std::size_t>(held)])
                                         .norm());
     EXPECT_EQ(std::binary_search(accessible.begin(), accessible.end(), node), distance >= 0.015) << node;
   }
@@ -93,14 +93,14 @@ TEST(PaperLiver, AccessibleIsTheSurfaceAwayFromTheClamp) {
 
 TEST(PaperLiver, ComesOutTheSameEveryTime) {
   const TetMesh again = makePaperLiver();
-  EXPECT_EQ(again.nodes, liver().nodes);
-  EXPECT_EQ(again.tetrahedra, liver().tetrahedra);
+  EXPECT_EQ(again.nodes, paperLiver().nodes);
+  EXPECT_EQ(again.tetrahedra, paperLiver().tetrahedra);
 }
 
 TEST(PaperLiver, GrowsFinerWithTheElementSize) {
   const TetMesh coarse = makePaperLiver(0.012);
   EXPECT_NO_THROW(mesh::checkMesh(coarse));
-  EXPECT_LT(coarse.nodes.size(), liver().nodes.size() / 2);
+  EXPECT_LT(coarse.nodes.size(), paperLiver().nodes.size() / 2);
 }
 
 TEST(PaperLiver, RefusesAnElementSizeOutOfRange) {

@@ -14,34 +14,34 @@ namespace {
 
 using mesh::enclosedVolume;
 
-constexpr double kRadius = 0.05;  // m
+constexpr double kBallRadius = 0.05;  // m
 
 TEST(RepairSurface, ASpoiledSphereHasTheVolumeOfTheSoundOne) {
-  const mesh::TriangleSurface spoiled = spoiledSphere(kRadius, 5);
+  const mesh::TriangleSurface spoiled = spoiledSphere(kBallRadius, 5);
   ASSERT_FALSE(mesh::surfaceDefects(spoiled).empty());
   Repairs repairs;
   const mesh::TriangleSurface whole = repairSurface(spoiled, repairs);
   EXPECT_TRUE(mesh::surfaceDefects(whole).empty());
   EXPECT_EQ(mesh::solidsOf(whole).size(), 1U);
-  const double sound = enclosedVolume(sphere(kRadius, 5));
+  const double sound = enclosedVolume(sphere(kBallRadius, 5));
   EXPECT_NEAR(enclosedVolume(whole) / sound, 1, 0.01);
   EXPECT_EQ(repairs.volume_after, enclosedVolume(whole));
 }
 
 TEST(RepairSurface, CountsWhatItChanged) {
   Repairs repairs;
-  (void)repairSurface(spoiledSphere(kRadius, 5), repairs);
+  (void)repairSurface(spoiledSphere(kBallRadius, 5), repairs);
   EXPECT_GE(repairs.crossing_pairs, 20U);
   EXPECT_EQ(repairs.holes, 2U);
   EXPECT_EQ(repairs.twins, 3U);
   EXPECT_EQ(repairs.flat, 1U);
   EXPECT_EQ(repairs.loose.size(), 10U);
   // One of the holes lies in a part that is turned over; which way a loose triangle faces says nothing.
-  mesh::TriangleSurface cut = sphere(kRadius, 5);
-  cutHole(cut, {0.2, 0.1, 1}, 2 * 1.6 * kRadius / 32);
+  mesh::TriangleSurface cut = sphere(kBallRadius, 5);
+  cutHole(cut, {0.2, 0.1, 1}, 2 * 1.6 * kBallRadius / 32);
   const auto turned = std::count_if(cut.triangles.begin(), cut.triangles.end(), [&](const auto& t) {
     const Eigen::Vector3d x = centreOf(cut, t);
-    return x.z() > 0.8 * kRadius || x.dot(Eigen::Vector3d(-0.6, 0.8, 0)) > 0.7 * kRadius;
+    return x.z() > 0.8 * kBallRadius || x.dot(Eigen::Vector3d(-0.6, 0.8, 0)) > 0.7 * kBallRadius;
   });
   EXPECT_NEAR(static_cast<double>(repairs.turned_over), static_cast<double>(turned), 10);
   std::string words;
@@ -53,7 +53,7 @@ TEST(RepairSurface, CountsWhatItChanged) {
 }
 
 TEST(RepairSurface, ASoundSurfaceStaysAsItIs) {
-  const mesh::TriangleSurface sound = sphere(kRadius, 3);
+  const mesh::TriangleSurface sound = sphere(kBallRadius, 3);
   Repairs repairs;
   const mesh::TriangleSurface same = repairSurface(sound, repairs);
   const auto sorted = [](std::vector<Eigen::Vector3d> points) {
@@ -68,7 +68,7 @@ TEST(RepairSurface, ASoundSurfaceStaysAsItIs) {
 }
 
 TEST(RepairSurface, TurnsAnInwardSurfaceOver) {
-  mesh::TriangleSurface inward = sphere(kRadius, 3);
+  mesh::TriangleSurface inward = sphere(kBallRadius, 3);
   for (auto& t : inward.triangles) std::swap(t[0], t[1]);
   Repairs repairs;
   EXPECT_GT(enclosedVolume(repairSurface(inward, repairs)), 0);
@@ -77,13 +77,13 @@ TEST(RepairSurface, TurnsAnInwardSurfaceOver) {
 
 // As when each facet was rounded by itself.
 TEST(RepairSurface, MergesVerticesThatNearlyCoincide) {
-  const mesh::TriangleSurface sound = sphere(kRadius, 3);
+  const mesh::TriangleSurface sound = sphere(kBallRadius, 3);
   mesh::TriangleSurface soup;
   for (std::size_t t = 0; t < sound.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       soup.triangles.resize(t + 1);
       soup.triangles[t][k] = static_cast<std::int32_t>(soup.vertices.size());
-      const double off = 1e-8 * kRadius * static_cast<double>((7 * t + k) % 5);
+      const double off = 1e-8 * kBallRadius * static_cast<double>((7 * t + k) % 5);
       soup.vertices.emplace_back(sound.vertices[static_cast<std::size_t>(sound.triangles[t][k])] +
                                  Eigen::Vector3d::Constant(off));
     }
@@ -97,21 +97,21 @@ TEST(RepairSurface, MergesVerticesThatNearlyCoincide) {
 }
 
 TEST(RepairSurface, RefusesAHoleThatIsTooLargeByItsPlaceAndSize) {
-  mesh::TriangleSurface open = sphere(kRadius, 4);
-  cutHole(open, {0, 0, 1}, 1.2 * kRadius);
+  mesh::TriangleSurface open = sphere(kBallRadius, 4);
+  cutHole(open, {0, 0, 1}, 1.2 * kBallRadius);
   Repairs repairs;
   EXPECT_REFUSED(repairSurface(open, repairs), "the hole at (", "spans 0.1", "25 %");
 }
 
 // Five unstitched patches are no body with loose pieces beside it.
 TEST(RepairSurface, KeepsPiecesThatAreMuchOfTheWhole) {
-  mesh::TriangleSurface patches = sphere(kRadius, 3);
+  mesh::TriangleSurface patches = sphere(kBallRadius, 3);
   mesh::TriangleSurface apart;
   for (const auto& t : patches.triangles) {
     const Eigen::Vector3d x = centreOf(patches, t);
     const double turn = std::atan2(x.y(), x.x());
     const auto patch = std::floor(5 * (turn + std::numbers::pi) / (2 * std::numbers::pi));
-    const Eigen::Vector3d shift = 0.1 * kRadius * patch * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d shift = 0.1 * kBallRadius * patch * Eigen::Vector3d::UnitZ();
     const auto first = static_cast<std::int32_t>(apart.vertices.size());
     for (const auto v : t) apart.vertices.push_back(patches.vertices[static_cast<std::size_t>(v)] + shift);
     apart.triangles.push_back({first, first + 1, first + 2});
@@ -123,14 +123,14 @@ TEST(RepairSurface, KeepsPiecesThatAreMuchOfTheWhole) {
 }
 
 TEST(RepairSurface, KeepsACavity) {
-  mesh::TriangleSurface hollow = sphere(kRadius, 4);
-  const mesh::TriangleSurface inner = sphere(0.4 * kRadius, 3);
+  mesh::TriangleSurface hollow = sphere(kBallRadius, 4);
+  const mesh::TriangleSurface inner = sphere(0.4 * kBallRadius, 3);
   const auto offset = static_cast<std::int32_t>(hollow.vertices.size());
   hollow.vertices.insert(hollow.vertices.end(), inner.vertices.begin(), inner.vertices.end());
   for (const auto& t : inner.triangles)
     hollow.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   numberFromOne(hollow);
-  cutHole(hollow, {1, 0, 0}, 0.3 * kRadius);
+  cutHole(hollow, {1, 0, 0}, 0.3 * kBallRadius);
   Repairs repairs;
   const auto solids = mesh::solidsOf(repairSurface(hollow, repairs));
   ASSERT_EQ(solids.size(), 1U);
