@@ -5,6 +5,8 @@
 # differ. SKIP_UNITY_BUILD_INCLUSION excepts one; -DCMAKE_UNITY_BUILD=OFF compiles each by itself.
 option(CMAKE_UNITY_BUILD "Compile sources of a target eight at a time" ON)
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+# Such a unit names its sources by their folder: without it in __FILE__, ccache finds again what it compiled in another clone.
+add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 # gcc takes a source that another includes for a header, whose classes should hold nothing of an unnamed namespace.
 target_compile_options(palpate_options INTERFACE
   $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<COMPILE_LANG_AND_ID:CXX,GNU>>:-Wno-subobject-linkage>)
@@ -25,6 +27,9 @@ set(PALPATE_STANDARD_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <fil
 set(PALPATE_PRECOMPILED_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow>")
 
 if(PALPATE_PRECOMPILE)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)  # what ccache asks for
+  endif()
   find_package(Eigen3 REQUIRED NO_MODULE)
   add_library(palpate_headers STATIC EXCLUDE_FROM_ALL ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
   target_link_libraries(palpate_headers PRIVATE palpate_options Eigen3::Eigen)
@@ -32,7 +37,7 @@ if(PALPATE_PRECOMPILE)
 endif()
 
 # palpate_precompiled(library...): static libraries whose sources mostly include Eigen or the standard library. Not under
-# gcc's sanitizers: that build keeps the warnings.
+# gcc's sanitizers: those builds keep the warnings.
 function(palpate_precompiled)
   if(PALPATE_PRECOMPILE AND (NOT PALPATE_SANITIZE OR CMAKE_CXX_COMPILER_ID STREQUAL "Clang"))
     foreach(library IN LISTS ARGN)

@@ -35,7 +35,7 @@ std::string memoryText(const Startup& startup) {
   return startup.model_locked ? "all, and what comes" : "all but the model";
 }
 
-bool hasReceivePriority(std::string_view name) {
+bool isNamedReceiver(std::string_view name) {
   return std::find(std::begin(kReceiveThreads), std::end(kReceiveThreads), name) != std::end(kReceiveThreads);
 }
 
@@ -45,7 +45,7 @@ int wantedPriority(std::string_view thread) noexcept {
   if (thread == "tick") return kTickPriority;
   if (thread == "force-out") return kForcePriority;
   if (thread == "surface-out") return kSurfacePriority;
-  return hasReceivePriority(thread) ? kReceivePriority : 0;
+  return isNamedReceiver(thread) ? kReceivePriority : 0;
 }
 
 std::vector<std::string> startupTable(const Startup& startup) {
@@ -54,7 +54,7 @@ std::vector<std::string> startupTable(const Startup& startup) {
   for (const rt::ThreadFacts& thread : startup.threads) {
     lines.push_back(row(thread.name, priorityText(wanted(startup, thread)),
                         priorityText(thread.fifo_priority), rt::cpuList(thread.cpus)));
-    receiving += hasReceivePriority(thread.name) && thread.fifo_priority == kReceivePriority ? 1 : 0;
+    receiving += isNamedReceiver(thread.name) && thread.fifo_priority == kReceivePriority ? 1 : 0;
   }
   const bool asked = startup.policy != rt::RealtimePolicy::kOff;
   lines.push_back(

@@ -20,12 +20,13 @@
 
 namespace palpate::faults {
 
+using palpate::testing::ServerProcess;
+using std::chrono::milliseconds;
+
+/// Nanoseconds in milliseconds.
 inline double ms(std::int64_t ns) {
   return 1e-6 * static_cast<double>(ns);
 }
-
-using palpate::testing::ServerProcess;
-using std::chrono::milliseconds;
 
 /// The promise: how long after a fault a force may be left, ms (docs/faults.md).
 inline constexpr double kZeroWithin = 50.0;

@@ -17,35 +17,37 @@
 namespace palpate::rt {
 namespace {
 
-constexpr std::int64_t kCycle = 1'000'000;
+constexpr std::int64_t kTestPeriod = 1'000'000;
 
 TEST(NextDeadline, IsOnePeriodLaterWhenTheCycleWasOnTime) {
-  const Deadline next = nextDeadline(5 * kCycle, kCycle, 5 * kCycle + kCycle / 3);
-  EXPECT_EQ(next.ns, 6 * kCycle);
+  const Deadline next = nextDeadline(5 * kTestPeriod, kTestPeriod, 5 * kTestPeriod + kTestPeriod / 3);
+  EXPECT_EQ(next.ns, 6 * kTestPeriod);
   EXPECT_EQ(next.missed, 0U);
 }
 
 TEST(NextDeadline, SkipsWhatIsPastAndKeepsThePhase) {
-  const Deadline next = nextDeadline(5 * kCycle, kCycle, 8 * kCycle + 1);
-  EXPECT_EQ(next.ns, 9 * kCycle);
+  const Deadline next = nextDeadline(5 * kTestPeriod, kTestPeriod, 8 * kTestPeriod + 1);
+  EXPECT_EQ(next.ns, 9 * kTestPeriod);
   EXPECT_EQ(next.missed, 3U);
 }
 
 TEST(NextDeadline, IsNeverInThePast) {
-  for (std::int64_t now = 0; now < 5 * kCycle; now += 77'777) EXPECT_GT(nextDeadline(0, kCycle, now).ns, now);
+  for (std::int64_t now = 0; now < 5 * kTestPeriod; now += 77'777)
+    EXPECT_GT(nextDeadline(0, kTestPeriod, now).ns, now);
 }
 
 TEST(NextDeadline, AShiftMovesTheGridAndIsNeverAReasonToMissAPeriod) {
   for (const std::int64_t shift : {-10'000, 10'000}) {
-    const Deadline next = nextDeadline(5 * kCycle, kCycle, 5 * kCycle + kCycle / 3, shift);
-    EXPECT_EQ(next.ns, 6 * kCycle + shift);
+    const Deadline next =
+        nextDeadline(5 * kTestPeriod, kTestPeriod, 5 * kTestPeriod + kTestPeriod / 3, shift);
+    EXPECT_EQ(next.ns, 6 * kTestPeriod + shift);
     EXPECT_EQ(next.missed, 0U);
   }
-  const std::int64_t busy_until = 6 * kCycle - 4'000;  // later than the shifted deadline
-  const Deadline next = nextDeadline(5 * kCycle, kCycle, busy_until, -10'000);
+  const std::int64_t busy_until = 6 * kTestPeriod - 4'000;  // later than the shifted deadline
+  const Deadline next = nextDeadline(5 * kTestPeriod, kTestPeriod, busy_until, -10'000);
   EXPECT_EQ(next.ns, busy_until + 1);
   EXPECT_EQ(next.missed, 0U);
-  EXPECT_EQ(nextDeadline(5 * kCycle, kCycle, 8 * kCycle + 1, 10'000).missed, 3U);
+  EXPECT_EQ(nextDeadline(5 * kTestPeriod, kTestPeriod, 8 * kTestPeriod + 1, 10'000).missed, 3U);
 }
 
 struct Log {
@@ -62,7 +64,7 @@ std::int64_t logCycle(void* context, const Cycle& cycle) noexcept {
   if (log.count == Log::kCycles) return 0;
   log.cycles[log.count] = cycle;
   if (log.count == 10 && log.pause) {
-    const timespec pause = toTimespec(5 * kCycle + kCycle / 2);
+    const timespec pause = toTimespec(5 * kTestPeriod + kTestPeriod / 2);
     nanosleep(&pause, nullptr);
   }
   if (++log.count == Log::kCycles) log.done.post();
@@ -85,7 +87,7 @@ TEST(PeriodicThread, WhoseCycleDoesNotEndIsWaitedForOnlySoLong) {
     }
     return 0;
   };
-  PeriodicThread thread({"test-spins"}, kCycle, cycle, &spin);
+  PeriodicThread thread({"test-spins"}, kTestPeriod, cycle, &spin);
   while (!spin.began) std::this_thread::yield();  // a thread told to stop before its first cycle makes none
   EXPECT_FALSE(thread.joinWithin(std::chrono::milliseconds(20)));
   spin.go_on = true;
@@ -94,7 +96,7 @@ TEST(PeriodicThread, WhoseCycleDoesNotEndIsWaitedForOnlySoLong) {
 
 TEST(PeriodicThread, MissedPeriodsAreCountedAndNeverBunched) {
   Log log;
-  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kCycle, kLogCycle, &log);
+  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kTestPeriod, kLogCycle, &log);
   log.done.wait();
   thread.stop();
   EXPECT_FALSE(thread.realtime());
@@ -107,12 +109,12 @@ TEST(PeriodicThread, MissedPeriodsAreCountedAndNeverBunched) {
     EXPECT_EQ(cycle.index, i);
     EXPECT_GE(cycle.woke_ns, cycle.deadline_ns) << "woke before it was due";
     EXPECT_GE(cycle.deadline_ns, last.woke_ns) << "due before the last one began";
-    const std::int64_t periods = (cycle.deadline_ns - last.deadline_ns) / kCycle;
-    EXPECT_EQ((cycle.deadline_ns - last.deadline_ns) % kCycle, 0) << "left the grid";
+    const std::int64_t periods = (cycle.deadline_ns - last.deadline_ns) / kTestPeriod;
+    EXPECT_EQ((cycle.deadline_ns - last.deadline_ns) % kTestPeriod, 0) << "left the grid";
     EXPECT_EQ(static_cast<std::int64_t>(cycle.overruns - last.overruns), periods - 1) << "miscounted";
   }
   EXPECT_GE(log.cycles[11].overruns - log.cycles[10].overruns, 5U);
-  EXPECT_GE(log.cycles[11].previous_ns, 5 * kCycle);
+  EXPECT_GE(log.cycles[11].previous_ns, 5 * kTestPeriod);
 }
 
 // Shifts the grid by 1 % of a period in each cycle: it moves by exactly that, and no period is missed.
@@ -128,7 +130,7 @@ PALPATE_TRUSTED_END
 TEST(PeriodicThread, MovesItsGridByWhatTheCycleAsksFor) {
   Log log;
   log.pause = false;
-  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kCycle, kShiftCycle, &log);
+  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kTestPeriod, kShiftCycle, &log);
   log.done.wait();
   thread.stop();
   for (std::size_t i = 1; i < Log::kCycles; ++i) {
@@ -136,7 +138,7 @@ TEST(PeriodicThread, MovesItsGridByWhatTheCycleAsksFor) {
     const auto periods = static_cast<std::int64_t>(1 + cycle.overruns - last.overruns);
     if (last.woke_ns + cycle.previous_ns >= cycle.deadline_ns - 1)
       continue;  // a stall ended in the last microseconds
-    const std::int64_t shift = cycle.deadline_ns - last.deadline_ns - periods * kCycle;
+    const std::int64_t shift = cycle.deadline_ns - last.deadline_ns - periods * kTestPeriod;
     EXPECT_EQ(shift, last.index < 20 ? 10'000 : -10'000) << i;
   }
 }
@@ -165,11 +167,11 @@ void rehearse(void* context) noexcept PALPATE_NONBLOCKING {
 }
 
 TEST(PeriodicThread, RehearsesOnceBeforeEachDeadlineThatItWakesBefore) {
-  constexpr std::int64_t kLead = kCycle / 4;
+  constexpr std::int64_t kLead = kTestPeriod / 4;
   Rehearsed rehearsed;
   rehearsed.log.pause = false;
-  PeriodicThread thread({"test-rehearsal", 0, RealtimePolicy::kOff}, kCycle, kCycleOfRehearsed, &rehearsed,
-                        {}, {rehearse, &rehearsed, kLead});
+  PeriodicThread thread({"test-rehearsal", 0, RealtimePolicy::kOff}, kTestPeriod, kCycleOfRehearsed,
+                        &rehearsed, {}, {rehearse, &rehearsed, kLead});
   rehearsed.log.done.wait();
   thread.stop();
   int times = 0;
@@ -191,17 +193,17 @@ TEST(PeriodicThread, RehearsesOnceBeforeEachDeadlineThatItWakesBefore) {
 TEST(AwaitDeadline, ThatIsPastDoesNotRehearse) {
   Rehearsed rehearsed;
   const std::int64_t now_ns = monotonicNow();
-  EXPECT_GE(awaitDeadline(now_ns, {rehearse, &rehearsed, kCycle}, 0), now_ns);
+  EXPECT_GE(awaitDeadline(now_ns, {rehearse, &rehearsed, kTestPeriod}, 0), now_ns);
   EXPECT_EQ(rehearsed.rehearsals[0], 0);
-  const std::int64_t due_ns = monotonicNow() + 5 * kCycle;
+  const std::int64_t due_ns = monotonicNow() + 5 * kTestPeriod;
   EXPECT_GE(awaitDeadline(due_ns, {}, 0), due_ns);
 }
 
 TEST(AwaitDeadline, AfterALongCycleDoesNotRehearse) {
   Rehearsed rehearsed;
-  constexpr std::int64_t kLead = 20 * kCycle;
+  constexpr std::int64_t kLead = 20 * kTestPeriod;
   const auto await = [&](std::int64_t previous_ns) {
-    const std::int64_t due_ns = monotonicNow() + kLead + kCycle;
+    const std::int64_t due_ns = monotonicNow() + kLead + kTestPeriod;
     EXPECT_GE(awaitDeadline(due_ns, {rehearse, &rehearsed, kLead}, previous_ns), due_ns);
     return rehearsed.rehearsals[0];
   };
@@ -231,7 +233,7 @@ void noteLate(void* context, const LateCycle& cycle) noexcept PALPATE_NONBLOCKIN
 TEST(PeriodicThread, TellsOfEachLateCycleWhatTheKernelSaysOfIt) {
   Log log;
   LateLog late;
-  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kCycle, kLogCycle, &log,
+  PeriodicThread thread({"test-periodic", 0, RealtimePolicy::kOff}, kTestPeriod, kLogCycle, &log,
                         {noteLate, &late});
   log.done.wait();
   thread.stop();
@@ -242,13 +244,13 @@ TEST(PeriodicThread, TellsOfEachLateCycleWhatTheKernelSaysOfIt) {
   ASSERT_NE(paused, late.cycles.begin() + late.count) << "the cycle that blocked is not among the late ones";
   EXPECT_GE(paused->missed, 5U);
   EXPECT_EQ(paused->woke_ns, log.cycles[10].woke_ns);
-  EXPECT_GE(paused->ended.at_ns - paused->woke_ns, 5 * kCycle);
-  EXPECT_LT(paused->ended.cpu_ns - paused->before.cpu_ns, 3 * kCycle) << "it slept";
+  EXPECT_GE(paused->ended.at_ns - paused->woke_ns, 5 * kTestPeriod);
+  EXPECT_LT(paused->ended.cpu_ns - paused->before.cpu_ns, 3 * kTestPeriod) << "it slept";
   EXPECT_GE(paused->ended.waits - paused->before.waits, 1);
   EXPECT_LE(paused->before.at_ns, paused->deadline_ns);
   for (std::size_t i = 0; i < late.count; ++i) {
     const LateCycle& cycle = late.cycles[i];
-    EXPECT_TRUE(cycle.missed > 0 || cycle.woke_ns - cycle.deadline_ns > kCycle / 2) << i;
+    EXPECT_TRUE(cycle.missed > 0 || cycle.woke_ns - cycle.deadline_ns > kTestPeriod / 2) << i;
   }
 }
 

@@ -17,7 +17,7 @@ void inRange(const char* name, Number value, std::type_identity_t<Number> low,
   throw Error(line.str());
 }
 
-/// What a caller gives. @throw std::invalid_argument
+/// inRange() of what a caller of a function gives. @throw std::invalid_argument
 inline constexpr auto& requireRange = inRange<std::invalid_argument, double>;
 
 }  // namespace palpate::device

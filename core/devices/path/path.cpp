@@ -29,7 +29,7 @@ Point tangentOf(const Point& normal) noexcept {
   return (1.0 / length(along)) * along;
 }
 
-double minimumJerk(double x) noexcept {
+double minimumJerk(double x) noexcept PALPATE_NONBLOCKING {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
 }
@@ -45,7 +45,7 @@ Path::Path(const Point& start, std::vector<Leg> legs) : start_(start), legs_(std
   }
 }
 
-std::size_t Path::indexAt(double t) const noexcept {
+std::size_t Path::indexAt(double t) const noexcept PALPATE_NONBLOCKING {
   const auto found = std::upper_bound(ends_.begin(), ends_.end(), t);
   return std::min(static_cast<std::size_t>(found - ends_.begin()), legs_.size() - 1);
 }
@@ -57,7 +57,7 @@ Point Path::at(double t) const noexcept PALPATE_NONBLOCKING {
   return from + minimumJerk(x) * (legs_[i].target - from);
 }
 
-const std::string& Path::legAt(double t) const noexcept {
+const std::string& Path::legAt(double t) const noexcept PALPATE_NONBLOCKING {
   return legs_[indexAt(t)].name;
 }
 

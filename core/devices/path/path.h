@@ -22,7 +22,7 @@ struct Point : std::array<double, 3> {};
 
 /// The minimum-jerk profile 10 x^3 - 15 x^4 + 6 x^5: from 0 to 1 with velocity and acceleration zero at both
 /// ends (T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688-1703). @param[in] x  clamped to [0, 1]
-[[nodiscard]] double minimumJerk(double x) noexcept;
+[[nodiscard]] double minimumJerk(double x) noexcept PALPATE_NONBLOCKING;
 
 /// One leg of a path.
 struct Leg {
@@ -40,7 +40,7 @@ class Path {
   /// Real-time: yes. Threads: any.
   [[nodiscard]] Point at(double t) const noexcept PALPATE_NONBLOCKING;
   /// Name of the leg at time t. Real-time: yes.
-  [[nodiscard]] const std::string& legAt(double t) const noexcept;
+  [[nodiscard]] const std::string& legAt(double t) const noexcept PALPATE_NONBLOCKING;
   [[nodiscard]] double seconds() const noexcept { return ends_.back(); }
 
   /// The same path in another duration.
@@ -48,7 +48,7 @@ class Path {
   [[nodiscard]] Path stretchedTo(double seconds) const;
 
  private:
-  [[nodiscard]] std::size_t indexAt(double t) const noexcept;
+  [[nodiscard]] std::size_t indexAt(double t) const noexcept PALPATE_NONBLOCKING;
 
   Point start_;
   std::vector<Leg> legs_;

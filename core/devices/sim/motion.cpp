@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/devices/sim/motion.h"
 
+#include <stdexcept>
+
 #include "core/devices/path/in_range.h"
 
 namespace palpate::device {

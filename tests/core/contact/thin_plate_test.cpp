@@ -12,7 +12,7 @@ namespace palpate::testing {
 
 namespace {
 
-constexpr double kHalfThickness = 0.001;  // of the thickness, m
+constexpr double kHalfThickness = 0.001;  // m
 constexpr double kStiffness = kPlateStiffness;
 
 const MetaModel& thinnestPlate() {

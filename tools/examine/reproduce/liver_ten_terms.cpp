@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kMedianTravel =
-    8e-3;  // m, median displacement of the contact under the load in linear theory
+// m, median displacement of the contact under the load in linear theory
+constexpr double kMedianTravel = 8e-3;
 
 /// Evenly chosen positions, as touches under the study's load.
 std::vector<Touch> someOf(const solver::SolverSetup& setup, const Vec3& load, int count,

@@ -10,29 +10,29 @@ namespace palpate::solver {
 
 namespace {
 
-std::size_t sized(Eigen::Index i) {
+std::size_t indexOf(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
 
 /// Zeros wherever two free nodes share an element.
 SparseMatrix patternOf(const FeModel& model) {
-  std::vector<std::vector<int>> neighbours(sized(model.nodeCount()));
+  std::vector<std::vector<int>> neighbours(indexOf(model.nodeCount()));
   for (int e = 0; e < model.elementCount(); ++e)
     for (const int a : model.elementNodes(e))
       for (const int b : model.elementNodes(e))
-        if (model.isFree(a) && model.isFree(b)) neighbours[sized(a)].push_back(model.dof(b));
+        if (model.isFree(a) && model.isFree(b)) neighbours[indexOf(a)].push_back(model.dof(b));
   SparseMatrix K(model.dofCount(), model.dofCount());
-  std::vector<int> counts(sized(model.dofCount()));
+  std::vector<int> counts(indexOf(model.dofCount()));
   for (int node = 0; node < model.nodeCount(); ++node) {
-    auto& list = neighbours[sized(node)];
+    auto& list = neighbours[indexOf(node)];
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     if (model.isFree(node))
-      for (int c = 0; c < 3; ++c) counts[sized(model.dof(node) + c)] = static_cast<int>(3 * list.size());
+      for (int c = 0; c < 3; ++c) counts[indexOf(model.dof(node) + c)] = static_cast<int>(3 * list.size());
   }
   K.reserve(counts);
   for (int node = 0; node < model.nodeCount(); ++node)
-    for (const int first : neighbours[sized(node)])
+    for (const int first : neighbours[indexOf(node)])
       for (int c = 0; c < 3; ++c)
         for (int r = 0; r < 3; ++r) K.insert(first + r, model.dof(node) + c) = 0.0;
   K.makeCompressed();
@@ -54,7 +54,7 @@ BodyProblem::BodyProblem(const FeModel& model, SparseMatrix loads, Eigen::Vector
                                 std::to_string(loads_.cols()) + ", weights " +
                                 std::to_string(weights_.size()) + "; expected " +
                                 std::to_string(model.dofCount()) + " rows and as many columns as weights");
-  places_.reserve(sized(model.elementCount()) * 9 * (model.isQuadratic() ? 100 : 16));
+  places_.reserve(indexOf(model.elementCount()) * 9 * (model.isQuadratic() ? 100 : 16));
   for (int e = 0; e < model.elementCount(); ++e) {
     const std::span<const std::int32_t> nodes = model.elementNodes(e);
     for (std::size_t b = 0; b < 3 * nodes.size(); ++b)

@@ -7,7 +7,7 @@
 
 namespace palpate::rt {
 
-inline constexpr std::int64_t kMs = 1'000'000;  // ns
+inline constexpr std::int64_t kMs = 1'000'000;  ///< a millisecond, ns
 
 // Trusted: clock_gettime() reads a page that the kernel keeps up to date (vDSO); there is no system call.
 PALPATE_TRUSTED_BEGIN
