@@ -5,7 +5,7 @@
 # differ. SKIP_UNITY_BUILD_INCLUSION excepts one; -DCMAKE_UNITY_BUILD=OFF compiles each by itself.
 option(CMAKE_UNITY_BUILD "Compile sources of a target eight at a time" ON)
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
-# Such a unit names its sources by their folder: without it in __FILE__, ccache finds again what it compiled in another clone.
+# Such a unit names its sources by their folder. __FILE__ leaves it out, so that ccache finds what it compiled in another clone.
 add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 # gcc takes a source that another includes for a header, whose classes should hold nothing of an unnamed namespace.
 target_compile_options(palpate_options INTERFACE
