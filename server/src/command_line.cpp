@@ -143,7 +143,8 @@ void declare(program::Options line, Given& given) {
   line.flag("--addressed-only,!--no-addressed-only", &given.addressed_only,
             "Answers only poses that name this server, so that several may share a domain");
   line.add("--listen-first", &given.listen_first,
-           "How long to listen for other servers before the first force, s, 0 to 10, default 0.5")
+           "How long to listen for other servers before the first force, s, 0 to 10, default 0.5; 0: not at "
+           "all")
       .valueName("S");
 }
 

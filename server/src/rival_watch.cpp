@@ -32,6 +32,7 @@ RivalWatch::RivalWatch(const dds::Participant& participant, const Facts& facts, 
             static_cast<RivalBook*>(book)->heardForce(force, writer, rt::monotonicNow());
           },
           &book_, dds::Hears::kOthers) {
+  if (seconds <= 0.0) return;
   // Servers say once a second what they answer; while this one listens it also wants what they said last.
   const dds::Tap<dds::ServerStatus> last(participant, &heardStatus, &book_, dds::Hears::kOthers,
                                          dds::Wants::kHistory);

@@ -32,8 +32,7 @@ struct RivalNews {
 class RivalWatch {
  public:
   /// Says each 100 ms that this server starts, and listens for `seconds`; up to 1.5 s longer where it hears forces and not yet
-  /// whose they are. Goes on hearing other servers afterwards. `facts` must
-  /// outlive the watch.
+  /// whose they are; with 0 neither. Goes on hearing other servers afterwards. `facts` must outlive the watch.
   /// @throw RivalError (this server is not to begin), dds::DdsError
   RivalWatch(const dds::Participant& participant, const Facts& facts, StatusPublisher& status,
              double seconds);
