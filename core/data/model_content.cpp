@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <limits>
 #include <span>
 
 #include "core/base/multi_index.h"
@@ -37,6 +38,13 @@ const char* typeName(const RegionName&) {
   return "text64";
 }
 
+bool fitInOneByte(const WholeNumbers& values) {
+  using Byte = std::numeric_limits<std::int8_t>;
+  const std::span<const std::int16_t> numbers(values.int16(), values.int8() != nullptr ? 0 : values.size());
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [](std::int16_t number) { return number >= Byte::min() && number <= Byte::max(); });
+}
+
 /// Adds one part after the other: a line that says how many bytes follow, then these.
 class ContentHash {
  public:
@@ -46,17 +54,18 @@ class ContentHash {
     begin(name, type, shape);
     hash_.add(std::as_bytes(values));
   }
-  /// As if each number had two bytes.
+  /// Of one byte each where that holds all of them, however the file has them.
   void add(const std::string& name, const char* type, const std::vector<std::uint64_t>& shape,
            const WholeNumbers& values) {
-    begin(name, type, shape);
-    if (values.int8() == nullptr) return hash_.add(std::as_bytes(std::span(values.int16(), values.size())));
-    std::array<std::int16_t, 1024> some{};  // less than Sha256::kCopied, since it is gone when the page looks
+    if (!fitInOneByte(values)) return add(name, type, shape, std::span(values.int16(), values.size()));
+    begin(name, "i8", shape);
+    if (values.int8() != nullptr) return hash_.add(values.asBytes());
+    std::array<std::int8_t, 2048> some{};  // less than Sha256::kCopied, since it is gone when the page looks
     static_assert(sizeof some < Sha256::kCopied);
     for (std::size_t i = 0; i < values.size(); i += some.size()) {
       const std::size_t count = std::min(some.size(), values.size() - i);
-      for (std::size_t k = 0; k < count; ++k) some[k] = static_cast<std::int16_t>(values[i + k]);
-      hash_.add(std::as_bytes(std::span<const std::int16_t>(some).first(count)));
+      for (std::size_t k = 0; k < count; ++k) some[k] = static_cast<std::int8_t>(values[i + k]);
+      hash_.add(std::as_bytes(std::span<const std::int8_t>(some).first(count)));
     }
   }
   void operator()(const char* name, const std::string& text) {

@@ -15,7 +15,7 @@
 namespace palpate {
 
 /// Of the model file: what it holds and how.
-inline constexpr int kModelVersion = 5;
+inline constexpr int kModelVersion = 6;
 
 /// Attributes that answers depend on, as a file has them. visit(name, value) gets texts, doubles, int32s and
 /// arrays of doubles. @param[in] a  force_order as in the file, not 0

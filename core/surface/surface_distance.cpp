@@ -88,7 +88,10 @@ std::vector<double> SurfaceGraph::lumpedAreas() const {
 }
 
 SurfaceFront::SurfaceFront(const SurfaceGraph& graph)
-    : graph_(graph), distance_(index(graph.nodes())), state_(index(graph.nodes()), State::kUnseen) {}
+    : graph_(graph),
+      distance_(index(graph.nodes())),
+      state_(index(graph.nodes()), State::kUnseen),
+      place_(index(graph.nodes())) {}
 
 const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactPoint& s, double bound) {
   forget();
@@ -98,9 +101,7 @@ const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactP
   for (std::size_t k = 0; k < 3; ++k) x += s.barycentric[k] * graph_.position(corner[k]);
   for (const std::int32_t node : corner) offer(node, (graph_.position(node) - x).norm());
   while (!queue_.empty()) {
-    const auto [distance, node] = queue_.top();
-    queue_.pop();
-    if (state_[index(node)] == State::kSettled) continue;
+    const auto [distance, node] = takeNearest();
     state_[index(node)] = State::kSettled;
     settled_.emplace_back(node, distance);
     for (const std::int32_t t : graph_.trianglesOf(node)) spread(t, node);
@@ -109,13 +110,45 @@ const std::vector<SurfaceFront::NodeDistance>& SurfaceFront::from(const ContactP
 }
 
 void SurfaceFront::offer(std::int32_t node, double distance) {
-  if (distance >= bound_) return;
+  if (!(distance < bound_)) return;
   State& state = state_[index(node)];
   if (state == State::kOffered && distance_[index(node)] <= distance) return;
-  if (state == State::kUnseen) seen_.push_back(node);
+  if (state == State::kUnseen) {
+    seen_.push_back(node);
+    place_[index(node)] = queue_.size();
+    queue_.emplace_back();
+  }
   state = State::kOffered;
   distance_[index(node)] = distance;
-  queue_.emplace(distance, node);
+  rise(place_[index(node)], {distance, node});
+}
+
+/// Puts an entry into a place, or above it.
+void SurfaceFront::rise(std::size_t place, const Entry& entry) {
+  while (place > 0) {
+    const std::size_t above = (place - 1) / 2;
+    if (queue_[above] <= entry) break;
+    queue_[place] = queue_[above];
+    place_[index(queue_[place].second)] = place;
+    place = above;
+  }
+  queue_[place] = entry;
+  place_[index(entry.second)] = place;
+}
+
+/// The gap at the top moves down along the nearer children; the last entry fills it and rises.
+SurfaceFront::Entry SurfaceFront::takeNearest() {
+  const Entry nearest = queue_.front(), last = queue_.back();
+  queue_.pop_back();
+  std::size_t place = 0;
+  for (std::size_t below = 1; below < queue_.size(); below = 2 * place + 1) {
+    if (below + 1 < queue_.size() && queue_[below + 1] < queue_[below]) ++below;
+    queue_[place] = queue_[below];
+    place_[index(queue_[place].second)] = place;
+    place = below;
+  }
+  if (!queue_.empty()) rise(place, last);
+  return nearest;
 }
 
 void SurfaceFront::spread(std::int32_t triangle, std::int32_t node) {
@@ -124,6 +157,7 @@ void SurfaceFront::spread(std::int32_t triangle, std::int32_t node) {
   const std::size_t one = (k + 1) % 3, other = (k + 2) % 3;
   const std::int32_t a = nodes[one], b = nodes[other];
   const double distance = distance_[index(node)];
+  // What is settled is not offered again.
   const bool has_a = state_[index(a)] == State::kSettled, has_b = state_[index(b)] == State::kSettled;
   if (has_a && has_b) return;
   if (has_a) {
@@ -141,6 +175,7 @@ void SurfaceFront::forget() {
   for (const std::int32_t node : seen_) state_[index(node)] = State::kUnseen;
   seen_.clear();
   settled_.clear();
+  queue_.clear();
 }
 
 }  // namespace palpate

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <queue>
 #include <span>
 #include <utility>
 #include <vector>
@@ -82,18 +81,22 @@ class SurfaceFront {
  private:
   enum class State : std::uint8_t { kUnseen, kOffered, kSettled };
 
+  using Entry = std::pair<double, std::int32_t>;  // of the queue: distance, node
+
   void offer(std::int32_t node, double distance);
   void spread(std::int32_t triangle, std::int32_t node);
   void forget();
+  void rise(std::size_t place, const Entry& entry);
+  [[nodiscard]] Entry takeNearest();
 
-  using Entry = std::pair<double, std::int32_t>;
   const SurfaceGraph& graph_;
   double bound_{0.0};
   std::vector<double> distance_;    ///< [Ns] tentative, then settled
   std::vector<State> state_;        ///< [Ns]
   std::vector<std::int32_t> seen_;  ///< whose state is to be forgotten
   std::vector<NodeDistance> settled_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  std::vector<Entry> queue_;        ///< a heap; each offered node once, so that a nearer offer moves it
+  std::vector<std::size_t> place_;  ///< [Ns] of offered nodes, in the queue
 };
 
 }  // namespace palpate

@@ -33,6 +33,7 @@ const completed: Plugin = {
 export default defineConfig({
   base: './',
   plugins: [completed],
+  esbuild: { charset: 'ascii' }, // a letter that takes two bytes makes browsers take two for all
   worker: { format: 'es' }, // the model's worker fetches its parts when it needs them
   build: {
     outDir: out,

@@ -138,7 +138,7 @@ std::vector<WrongLayout> layouts() {
       {{"NoModelAtAll", "attribute format is missing"},
        [](const auto& p) { deleteThing(p, "format", nullptr); }},
       {{"Version",
-        ".h5: version 2 of the model file; this program reads version 5: solve the organ again with "
+        ".h5: version 2 of the model file; this program reads version 6: solve the organ again with "
         "palpate-solve"},
        [](const auto& p) { setNumber(p, "version", H5T_NATIVE_INT, 2); }},
       {{"NoParameters", "attribute parameters is missing"},

@@ -7,12 +7,15 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "../load_case.h"
 #include "core/data/array_reader.h"
 #include "core/data/load_error.h"
+#include "core/data/model_content.h"
 #include "core/model/field_evaluation.h"
 
 namespace palpate::testing {
@@ -109,6 +112,34 @@ TEST(NarrowArrays, FieldsInOneByteAreThoseInTwo) {
   EXPECT_GT(*std::max_element(u[0].begin(), u[0].end()), 1e-4F);
   EXPECT_EQ(u[0], u[1]);
   EXPECT_EQ(digest[0], digest[1]);
+}
+
+/// docs/model_file.md, Digest: of one byte each where that holds all numbers, whatever the file has.
+TEST(NarrowArrays, FieldsAreDigestedInTheFewestBytes) {
+  const TemporaryFile file("digested.h5");
+  modelfile::writeModel(file.path(), syntheticModel({.subdivisions = 2, .modes = 9}));
+  const MetaModel model = MetaModel::load(file.path());
+  ModelView view = model.view();
+  const auto digestOf = [&](const WholeNumbers& X) {
+    view.modes_X = X;
+    return contentDigest(model.attributes(), view).hex();
+  };
+  std::vector<std::int8_t> one(view.modes_X.size());
+  ASSERT_NE(one.size() % 2048, 0U);
+  ASSERT_GT(one.size(), 2048U);
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] = static_cast<std::int8_t>(int(i % 256) - 128);
+  std::vector<std::int16_t> two(one.begin(), one.end());
+  const std::string digest = digestOf(std::span<const std::int8_t>(one));
+  EXPECT_EQ(digestOf(std::span<const std::int16_t>(two)), digest);
+  for (const int beyond : {128, -129}) {
+    const std::int16_t was = std::exchange(two[3000], static_cast<std::int16_t>(beyond));
+    EXPECT_NE(digestOf(std::span<const std::int16_t>(two)), digest);
+    two[3000] = was;
+  }
+  view.near_field = std::span<const std::int8_t>();
+  const std::string without = digestOf(std::span<const std::int8_t>(one));
+  view.near_field = std::span<const std::int16_t>();
+  EXPECT_EQ(digestOf(std::span<const std::int8_t>(one)), without);
 }
 
 TEST(NarrowArrays, AreWidenedExactly) {

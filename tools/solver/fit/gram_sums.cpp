@@ -39,7 +39,8 @@ void GramSums::sum(std::span<const std::int32_t> inputs, std::span<const std::in
     if (std::any_of(receivers.begin(), receivers.end(), [&](std::int32_t r) { return factor(i, r) != 0.0F; }))
       work.wanted.push_back(i);
   work.sums.setZero(size, static_cast<Index>(receivers.size()));
-  work.grams.resize(size, static_cast<Index>(std::min(kInner, work.wanted.size())));
+  // Always as many: a matrix of another size gets new pages from the system.
+  work.grams.resize(size, static_cast<Index>(kInner));
   for (std::size_t first = 0; first < work.wanted.size(); first += kInner) {
     const std::size_t count = std::min(kInner, work.wanted.size() - first);
     formGrams(first, count, work);

@@ -5,6 +5,7 @@ const FAST_MS = 14;
 const COUNT = 12;
 const REST_MS = 300;
 const SOFTWARE_MS = 38; // least time between pictures
+const MOST_REST_MS = 1000; // more than that after a picture: the page stood still
 
 /**
  * Pixels drawn per CSS pixel: the screen's own, fewer where drawing is slow (software rendering), so that the organ
@@ -36,7 +37,7 @@ export class Quality {
 
   /** The page's thread is free again after a picture. What took longer than usual leaves as much time to others. */
   finished(nowMs: number): void {
-    this.nextMs = Math.max(this.lastMs + SOFTWARE_MS, nowMs + (nowMs - this.lastMs - SOFTWARE_MS));
+    this.nextMs = Math.max(this.lastMs + SOFTWARE_MS, nowMs + Math.min(nowMs - this.lastMs - SOFTWARE_MS, MOST_REST_MS));
   }
 
   /** Whether it is time for the sharp picture: nothing moved for a while. */

@@ -19,6 +19,8 @@ export class Readout {
   private readonly who = element('who', HTMLParagraphElement);
   private readonly label = element('arrow-label', HTMLOutputElement);
 
+  private size = { w: 0, h: 0 }; // of the label, when it was seen last
+
   write(tool: Tool | undefined): void {
     setText(this.force, (tool ? norm(tool.force) : 0).toFixed(2));
     setText(this.penetration, (1000 * (tool?.penetration ?? 0)).toFixed(1));
@@ -29,15 +31,23 @@ export class Readout {
 
   arrow(tool: Tool | undefined, mesh: ToolMesh | undefined, stage: Stage): void {
     const at = tool && mesh && norm(tool.force) >= 0.05 ? stage.onScreen(mesh.arrowTip) : undefined;
+    // Asked for before anything is written, of the last words: the browser has laid these out already.
+    const { clientWidth: width, clientHeight: height } = this.label.parentElement!;
+    if (!this.label.hidden) this.measure();
     this.label.hidden = !at;
     if (!at || !tool || !mesh) return;
     setText(this.label, `${norm(tool.force).toFixed(2)} N`);
+    if (this.size.w === 0) this.measure();
+    const { w, h } = this.size;
     // Beyond the arrow's tip, on the side it points to, within the picture.
     const from = stage.onScreen(mesh.centre) ?? at;
-    const { offsetWidth: w, offsetHeight: h, parentElement: box } = this.label;
     const within = (v: number, size: number, room: number): number => Math.min(room - size - 4, Math.max(4, v));
-    const x = within(at.x >= from.x ? at.x + 8 : at.x - w - 8, w, box?.clientWidth ?? 0);
-    const y = within(at.y - h / 2 + (at.y >= from.y ? 10 : -10), h, box?.clientHeight ?? 0);
+    const x = within(at.x >= from.x ? at.x + 8 : at.x - w - 8, w, width);
+    const y = within(at.y - h / 2 + (at.y >= from.y ? 10 : -10), h, height);
     this.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  }
+
+  private measure(): void {
+    this.size = { w: this.label.offsetWidth, h: this.label.offsetHeight };
   }
 }

@@ -24,6 +24,8 @@ export class Stage {
   private readonly renderer: WebGLRenderer;
   private readonly floor = new Group();
   private ratio = 1;
+  private width = 0; // CSS pixels: a picture that asked for them would make the browser lay out the page
+  private height = 0;
 
   /** @throws Error when the browser has no WebGL 2 */
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -45,9 +47,9 @@ export class Stage {
   resize(ratio: number): void {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     if (w === 0 || h === 0) return;
+    [this.width, this.height] = [w, h];
     this.ratio = ratio;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(w, h, false);
+    this.renderer.setDrawingBufferSize(w, h, ratio);
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.orbit.changed = true;
@@ -108,12 +110,12 @@ export class Stage {
   onScreen(point: Vec3): { x: number; y: number } | undefined {
     const at = new Vector3(...point).project(this.camera);
     if (at.z > 1) return undefined;
-    return { x: (0.5 + 0.5 * at.x) * this.canvas.clientWidth, y: (0.5 - 0.5 * at.y) * this.canvas.clientHeight };
+    return { x: (0.5 + 0.5 * at.x) * this.width, y: (0.5 - 0.5 * at.y) * this.height };
   }
 
   /** CSS pixels per metre at the camera's target. */
   get pixelsPerMetre(): number {
-    return this.canvas.clientHeight / (2 * this.orbit.distance * Math.tan(FOV / 2));
+    return this.height / (2 * this.orbit.distance * Math.tan(FOV / 2));
   }
 
   get fov(): number {

@@ -26,9 +26,18 @@ export class Theme {
   private apply(): void {
     document.documentElement.dataset['theme'] = this.dark ? 'dark' : 'light';
     setText(this.button, this.dark ? 'Light' : 'Dark');
+    known.clear();
     this.changed(this.dark);
   }
 }
 
+const known = new Map<string, string>(); // colours of this theme
+
 /** A colour of style.css, e.g. "--force". */
-export const themeColour = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+export function themeColour(name: string): string {
+  const found = known.get(name);
+  if (found) return found;
+  const colour = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  known.set(name, colour);
+  return colour;
+}

@@ -232,5 +232,6 @@ test('a picture that took long leaves as much time to others; with graphics hard
     for (let ms = 1000 + took; ; ++ms) if (quality.due(ms)) return ms - 1000;
   };
   assert.deepEqual([5, 38, 100].map((took) => next(true, took)), [38, 38, 162]);
+  assert.equal(next(true, 1e6), 1e6 + 1000);
   assert.equal(next(false, 100), 100);
 });

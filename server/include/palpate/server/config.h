@@ -66,7 +66,7 @@ struct ServerConfig {
   rt::RealtimePolicy realtime{rt::RealtimePolicy::kPrefer};  ///< require, prefer or off
   std::int64_t server_id{0};           ///< names it in poses and answers, in [0, 2^32 - 2]
   bool addressed_only{false};          ///< poses for any server are left to others
-  double listen_first{0.5};            ///< for other servers before the first force, s, in [0, 10]
+  double listen_first{0.5};            ///< for other servers before the first force, s, in [0, 10]; 0: not
   std::int64_t organ_id{0};            ///< key of the surface topics, in [0, 2^32 - 1]
   double surface_rate{1000.0};         ///< surface fields per second at most, Hz, in [0.1, kEveryTick]
   bool phase_lock{false};              ///< ticks follow the poses' arrival
