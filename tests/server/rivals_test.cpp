@@ -121,8 +121,9 @@ TEST_F(Rivals, ForcesOfARivalAreFlaggedAndReportedAndTheServerGoesOn) {
 
 TEST_F(RivalsAtLength, ARequestThatTwoServersTookIsNotReportedForOne) {
   ASSERT_NO_FATAL_FAILURE(start({"--listen-first", "0"}));
-  const auto second = another({"--listen-first", "0"});
   client_->startSending(atDepth(-0.01));
+  ASSERT_TRUE(client_->waitFor([](const auto& f) { return f.seq > 100; })) << server_->log();
+  const auto second = another({"--listen-first", "0"});  // beside one that answers already
   ASSERT_TRUE(client_->waitFor([](const auto& f) { return (f.flags & dds::flag::kRivalServer) != 0; }))
       << second->log();
   // It listens 200 ms for a second one, which is too short where that has no processor for as long.

@@ -18,7 +18,6 @@ export class Readout {
   private readonly contact = element('contact', HTMLParagraphElement);
   private readonly who = element('who', HTMLParagraphElement);
   private readonly label = element('arrow-label', HTMLOutputElement);
-
   private size = { w: 0, h: 0 }; // of the label, when it was seen last
 
   write(tool: Tool | undefined): void {
