@@ -2,7 +2,9 @@
 #include "core/base/whole_kernels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/base/whole_kernels.cpp"
@@ -152,6 +154,51 @@ HWY_INLINE std::size_t dotBeyond(const Number* A, const float* padded, std::size
   return r;
 }
 
+#if HWY_TARGET == HWY_WASM
+/// y as whole numbers of 31 bits in two halves: y = unit * (2^15 high + low).
+struct Halves {
+  static constexpr std::size_t kMost = 1024;  // so that no sum of products with bytes exceeds 32 bits
+  HWY_ALIGN std::int16_t high[kMost]{}, low[kMost]{};
+  double unit{0.0};
+
+  Halves(const float* y, std::size_t length) {
+    float most = 0.0F;
+    for (std::size_t i = 0; i < length; ++i) most = std::max(most, std::abs(y[i]));
+    if (!(most > 0.0F)) return;
+    constexpr double kLargest = 32767.0 * 32768.0;
+    unit = most / kLargest;
+    for (std::size_t i = 0; i < length; ++i) {
+      const auto whole = static_cast<std::int32_t>(std::lrint(y[i] / unit));
+      high[i] = static_cast<std::int16_t>((whole + 16384) >> 15);
+      low[i] = static_cast<std::int16_t>(whole - (std::int32_t{high[i]} << 15));
+    }
+  }
+};
+
+/// Eight products at a time, where floats would be four of bytes that were widened twice. Reads to the end of eight numbers
+/// behind the last row's beginning, times zeros. @return how many rows: those that have as many numbers behind them
+std::size_t dotBytes(const std::int8_t* A, const float* y, std::size_t rows, std::size_t length, float* out) {
+  const std::size_t padded_length = (length + 7) / 8 * 8;
+  if (padded_length > Halves::kMost || rows <= 4) return 0;
+  const Halves halves(y, length);
+  std::size_t r = 0;
+  for (; r < rows && r * length + padded_length <= rows * length; ++r) {
+    v128_t high = wasm_i32x4_splat(0), low = high;
+    for (std::size_t i = 0; i < padded_length; i += 8) {
+      const v128_t a = wasm_i16x8_load8x8(A + r * length + i);
+      high = wasm_i32x4_add(high, wasm_i32x4_dot_i16x8(a, wasm_v128_load(halves.high + i)));
+      low = wasm_i32x4_add(low, wasm_i32x4_dot_i16x8(a, wasm_v128_load(halves.low + i)));
+    }
+    const auto sum = [](v128_t v) {
+      return std::int64_t{wasm_i32x4_extract_lane(v, 0)} + wasm_i32x4_extract_lane(v, 1) +
+             wasm_i32x4_extract_lane(v, 2) + wasm_i32x4_extract_lane(v, 3);
+    };
+    out[r] = static_cast<float>(halves.unit * static_cast<double>((sum(high) << 15) + sum(low)));
+  }
+  return r;
+}
+#endif
+
 void DotWholeRows(const WholeNumbers& A, const float* y, std::size_t rows, std::size_t length, float* out) {
   constexpr std::size_t kMost = 1024;
   const std::size_t step = 2 * hn::Lanes(hn::ScalableTag<float>()),
@@ -160,6 +207,13 @@ void DotWholeRows(const WholeNumbers& A, const float* y, std::size_t rows, std::
   const bool pads = length > 0 && padded_length <= kMost && rows > 4;  // fewer are not worth a copy of y
   if (pads) std::fill(std::copy_n(y, length, padded), padded + padded_length, 0.0F);
   asStored(A, [&](const auto* first) {
+#if HWY_TARGET == HWY_WASM
+    if constexpr (std::is_same_v<decltype(first), const std::int8_t*>) {
+      const std::size_t whole = dotBytes(first, y, rows, length, out);
+      return dotAll([=](std::size_t r) { return first + (whole + r) * length; }, y, rows - whole, length,
+                    out + whole);
+    }
+#endif
     const std::size_t done = pads ? dotBeyond(first, padded, padded_length, rows, length, out) : 0;
     dotAll([=](std::size_t r) { return first + (done + r) * length; }, y, rows - done, length, out + done);
   });

@@ -24,7 +24,7 @@ bool isMiddle(const ModelView& v, std::int32_t node, std::int32_t a, std::int32_
 }
 
 /// The triangles between contact positions are those of the surface, or faces of quadratic elements: four of these each.
-void checkContactTriangles(const ModelView& v, const Checker& check) {
+[[gnu::noinline]] void checkContactTriangles(const ModelView& v, const Checker& check) {
   const std::string name = dataset::kContactTriangles.name(), drawn = dataset::kSurfaceTriangles.name();
   check.indices(name, v.contact_triangles, v.surfaceNodes());
   const bool whole = v.contact_triangles.size() == v.surface_triangles.size();
@@ -54,7 +54,7 @@ void checkContactTriangles(const ModelView& v, const Checker& check) {
 }
 
 /// The drawn surface is closed where the faces are: each edge has one middle, which is no corner and of no other edge.
-void checkMiddles(const ModelView& v, const Checker& check) {
+[[gnu::noinline]] void checkMiddles(const ModelView& v, const Checker& check) {
   if (v.contactTriangles() == v.triangles()) return;
   std::vector<std::array<std::int32_t, 2>> edge_of(v.surfaceNodes(),
                                                    {-1, -1});  // of a middle; a corner has itself
@@ -81,7 +81,7 @@ void checkMiddles(const ModelView& v, const Checker& check) {
 }
 
 /// Contact positions are corners of the triangles between them.
-void checkPositionsAreCorners(const ModelView& v, const Checker& check) {
+[[gnu::noinline]] void checkPositionsAreCorners(const ModelView& v, const Checker& check) {
   std::vector<bool> corner(v.surfaceNodes(), false);
   for (const std::int32_t node : v.contact_triangles) corner[static_cast<std::size_t>(node)] = true;
   for (std::size_t m = 0; m < v.positions(); ++m)
