@@ -34,9 +34,8 @@ import { Theme, themeColour } from './theme';
 import { Vibration } from './vibration';
 
 const PANEL_MS = 250;
+const SOFTWARE_PANEL_MS = 1000; // to lay out and draw its words takes as long as a picture
 const CHART_MS = 40;
-const EMPTY_MS = 100; // between looks at a page without an organ
-const EMPTY_PANEL_MS = 1000; // there: what is written has to be drawn, beside the worker that loads
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
 const SLOW_MS = 30_000; // of reading a model, after which another one is asked for
@@ -273,10 +272,19 @@ export class App implements LineListener {
     this.view?.restyle();
   }
 
-  /** One turn of the display: draws what changed, and nothing while all is at rest. */
+  /** One turn of the display, and the next one. */
   private turn(nowMs: number): void {
-    if (this.view) requestAnimationFrame((then) => this.turn(then));
-    else setTimeout(() => this.turn(performance.now()), EMPTY_MS); // no pictures: leaves the processor to the worker that loads
+    this.draw(nowMs);
+    if (!this.loading && nowMs >= this.nextPanel) {
+      this.nextPanel = nowMs + (this.stage.software ? SOFTWARE_PANEL_MS : PANEL_MS);
+      this.panel.write(performance.now(), this.flags.at(performance.now()));
+    }
+    this.pictures.next((now) => this.turn(now), this.view !== undefined);
+  }
+
+  /** What changed; nothing while all is at rest. */
+  private draw(nowMs: number): void {
+    if (this.loading) return;
     const tool = toolToShow(this.frame_?.tools ?? []);
     const due = this.pictures.due(nowMs);
     if (due && this.view && this.pictures.update(this.view, nowMs)) {
@@ -288,9 +296,11 @@ export class App implements LineListener {
       this.readout.write(tool);
       this.curves.draw(tool, this.line.nowUs);
     }
-    if (nowMs < this.nextPanel) return;
-    this.nextPanel = nowMs + (this.view ? PANEL_MS : EMPTY_PANEL_MS);
-    this.panel.write(performance.now(), this.flags.at(performance.now()));
+  }
+
+  /** Whether a model is on its way into the page: what is written has to be drawn, beside the worker that loads. */
+  private get loading(): boolean {
+    return this.isAlone && !this.view && this.line.isOpen && this.server.level === 'wait';
   }
 
   private shown(): Shown {

@@ -51,6 +51,10 @@ export class Line {
     this.tell({ kind: 'open', source: 'viewer' in source ? source.viewer : source.model });
   }
 
+  get isOpen(): boolean {
+    return this.worker !== undefined;
+  }
+
   send(message: object): void {
     this.tell({ kind: 'say', message });
   }

@@ -6,7 +6,7 @@ import { HandOver } from './hand_over';
 import type { FromPage, ToPage } from './line';
 import { OrganHost } from './organ_host';
 
-const SAY_MS = 250; // between words on how far it is
+const SAY_MS = 1000; // between words on how far it is: each is drawn, beside what is fetched
 
 const tell = (message: ToPage, transfer: Transferable[] = []): void => postMessage(message, { transfer });
 const handOver = new HandOver((parcel) => tell({ kind: 'frame', ...parcel }, [parcel.frame.displacement.buffer as ArrayBuffer]));
@@ -21,34 +21,26 @@ interface Given {
   readonly name: string;
 }
 
-/** The file, with a word on the way. @throws Error where the address has none */
+/** The file, with a word on the way; as a blob, of which no pieces lie about. @throws Error where the address has none */
 async function fetched(address: string): Promise<Given> {
-  const answer = await fetch(address, { cache: 'no-cache' });
-  if (!answer.ok || !answer.body) throw new Error(`${address}: the web server answers ${answer.status}`);
-  const packed = answer.headers.has('content-encoding'); // then the length is that of what is sent
-  const size = packed ? 0 : Number(answer.headers.get('content-length')) || 0;
-  const parts: Uint8Array[] = [];
-  let [got, nextMs] = [0, performance.now() + SAY_MS];
-  const reader = answer.body.getReader();
-  for (let next = await reader.read(); !next.done; next = await reader.read()) {
-    parts.push(next.value);
-    got += next.value.length;
-    if (performance.now() < nextMs) continue;
+  const request = new XMLHttpRequest();
+  request.open('GET', address);
+  request.responseType = 'blob';
+  // As fetch() with `no-cache` asks; another web server would have to allow it first.
+  if (new URL(address).origin === self.location.origin) request.setRequestHeader('Cache-Control', 'max-age=0');
+  let nextMs = performance.now() + SAY_MS;
+  request.onprogress = ({ loaded, total }) => {
+    if (performance.now() < nextMs) return;
     nextMs = performance.now() + SAY_MS;
-    state('starting', `fetching the model: ${megabytes(got)} MB${size > 0 ? ` of ${megabytes(size)}` : ''}`);
-  }
-  return { bytes: joined(parts, got), name: nameIn(address) };
-}
-
-/** Forgets the parts. */
-function joined(parts: Uint8Array[], size: number): ArrayBuffer {
-  const out = new Uint8Array(size);
-  let at = 0;
-  for (const part of parts.splice(0)) {
-    out.set(part, at);
-    at += part.length;
-  }
-  return out.buffer;
+    state('starting', `fetching the model: ${megabytes(loaded)} MB${total > 0 ? ` of ${megabytes(total)}` : ''}`);
+  };
+  await new Promise((end) => {
+    request.onloadend = end;
+    request.send();
+  });
+  if (request.status === 0) throw new Error(`${address}: the web server does not answer`);
+  if (request.status < 200 || request.status > 299) throw new Error(`${address}: the web server answers ${request.status}`);
+  return { bytes: await (request.response as Blob).arrayBuffer(), name: nameIn(address) };
 }
 
 /** A model's name for people. */

@@ -9,7 +9,7 @@ import type { Vec3 } from './vec';
 
 const TIP_RADIUS = 0.005; // m
 const TICK_MS = 1;
-const WAKE_MS = 4; // between wake-ups, each of which makes up for the time since the last one
+const WAKE_MS = 8; // between wake-ups, each of which makes up for the time since the last one
 const MOST_TICKS = 25; // of one wake-up: a page that stood still does not catch up
 const STATUS_MS = 1000;
 const REST_TICKS = 300; // after the last tool, in which forces and fields fade

@@ -4,6 +4,7 @@ const SLOW_MS = 45;
 const FAST_MS = 14;
 const COUNT = 12;
 const REST_MS = 300;
+const REST_PICTURES = 4; // or as long as so many pictures take
 const SOFTWARE_MS = 38; // least time between pictures
 const MOST_REST_MS = 1000; // more than that after a picture: the page stood still
 
@@ -14,6 +15,7 @@ const MOST_REST_MS = 1000; // more than that after a picture: the page stood sti
 export class Quality {
   private intervals: number[] = [];
   private lastMs = NaN;
+  private tookMs = 0; // of the last picture, with what the browser did with it
   private nextMs = -Infinity; // earliest next picture
   private moving: number; // ratio while pictures follow each other
   private readonly sharp: number;
@@ -35,14 +37,25 @@ export class Quality {
     return !this.software || !(nowMs < this.nextMs);
   }
 
+  /** Until due(), ms. */
+  waitMs(nowMs: number): number {
+    return Math.max(0, this.nextMs - nowMs);
+  }
+
   /** The page's thread is free again after a picture. What took longer than usual leaves as much time to others. */
   finished(nowMs: number): void {
-    this.nextMs = Math.max(this.lastMs + SOFTWARE_MS, nowMs + Math.min(nowMs - this.lastMs - SOFTWARE_MS, MOST_REST_MS));
+    this.tookMs = nowMs - this.lastMs;
+    this.nextMs = Math.max(this.lastMs + SOFTWARE_MS, nowMs + Math.min(this.tookMs - SOFTWARE_MS, MOST_REST_MS));
+  }
+
+  /** What is at rest when nothing moved for so long. */
+  get restMs(): number {
+    return Math.max(REST_MS, REST_PICTURES * this.tookMs);
   }
 
   /** Whether it is time for the sharp picture: nothing moved for a while. */
   rested(nowMs: number): boolean {
-    this.sharpen = this.ratio < this.sharp && nowMs - this.lastMs > REST_MS;
+    this.sharpen = this.ratio < this.sharp && nowMs - this.lastMs > this.restMs;
     return this.sharpen;
   }
 

@@ -235,3 +235,12 @@ test('a picture that took long leaves as much time to others; with graphics hard
   assert.equal(next(true, 1e6), 1e6 + 1000);
   assert.equal(next(false, 100), 100);
 });
+
+test('what is at rest is told by how long pictures take, and how long the next one may not come', () => {
+  const quality = new Quality(2, true);
+  assert.deepEqual([quality.restMs, quality.waitMs(0)], [300, 0]);
+  quality.picture(1000);
+  quality.finished(1200);
+  assert.deepEqual([quality.restMs, quality.waitMs(1200), quality.waitMs(5000)], [800, 162, 0]);
+  assert.deepEqual([quality.rested(1800), quality.rested(1801)], [false, true]);
+});
