@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/base/whole_kernels.cpp"
@@ -138,11 +137,17 @@ void MixWholeRowsTogether(const PlacedWholes& rows, const float* weight, float* 
   });
 }
 
-/// Four dot products at a time with numbers that lie behind their rows as well, times zeros of `padded`.
+/// Four dot products at a time with numbers that lie behind their rows as well, times zeros of a copy of y.
 /// @return how many rows: as long as the last of four has as many numbers behind it
 template <typename Number>
-HWY_INLINE std::size_t dotBeyond(const Number* A, const float* padded, std::size_t padded_length,
-                                 std::size_t rows, std::size_t length, float* out) {
+HWY_INLINE std::size_t dotBeyond(const Number* A, const float* y, std::size_t rows, std::size_t length,
+                                 float* out) {
+  constexpr std::size_t kMost = 1024;
+  const std::size_t step = 2 * hn::Lanes(hn::ScalableTag<float>()),
+                    padded_length = (length + step - 1) / step * step;
+  if (length == 0 || padded_length > kMost || rows <= 4) return 0;  // fewer are not worth a copy of y
+  HWY_ALIGN float padded[kMost];
+  std::fill(std::copy_n(y, length, padded), padded + padded_length, 0.0F);
   std::size_t r = 0;
   for (; r + 4 <= rows && (r + 3) * length + padded_length <= rows * length; r += 4) {
     const Number* const a[4] = {A + r * length, A + (r + 1) * length, A + (r + 2) * length,
@@ -155,32 +160,38 @@ HWY_INLINE std::size_t dotBeyond(const Number* A, const float* padded, std::size
 }
 
 #if HWY_TARGET == HWY_WASM
-/// y as whole numbers of 31 bits in two halves: y = unit * (2^15 high + low).
+/// y as whole numbers of 31 bits in two halves: y = unit * (2^15 high + low), and zeros behind them.
 struct Halves {
   static constexpr std::size_t kMost = 1024;  // so that no sum of products with bytes exceeds 32 bits
   HWY_ALIGN std::int16_t high[kMost]{}, low[kMost]{};
   double unit{0.0};
 
-  Halves(const float* y, std::size_t length) {
-    float most = 0.0F;
-    for (std::size_t i = 0; i < length; ++i) most = std::max(most, std::abs(y[i]));
-    if (!(most > 0.0F)) return;
-    constexpr double kLargest = 32767.0 * 32768.0;
-    unit = most / kLargest;
+  /// @param most  the largest of abs(y), > 0
+  Halves(const float* y, std::size_t length, float most) : unit(most / kLargest) {
     for (std::size_t i = 0; i < length; ++i) {
       const auto whole = static_cast<std::int32_t>(std::lrint(y[i] / unit));
       high[i] = static_cast<std::int16_t>((whole + 16384) >> 15);
       low[i] = static_cast<std::int16_t>(whole - (std::int32_t{high[i]} << 15));
     }
   }
+
+ private:
+  static constexpr double kLargest = 32767.0 * 32768.0;
 };
 
-/// Eight products at a time, where floats would be four of bytes that were widened twice. Reads to the end of eight numbers
-/// behind the last row's beginning, times zeros. @return how many rows: those that have as many numbers behind them
-std::size_t dotBytes(const std::int8_t* A, const float* y, std::size_t rows, std::size_t length, float* out) {
+/// Bytes eight at a time, in whole numbers; as floats they are widened twice and four at a time. The last eight numbers of a row
+/// may lie in the next one, times zeros. @return how many rows: all but those at the end that have too few numbers behind them
+HWY_INLINE std::size_t dotBeyond(const std::int8_t* A, const float* y, std::size_t rows, std::size_t length,
+                                 float* out) {
   const std::size_t padded_length = (length + 7) / 8 * 8;
   if (padded_length > Halves::kMost || rows <= 4) return 0;
-  const Halves halves(y, length);
+  float most = 0.0F;
+  for (std::size_t i = 0; i < length; ++i) {
+    if (!std::isfinite(y[i])) return 0;
+    most = std::max(most, std::abs(y[i]));
+  }
+  if (most == 0.0F) return 0;
+  const Halves halves(y, length, most);
   std::size_t r = 0;
   for (; r < rows && r * length + padded_length <= rows * length; ++r) {
     v128_t high = wasm_i32x4_splat(0), low = high;
@@ -200,21 +211,8 @@ std::size_t dotBytes(const std::int8_t* A, const float* y, std::size_t rows, std
 #endif
 
 void DotWholeRows(const WholeNumbers& A, const float* y, std::size_t rows, std::size_t length, float* out) {
-  constexpr std::size_t kMost = 1024;
-  const std::size_t step = 2 * hn::Lanes(hn::ScalableTag<float>()),
-                    padded_length = (length + step - 1) / step * step;
-  HWY_ALIGN float padded[kMost];
-  const bool pads = length > 0 && padded_length <= kMost && rows > 4;  // fewer are not worth a copy of y
-  if (pads) std::fill(std::copy_n(y, length, padded), padded + padded_length, 0.0F);
   asStored(A, [&](const auto* first) {
-#if HWY_TARGET == HWY_WASM
-    if constexpr (std::is_same_v<decltype(first), const std::int8_t*>) {
-      const std::size_t whole = dotBytes(first, y, rows, length, out);
-      return dotAll([=](std::size_t r) { return first + (whole + r) * length; }, y, rows - whole, length,
-                    out + whole);
-    }
-#endif
-    const std::size_t done = pads ? dotBeyond(first, padded, padded_length, rows, length, out) : 0;
+    const std::size_t done = dotBeyond(first, y, rows, length, out);
     dotAll([=](std::size_t r) { return first + (done + r) * length; }, y, rows - done, length, out + done);
   });
 }
