@@ -179,6 +179,7 @@ export class App implements LineListener {
   }
 
   trouble(text: string): void {
+    if (this.loading) this.setState('bad', text);
     this.notices.show(text);
   }
 
@@ -274,17 +275,15 @@ export class App implements LineListener {
 
   /** One turn of the display, and the next one. */
   private turn(nowMs: number): void {
-    this.draw(nowMs);
-    if (!this.loading && nowMs >= this.nextPanel) {
-      this.nextPanel = nowMs + (this.stage.software ? SOFTWARE_PANEL_MS : PANEL_MS);
-      this.panel.write(performance.now(), this.flags.at(performance.now()));
+    try {
+      if (!this.loading) this.draw(nowMs);
+    } finally {
+      this.pictures.next((now) => this.turn(now), this.view !== undefined);
     }
-    this.pictures.next((now) => this.turn(now), this.view !== undefined);
   }
 
   /** What changed; nothing while all is at rest. */
   private draw(nowMs: number): void {
-    if (this.loading) return;
     const tool = toolToShow(this.frame_?.tools ?? []);
     const due = this.pictures.due(nowMs);
     if (due && this.view && this.pictures.update(this.view, nowMs)) {
@@ -296,6 +295,9 @@ export class App implements LineListener {
       this.readout.write(tool);
       this.curves.draw(tool, this.line.nowUs);
     }
+    if (nowMs < this.nextPanel) return;
+    this.nextPanel = nowMs + (this.isAlone && this.stage.software ? SOFTWARE_PANEL_MS : PANEL_MS);
+    this.panel.write(performance.now(), this.flags.at(performance.now()));
   }
 
   /** Whether a model is on its way into the page: what is written has to be drawn, beside the worker that loads. */

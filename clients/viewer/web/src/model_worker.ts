@@ -21,26 +21,46 @@ interface Given {
   readonly name: string;
 }
 
-/** The file, with a word on the way; as a blob, of which no pieces lie about. @throws Error where the address has none */
-async function fetched(address: string): Promise<Given> {
+interface Fetched {
+  readonly status: number; // of HTTP; 0: none
+  readonly blob?: Blob | undefined;
+}
+
+/** Of the page's own web server, with a word on the way. */
+function fetchedHere(address: string): Promise<Fetched> {
   const request = new XMLHttpRequest();
   request.open('GET', address);
-  request.responseType = 'blob';
-  // As fetch() with `no-cache` asks; another web server would have to allow it first.
-  if (new URL(address).origin === self.location.origin) request.setRequestHeader('Cache-Control', 'max-age=0');
+  request.responseType = 'blob'; // which the browser joins, so that no pieces lie about here
+  request.setRequestHeader('Cache-Control', 'max-age=0'); // as fetch() with `no-cache` asks
   let nextMs = performance.now() + SAY_MS;
   request.onprogress = ({ loaded, total }) => {
     if (performance.now() < nextMs) return;
     nextMs = performance.now() + SAY_MS;
     state('starting', `fetching the model: ${megabytes(loaded)} MB${total > 0 ? ` of ${megabytes(total)}` : ''}`);
   };
-  await new Promise((end) => {
-    request.onloadend = end;
+  return new Promise((end) => {
+    request.onloadend = () => end({ status: request.status, blob: (request.response as Blob | null) ?? undefined });
     request.send();
   });
-  if (request.status === 0) throw new Error(`${address}: the web server does not answer`);
-  if (request.status < 200 || request.status > 299) throw new Error(`${address}: the web server answers ${request.status}`);
-  return { bytes: await (request.response as Blob).arrayBuffer(), name: nameIn(address) };
+}
+
+/** Of any web server: others would have to allow that header first. */
+async function fetchedThere(address: string): Promise<Fetched> {
+  try {
+    const answer = await fetch(address, { cache: 'no-cache' });
+    return { status: answer.status, blob: await answer.blob() };
+  } catch {
+    throw new Error(`${address}: its web server does not answer, broke off, or does not let this page read it`);
+  }
+}
+
+/** The file. @throws Error where the address has none */
+async function fetched(address: string): Promise<Given> {
+  const here = new URL(address).origin === self.location.origin;
+  let got: Fetched = here ? await fetchedHere(address) : { status: 0 };
+  if (got.status === 0) got = await fetchedThere(address); // also where a redirection leads to another web server
+  if (got.status < 200 || got.status > 299 || !got.blob) throw new Error(`${address}: the web server answers ${got.status}`);
+  return { bytes: await got.blob.arrayBuffer(), name: nameIn(address) };
 }
 
 /** A model's name for people. */

@@ -9,7 +9,7 @@ import type { Vec3 } from './vec';
 
 const TIP_RADIUS = 0.005; // m
 const TICK_MS = 1;
-const WAKE_MS = 8; // between wake-ups, each of which makes up for the time since the last one
+const [LEAST_WAKE_MS, MOST_WAKE_MS] = [4, 8]; // between wake-ups, each of which runs the ticks since the last one
 const MOST_TICKS = 25; // of one wake-up: a page that stood still does not catch up
 const STATUS_MS = 1000;
 const REST_TICKS = 300; // after the last tool, in which forces and fields fade
@@ -56,6 +56,7 @@ export class OrganHost {
   private lastMs = clockMs();
   private ticksLeft = 0; // until rest
   private unshown = false;
+  private wakes = 0; // timer
   private frameMs = 1000 / USUAL_HZ;
   private nextFrameMs = 0;
   private answers: Answer[] = [];
@@ -73,7 +74,7 @@ export class OrganHost {
     told.mesh({ ...surface, regions, revision: 1 });
     this.status();
     setInterval(() => this.status(), STATUS_MS);
-    setInterval(() => this.wake(), WAKE_MS);
+    this.wakeOften();
   }
 
   say(message: { type: string; [field: string]: unknown }): void {
@@ -88,6 +89,13 @@ export class OrganHost {
     if (Number.isNaN(hz)) return;
     this.frameMs = 1000 / Math.min(MOST_HZ, Math.max(LEAST_HZ, hz));
     this.nextFrameMs = 0;
+    this.wakeOften();
+  }
+
+  /** Four times for each field: a wake-up costs as much as several ticks. */
+  private wakeOften(): void {
+    clearInterval(this.wakes);
+    this.wakes = self.setInterval(() => this.wake(), Math.min(MOST_WAKE_MS, Math.max(LEAST_WAKE_MS, this.frameMs / 4)));
   }
 
   /** The tool's target until the next call, from which it goes on to its goal; undefined: no tool is held. */

@@ -24,7 +24,7 @@ export class OrganView {
   private readonly toolMeshes = new Map<number, ToolMesh>();
   private forceTop = 1; // N, of the arrows' scale
   private stiffness = NaN; // live E over the model's
-  private newest: Frame | undefined; // whose field waits for the next picture
+  private undrawn: Frame | undefined; // its field waits for the next picture
   private dirty = true;
   private moved = true;
 
@@ -102,7 +102,7 @@ export class OrganView {
   }
 
   frame(frame: Frame): void {
-    if (frame.nodes > 0) this.newest = frame;
+    if (frame.nodes > 0) this.undrawn = frame;
     if (this.felt.learn(frame) && this.colouring === 'stiffness') this.dirty = true;
     if (!sameTools(this.tools, frame.tools)) this.dirty = true;
     this.tools = frame.tools;
@@ -110,7 +110,7 @@ export class OrganView {
 
   /** No server describes the organ now: shows it at rest, without tools. */
   calm(): void {
-    this.newest = undefined;
+    this.undrawn = undefined;
     this.surface.calm();
     this.tools = [];
     this.dirty = this.moved = true;
@@ -118,8 +118,8 @@ export class OrganView {
 
   /** Updates what is drawn. @return whether anything changed since the last call */
   update(): boolean {
-    if (this.newest && this.surface.show(this.newest)) this.moved = this.dirty = true;
-    this.newest = undefined;
+    if (this.undrawn && this.surface.show(this.undrawn)) this.moved = this.dirty = true;
+    this.undrawn = undefined;
     if (!this.dirty) return false;
     if (this.moved) this.organ.moved();
     this.organ.fitScale();

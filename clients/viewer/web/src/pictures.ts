@@ -7,12 +7,15 @@ import type { Stage } from './stage';
 const DRESS_MS = 400; // after the first picture of an organ
 const EMPTY_MS = 100; // between looks at a page without an organ
 const TURN_MS = 16; // between looks without graphics hardware, as of a display
-const IDLE_MS = 40; // there, while nobody presses
+const IDLE_MS = 40; // there, while nothing moves
+const HIDDEN_MS = 1000; // longest wait for the browser
 const FLOOR_MS = 2500; // without graphics hardware the floor comes so much later: it would hold up a press that comes at once
 
 /** Draws a picture when something changed, and none while all is at rest. */
 export class Pictures {
   private readonly quality: Quality;
+  private drew = false; // in this turn
+  private unfinishedMs = NaN; // begin of a picture that the browser still works at
   private bare: OrganView | undefined; // was drawn without the tissue's spots
 
   /** @param nowUs  viewer's clock  @param busy  whether somebody presses */
@@ -31,16 +34,22 @@ export class Pictures {
   }
 
   due(nowMs: number): boolean {
-    return this.quality.due(nowMs);
+    return !this.isUnfinished(nowMs) && this.quality.due(nowMs);
+  }
+
+  /** Without graphics hardware: whether the browser still has to do with the last picture. A hidden page never hears the end. */
+  private isUnfinished(nowMs: number): boolean {
+    return this.stage.software && nowMs - this.unfinishedMs < HIDDEN_MS;
   }
 
   /**
-   * The next turn: of the display, or by a timer where each costs the processor's time. A display that waits for a page which draws
-   * keeps turning, so without graphics hardware a picture is drawn before the display is asked for.
+   * The next turn. requestAnimationFrame() keeps the display's clock running also between pictures, which takes processor time; so
+   * without graphics hardware a timer draws, and asks for one frame after each picture.
    */
   next(turn: (nowMs: number) => void, isOrgan: boolean): void {
     if (isOrgan && (!this.stage.software || document.hidden)) return void requestAnimationFrame(turn);
-    const restMs = Math.max(this.quality.waitMs(performance.now()), this.busy() ? TURN_MS : IDLE_MS);
+    const restMs = Math.max(this.quality.waitMs(performance.now()), this.busy() || this.drew ? TURN_MS : IDLE_MS);
+    this.drew = false;
     setTimeout(() => turn(performance.now()), isOrgan ? restMs : EMPTY_MS);
   }
 
@@ -50,6 +59,8 @@ export class Pictures {
     if (!moved && !this.stage.orbit.changed && !this.quality.rested(nowMs)) return false;
     if (this.quality.picture(nowMs)) this.resize();
     const start = performance.now();
+    this.drew = true;
+    this.unfinishedMs = start;
     this.stage.draw();
     requestAnimationFrame(() => setTimeout(() => this.finished(view))); // behind what the browser does with the picture
     this.figures.picture(start, performance.now(), this.nowUs(), moved);
@@ -58,6 +69,7 @@ export class Pictures {
 
   /** The look of the organ, and the floor, wait for its first picture and for a hand that presses. */
   private finished(view: OrganView): void {
+    this.unfinishedMs = NaN;
     this.quality.finished(performance.now());
     if (this.bare === view) return;
     this.bare = view;

@@ -6,7 +6,7 @@ const COUNT = 12;
 const REST_MS = 300;
 const REST_PICTURES = 4; // or as long as so many pictures take
 const SOFTWARE_MS = 38; // least time between pictures
-const MOST_REST_MS = 1000; // more than that after a picture: the page stood still
+const MOST_REST_MS = 1000; // after a picture that took longer the page stood still
 
 /**
  * Pixels drawn per CSS pixel: the screen's own, fewer where drawing is slow (software rendering), so that the organ
@@ -44,11 +44,11 @@ export class Quality {
 
   /** The page's thread is free again after a picture. What took longer than usual leaves as much time to others. */
   finished(nowMs: number): void {
-    this.tookMs = nowMs - this.lastMs;
-    this.nextMs = Math.max(this.lastMs + SOFTWARE_MS, nowMs + Math.min(this.tookMs - SOFTWARE_MS, MOST_REST_MS));
+    this.tookMs = Math.min(nowMs - this.lastMs, SOFTWARE_MS + MOST_REST_MS);
+    this.nextMs = Math.max(this.lastMs + SOFTWARE_MS, nowMs + this.tookMs - SOFTWARE_MS);
   }
 
-  /** What is at rest when nothing moved for so long. */
+  /** Nothing moved for this long: at rest, ms. */
   get restMs(): number {
     return Math.max(REST_MS, REST_PICTURES * this.tookMs);
   }
