@@ -106,8 +106,7 @@ test('a quarter of a core presses an organ within seconds, ticks in time and eva
   console.log(`  ${nodes} nodes, ${(bytes / 1e6).toFixed(1)} MB, ${ticks} ticks; fields each second ${fields.map((x) => x.toFixed(0)).join(' ')}`);
   console.log(`  from loading until the organ is seen: ${organSeen.toFixed(1)} s`);
   console.log(`  pictures a second: ${median(pictures).toFixed(1)}`);
-  assert.ok(ticks > 0 && Math.max(...fields) > 0, `${ticks} ticks, fields ${fields}`);
-  measuredAtLeast('ticks', ticks / SECONDS, 500, '1/s');
+  assert.ok(ticks > 500 * SECONDS, `${ticks} ticks in ${SECONDS} s`);
   measured('step(), p99', tickUs.p99 / 1000, 2, 'ms');
   measuredAtLeast('fields evaluated', median(fields), 25, '1/s');
   await seen.close();

@@ -33,8 +33,6 @@ import { Stage } from './stage';
 import { Theme, themeColour } from './theme';
 import { Vibration } from './vibration';
 
-const PANEL_MS = 250;
-const SOFTWARE_PANEL_MS = 1000; // to lay out and draw its words takes as long as a picture
 const CHART_MS = 40;
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
@@ -56,7 +54,6 @@ export class App implements LineListener {
   private tipRadius = USUAL_TIP;
   private usualHz = 60;
   private lineOpen = false;
-  private nextPanel = 0;
   private nextChart = 0;
   private organName = '';
   private readonly canvas = element('organ', HTMLCanvasElement);
@@ -295,8 +292,6 @@ export class App implements LineListener {
       this.readout.write(tool);
       this.curves.draw(tool, this.line.nowUs);
     }
-    if (nowMs < this.nextPanel) return;
-    this.nextPanel = nowMs + (this.isAlone && this.stage.software ? SOFTWARE_PANEL_MS : PANEL_MS);
     this.panel.write(performance.now(), this.flags.at(performance.now()));
   }
 

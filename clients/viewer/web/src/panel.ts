@@ -7,6 +7,8 @@ import type { Line } from './line';
 import { brief, element, numberIn, setText } from './page';
 import type { Stage } from './stage';
 
+const WRITE_MS = 250;
+const SLOW_WRITE_MS = 1000; // where words take as long to lay out and draw as a picture, beside the organ itself
 type Level = '' | 'warn' | 'bad';
 /** Rows that say nothing on a page that has its organ itself. */
 const OF_A_VIEWER = new Set(['DDS to decoded', 'Round trip to viewer', 'Woke late', 'Late ticks', 'Real time', 'Pages at the viewer']);
@@ -20,6 +22,7 @@ export class Panel {
   private readonly rows = new Map<string, HTMLElement>();
   private written: HTMLElement | undefined; // the row before, behind which a new one goes
   private shownFlags = '';
+  private nextMs = 0;
   status: Said | undefined; // the newest
   kept: string | undefined; // empty when the page works without a network, or why not; undefined: not known yet
   private isAlone = false;
@@ -41,8 +44,10 @@ export class Panel {
     this.rows.clear();
   }
 
-  /** @param flags  of all tools in the last seconds, or-ed */
+  /** Call in each turn. @param flags  of all tools in the last seconds, or-ed */
   write(nowMs: number, flags: number): void {
+    if (nowMs < this.nextMs) return;
+    this.nextMs = nowMs + (this.isAlone && this.stage?.software ? SLOW_WRITE_MS : WRITE_MS);
     this.written = undefined;
     this.page(nowMs);
     this.server(this.status ?? { type: 'status' });
