@@ -8,6 +8,7 @@
 //               palpate-solve --batch cases -o models
 //               palpate-solve liver.msh --template -o case.toml
 //               palpate-solve liver.msh -o lin.h5 --method pgd-linear --load-direction any
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <iostream>
@@ -103,7 +104,17 @@ bool readOnce(program::CommandLine& line, int argc, char** argv, const solver::R
   return goes_on != std::byte{0} && (ranks.isFirst() || line.read(argc, argv));
 }
 
+/// Of a rank that is not the first: what is wrong with the case all find, and the first one says it and ends all. Where cores are
+/// fewer than ranks it may come to that much later than this one.
+void leaveTheWordToTheFirst(std::chrono::steady_clock::time_point start) {
+  using std::chrono::seconds;
+  const std::chrono::steady_clock::duration taken = std::chrono::steady_clock::now() - start;
+  std::this_thread::sleep_for(
+      std::clamp<std::chrono::steady_clock::duration>(2 * taken, seconds(1), seconds(10)));
+}
+
 int body(int argc, char** argv) {
+  const auto start = std::chrono::steady_clock::now();
   const solver::Ranks& ranks = solve_program::startRanks();
   program::CommandLine line(
       "palpate-solve",
@@ -115,8 +126,7 @@ int body(int argc, char** argv) {
   try {
     return readOnce(line, argc, argv, ranks) ? run(options, ranks) : program::kDone;
   } catch (...) {
-    // What is wrong with the case all ranks find, and the first one says it and ends all.
-    if (!ranks.isFirst()) std::this_thread::sleep_for(std::chrono::seconds(1));
+    if (!ranks.isFirst()) leaveTheWordToTheFirst(start);
     throw;
   }
 }
