@@ -27,7 +27,9 @@ if (quarter.lacks) {
   process.exit(0);
 }
 aloneStage(() => openBrowser(quarter.inside));
+let server;
 after(async () => {
+  await server?.close();
   await quarter.remove();
   rmSync(folder, { recursive: true, force: true });
 });
@@ -74,24 +76,31 @@ const timeOf = async (seen, name, least) => {
   }
 };
 
-test('a quarter of a core presses an organ within seconds, ticks in time and evaluates 25 fields a second', async () => {
-  const model = handheldModel();
-  const bytes = statSync(model).size;
-  assert.ok(bytes <= MOST_BYTES, `${model}: ${bytes} bytes`);
-  const server = await StaticServer.open([exported('web', model)]);
-  const seen = await Seen.open(browser, 'about:blank', { phone: true });
+/** Loads the page and presses as soon as there is an organ. @return when there was one, and a force, s; processor time until then, s */
+async function pressed(seen, address) {
   await seen.page.waitForTimeout(STARTING_MS);
-  await seen.page.goto(server.address, { waitUntil: 'commit' });
+  const before = quarter.used();
+  await seen.page.goto(address, { waitUntil: 'commit' });
   const organSeen = await timeOf(seen, 'organSeenMs', 0);
   const middle = await seen.page.evaluate(middleOfOrgan);
   await seen.page.mouse.move(middle.x, middle.y);
   await seen.page.mouse.down();
   const firstPress = await timeOf(seen, 'force', 0.01);
-  measured('from loading to the first press', Math.max(organSeen, firstPress), 5, 's');
-  if (!Number.isFinite(organSeen + firstPress)) {
+  return { organSeen, firstPress: Math.max(organSeen, firstPress), used: quarter.used() - before };
+}
+
+test('a quarter of a core presses an organ within seconds, ticks in time and evaluates 25 fields a second', async () => {
+  const model = handheldModel();
+  const bytes = statSync(model).size;
+  assert.ok(bytes <= MOST_BYTES, `${model}: ${bytes} bytes`);
+  server = await StaticServer.open([exported('web', model)]);
+  const seen = await Seen.open(browser, 'about:blank', { phone: true });
+  const { organSeen, firstPress, used } = await pressed(seen, server.address);
+  measured('from loading to the first press', firstPress, 5, 's');
+  console.log(`  which took ${used.toFixed(2)} s of processor time; the organ was seen after ${organSeen.toFixed(1)} s`);
+  if (!Number.isFinite(firstPress)) {
     console.log(`  not within ${LONGEST_MS / 1000} s, but without the limit: this machine gave too little, and the rest is not measured`);
-    await seen.close();
-    return server.close();
+    return seen.close();
   }
   await seen.page.evaluate(palpate, STROKE_MS);
   const [fields, pictures] = [[], []];
@@ -104,11 +113,18 @@ test('a quarter of a core presses an organ within seconds, ticks in time and eva
   const { nodes, ticks, tickUs } = await seen.figures();
   await seen.page.mouse.up();
   console.log(`  ${nodes} nodes, ${(bytes / 1e6).toFixed(1)} MB, ${ticks} ticks; fields each second ${fields.map((x) => x.toFixed(0)).join(' ')}`);
-  console.log(`  from loading until the organ is seen: ${organSeen.toFixed(1)} s`);
   console.log(`  pictures a second: ${median(pictures).toFixed(1)}`);
   assert.ok(ticks > 500 * SECONDS, `${ticks} ticks in ${SECONDS} s`);
   measured('step(), p99', tickUs.p99 / 1000, 2, 'ms');
   measuredAtLeast('fields evaluated', median(fields), 25, '1/s');
   await seen.close();
-  await server.close();
+});
+
+test('a whole machine takes the processor time of seconds on a quarter of a core', async () => {
+  await browser.close();
+  quarter.lift();
+  const whole = await openBrowser(quarter.inside);
+  const { used } = await pressed(await Seen.open(whole, 'about:blank', { phone: true }), server.address);
+  measured('processor time to the first press, without the limit', used, 5 / 4, 's');
+  await whole.close();
 });

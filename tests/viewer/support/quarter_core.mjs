@@ -33,6 +33,15 @@ function kind() {
   return undefined;
 }
 
+/** Processor time of its processes, s; of the ones that have ended none. */
+function usedBy(group) {
+  const ticks = wordsOf(join(group, 'cgroup.procs')).flatMap((process) => {
+    const words = wordsOf(`/proc/${process}/stat`).join(' ').replace(/.*\) /, '').split(' '); // its name may have spaces
+    return words.slice(11, 13).map(Number); // utime and stime
+  });
+  return ticks.reduce((sum, n) => sum + n, 0) / 100; // USER_HZ, proc(5)
+}
+
 /** A group is busy until the last of its processes is gone, some time after the browser has closed. */
 async function remove(group) {
   for (const end = Date.now() + 5000; ; await sleep(100))
@@ -43,7 +52,7 @@ async function remove(group) {
     }
 }
 
-/** Makes a group. @return `inside`, a program in `folder` that joins it and becomes `program`, `lift` its limit, and `remove`; or what it `lacks` */
+/** Makes a group. @return `inside`, a program in `folder` that joins it and becomes `program`, `lift` its limit, `used`, and `remove`; or what it `lacks` */
 export function quarterOfACore(folder, program) {
   const found = kind();
   if (!found) return { lacks: 'no control group limits processor time here' };
@@ -62,5 +71,5 @@ export function quarterOfACore(folder, program) {
   writeFileSync(inside, `#!/bin/sh\necho $$ > ${group}/cgroup.procs && exec ${program} "$@"\n`);
   chmodSync(inside, 0o755);
   const [limit, none] = found.lifted;
-  return { inside, lift: () => writeFileSync(join(group, limit), String(none)), remove: async () => (await remove(group), passOn('-')) };
+  return { inside, lift: () => writeFileSync(join(group, limit), String(none)), used: () => usedBy(group), remove: async () => (await remove(group), passOn('-')) };
 }
