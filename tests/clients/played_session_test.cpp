@@ -38,7 +38,7 @@ TEST(PlayedSession, AnswersARecordedSessionAsItDidWhenItIsPlayedBack) {
   const Running server(options);
   json report;
   for (int tries = 0; tries < 4 && !(report.is_object() && report["holds"]);
-       ++tries) {  // again where the machine stalled, or poses came later than others by what makes over 1 %
+       ++tries) {  // again where the machine stalled, or poses came so late that forces differ by more
     const auto result =
         runProgram("palpate-tool", {"--script", "recording", recording.path().string(), "--within", "1",
                                     "--json", "--wait", "30", "--domain", server.domain});

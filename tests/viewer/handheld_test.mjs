@@ -27,8 +27,9 @@ if (quarter.lacks) {
   process.exit(0);
 }
 aloneStage(() => openBrowser(quarter.inside));
-let server;
+let server, whole;
 after(async () => {
+  await whole?.close();
   await server?.close();
   await quarter.remove();
   rmSync(folder, { recursive: true, force: true });
@@ -79,14 +80,14 @@ const timeOf = async (seen, name, least) => {
 /** Loads the page and presses as soon as there is an organ. @return when there was one, and a force, s; processor time until then, s */
 async function pressed(seen, address) {
   await seen.page.waitForTimeout(STARTING_MS);
-  const before = quarter.used();
+  const clock = quarter.clock();
   await seen.page.goto(address, { waitUntil: 'commit' });
   const organSeen = await timeOf(seen, 'organSeenMs', 0);
   const middle = await seen.page.evaluate(middleOfOrgan);
   await seen.page.mouse.move(middle.x, middle.y);
   await seen.page.mouse.down();
   const firstPress = await timeOf(seen, 'force', 0.01);
-  return { organSeen, firstPress: Math.max(organSeen, firstPress), used: quarter.used() - before };
+  return { organSeen, firstPress: Math.max(organSeen, firstPress), used: clock() };
 }
 
 test('a quarter of a core presses an organ within seconds, ticks in time and evaluates 25 fields a second', async () => {
@@ -120,11 +121,13 @@ test('a quarter of a core presses an organ within seconds, ticks in time and eva
   await seen.close();
 });
 
-test('a whole machine takes the processor time of seconds on a quarter of a core', async () => {
+test('a press takes a whole machine no more processor time than a quarter of a core has in five seconds', async () => {
+  assert.ok(server, 'the test before made no server');
   await browser.close();
   quarter.lift();
-  const whole = await openBrowser(quarter.inside);
-  const { used } = await pressed(await Seen.open(whole, 'about:blank', { phone: true }), server.address);
+  whole = await openBrowser(quarter.inside);
+  const seen = await Seen.open(whole, 'about:blank', { phone: true });
+  const { used } = await pressed(seen, server.address);
   measured('processor time to the first press, without the limit', used, 5 / 4, 's');
-  await whole.close();
+  await seen.close();
 });

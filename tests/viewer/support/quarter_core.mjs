@@ -33,13 +33,20 @@ function kind() {
   return undefined;
 }
 
-/** Processor time of its processes, s; of the ones that have ended none. */
-function usedBy(group) {
-  const ticks = wordsOf(join(group, 'cgroup.procs')).flatMap((process) => {
-    const words = wordsOf(`/proc/${process}/stat`).join(' ').replace(/.*\) /, '').split(' '); // its name may have spaces
-    return words.slice(11, 13).map(Number); // utime and stime
-  });
-  return ticks.reduce((sum, n) => sum + n, 0) / 100; // USER_HZ, proc(5)
+/** Processor time of each of its processes so far, s. */
+function timesOf(group) {
+  return new Map(
+    wordsOf(join(group, 'cgroup.procs')).map((process) => {
+      const words = wordsOf(`/proc/${process}/stat`).join(' ').replace(/.*\) /, '').split(' '); // its name may have spaces
+      return [process, (Number(words[11]) + Number(words[12])) / 100 || 0]; // utime and stime in USER_HZ, proc(5); 0: it has ended
+    }),
+  );
+}
+
+/** @return tells the processor time since now of the processes that are there then, s */
+function clockOf(group) {
+  const before = timesOf(group);
+  return () => [...timesOf(group)].reduce((sum, [process, now]) => sum + Math.max(0, now - (before.get(process) ?? 0)), 0);
 }
 
 /** A group is busy until the last of its processes is gone, some time after the browser has closed. */
@@ -52,7 +59,7 @@ async function remove(group) {
     }
 }
 
-/** Makes a group. @return `inside`, a program in `folder` that joins it and becomes `program`, `lift` its limit, `used`, and `remove`; or what it `lacks` */
+/** Makes a group. @return `inside`, a program in `folder` that joins it and becomes `program`, `lift` its limit, `clock` of its processor time, and `remove`; or what it `lacks` */
 export function quarterOfACore(folder, program) {
   const found = kind();
   if (!found) return { lacks: 'no control group limits processor time here' };
@@ -71,5 +78,5 @@ export function quarterOfACore(folder, program) {
   writeFileSync(inside, `#!/bin/sh\necho $$ > ${group}/cgroup.procs && exec ${program} "$@"\n`);
   chmodSync(inside, 0o755);
   const [limit, none] = found.lifted;
-  return { inside, lift: () => writeFileSync(join(group, limit), String(none)), used: () => usedBy(group), remove: async () => (await remove(group), passOn('-')) };
+  return { inside, lift: () => writeFileSync(join(group, limit), String(none)), clock: () => clockOf(group), remove: async () => (await remove(group), passOn('-')) };
 }

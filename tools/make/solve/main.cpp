@@ -105,7 +105,7 @@ bool readOnce(program::CommandLine& line, int argc, char** argv, const solver::R
 }
 
 /// Of a rank that is not the first: what is wrong with the case all find, and the first one says it and ends all. Where cores are
-/// fewer than ranks it may come to that much later than this one.
+/// fewer than ranks it may find it much later than this one. What a rank finds alone it says then.
 void leaveTheWordToTheFirst(std::chrono::steady_clock::time_point start) {
   using std::chrono::seconds;
   const std::chrono::steady_clock::duration taken = std::chrono::steady_clock::now() - start;
