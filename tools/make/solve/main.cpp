@@ -104,8 +104,8 @@ bool readOnce(program::CommandLine& line, int argc, char** argv, const solver::R
   return goes_on != std::byte{0} && (ranks.isFirst() || line.read(argc, argv));
 }
 
-/// Of a rank that is not the first: what is wrong with the case all find, and the first one says it and ends all. Where cores are
-/// fewer than ranks it may find it much later than this one. What a rank finds alone it says then.
+/// For a rank that is not the first. What is wrong with the case all find, and the first one says it and ends all; where ranks share
+/// cores it may find it later than this one, which waits for twice what it took so far. What a rank found alone it says after that.
 void leaveTheWordToTheFirst(std::chrono::steady_clock::time_point start) {
   using std::chrono::seconds;
   const std::chrono::steady_clock::duration taken = std::chrono::steady_clock::now() - start;
