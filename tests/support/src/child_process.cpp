@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palpate/testing/child_process.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -75,6 +76,9 @@ int ChildProcess::waitForExit() {
 
 CaughtOutput::CaughtOutput() : descriptor_(memfd_create("palpate-test-output", MFD_CLOEXEC)) {
   if (descriptor_ < 0) throw std::runtime_error("no memory for what a program writes");
+  // Linux guards the position in a file on disk, but not in this one: of two threads that write, one could overwrite the other
+  if (fcntl(descriptor_, F_SETFL, O_APPEND) != 0)
+    throw std::runtime_error("what a program writes cannot be appended");
 }
 
 CaughtOutput::~CaughtOutput() {
