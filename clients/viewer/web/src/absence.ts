@@ -29,7 +29,8 @@ export class Absence {
   tell(answering: Answering, served: boolean, large: boolean): void {
     this.answering = served ? undefined : answering;
     this.box.hidden = served || !large;
-    document.documentElement.toggleAttribute('data-absent', !served);
+    if (served) delete document.documentElement.dataset['absent'];
+    else document.documentElement.dataset['absent'] = large ? 'large' : '';
     const { title, help } = WORDS[answering.server] ?? { title: 'Nothing answers', help: '' };
     setText(element('absent-title', HTMLParagraphElement), title);
     setText(element('absent-text', HTMLParagraphElement), answering.text);

@@ -36,6 +36,8 @@ import { Vibration } from './vibration';
 const CHART_MS = 40;
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
+const SOFTWARE_TARGET_MS = 40; // there the organ's own worker leads the tool from one target to the next
+const WORDS_MS = 300; // after an organ came: its picture is first
 const SLOW_MS = 30_000; // of reading a model, after which another one is asked for
 const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
@@ -55,6 +57,7 @@ export class App implements LineListener {
   private usualHz = 60;
   private lineOpen = false;
   private nextChart = 0;
+  private wordsFromMs = 0;
   private organName = '';
   private readonly canvas = element('organ', HTMLCanvasElement);
   private readonly pictures: Pictures;
@@ -89,6 +92,8 @@ export class App implements LineListener {
     this.pictures = new Pictures(this.stage, this.figures, () => this.line.nowUs, () => this.hand.pressing);
     new ResizeObserver(() => this.pictures.resize()).observe(this.canvas);
     followInputKind();
+    document.documentElement.toggleAttribute('data-software', this.stage.software);
+    element('all', HTMLElement).hidden = false; // not before, so that the browser lays it out once
     document.addEventListener('visibilitychange', () => this.seen());
     element('home', HTMLButtonElement).addEventListener('click', () => this.stage.orbit.reset());
     requestAnimationFrame((now) => this.turn(now));
@@ -109,13 +114,13 @@ export class App implements LineListener {
 
   /** @param model  its address; empty: none  @param wrong  for people: why there is none */
   private alone(model: string, wrong: string): void {
-    if (this.stage.software) this.usualHz = SOFTWARE_HZ;
+    if (this.stage.software) [this.usualHz, this.hand.targetMs] = [SOFTWARE_HZ, SOFTWARE_TARGET_MS];
     this.isAlone = true;
     this.modelFiles.want();
     this.panel.alone();
     if (model) {
       this.keeping.want(model);
-      this.line.open({ model });
+      this.load(model);
     } else {
       this.setState(wrong ? 'bad' : 'wait', wrong || 'no organ');
       this.modelFiles.offer(wrong || 'There is no palpate-viewer here, and no model is named.');
@@ -125,7 +130,12 @@ export class App implements LineListener {
 
   private open(file: File): void {
     this.keeping.forget();
-    this.line.open({ model: file });
+    this.load(file);
+  }
+
+  private load(model: string | File): void {
+    this.line.open({ model });
+    this.setState('wait', 'loading the model', 'starting');
   }
 
   link(open: boolean, text: string): void {
@@ -156,11 +166,15 @@ export class App implements LineListener {
     this.curves.clear();
     this.depth.forget();
     this.practice.organ(mesh);
+    const isInsideShown = this.regionList.show(mesh);
+    this.pictures.resize(); // for the legend's rows; a picture before that would be drawn again
     this.view = new OrganView(mesh, this.stage, this.tipRadius);
     this.view.setAbsent(!this.serving);
     this.view.setColouring(this.colouring);
-    this.view.showInside(this.regionList.show(mesh));
+    this.view.showInside(isInsideShown);
     this.keeping.organCame();
+    this.wordsFromMs = performance.now() + WORDS_MS;
+    this.pictures.hurry();
   }
 
   frame(frame: Frame, received: readonly Received[]): void {
@@ -287,7 +301,8 @@ export class App implements LineListener {
       this.legend.write(this.view, this.stage);
       this.readout.arrow(tool, tool && this.view.toolMesh(tool.id), this.stage);
     }
-    if (due && nowMs >= this.nextChart) {
+    if (!due || performance.now() < this.wordsFromMs) return; // words between two pictures would be one more to the browser
+    if (nowMs >= this.nextChart) {
       this.nextChart = nowMs + CHART_MS;
       this.readout.write(tool);
       this.curves.draw(tool, this.line.nowUs);

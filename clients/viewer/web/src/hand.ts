@@ -8,13 +8,13 @@ import { Press, type Ray } from './press';
 import type { Stage } from './stage';
 import type { Surface } from './surface';
 
-const TARGET_MS = 12; // between targets
 const ENDED = 'released'; // the previous tool's end
 const RETRY_MS = 400; // between grabs, after the tool was taken away while the finger is down
 
 /** Presses on the organ, from touch to release: asks for a tool and sends its targets. */
 export class Hand implements Toucher {
   toolId: number | undefined; // granted
+  targetMs = 12; // between targets
   private press_: Press | undefined;
   private askedMs = -Infinity;
   private timer = 0; // of targets, while it presses
@@ -47,7 +47,7 @@ export class Hand implements Toucher {
     }
     this.press_ = press;
     clearInterval(this.timer);
-    this.timer = window.setInterval(() => this.send(), TARGET_MS);
+    this.timer = window.setInterval(() => this.send(), this.targetMs);
     this.hint.dataset['gone'] = '';
     this.ask();
     return true;
@@ -81,6 +81,7 @@ export class Hand implements Toucher {
     if (!this.press_) return;
     if (message['granted'] === true) {
       this.toolId = Number(message['tool_id']);
+      this.send();
       if (message['message']) this.notice(String(message['message']));
     } else if (this.toolId !== undefined) {
       this.toolId = undefined; // e.g. the page stalled; while the finger is down it asks again

@@ -94,12 +94,12 @@ async function core(): Promise<{ makeModule: unknown; locateFile: (path: string)
 
 async function open(source: string | File): Promise<void> {
   tell({ kind: 'clock', reading: { tripMs: 0, offsetUs: 0 } });
-  state('starting', 'fetching the model');
+  const sinceMs = performance.now();
   const [{ bytes, name }, { makeModule, locateFile }] = await Promise.all([
     typeof source === 'string' ? fetched(source) : { bytes: await source.arrayBuffer(), name: source.name },
     core(),
   ]);
-  state('starting', 'reading the model');
+  if (performance.now() - sinceMs > SAY_MS) state('starting', 'reading the model');
   const organ = await makeOrgan(makeModule, { sha256: digest, locateFile }, hdf5, bytes, name);
   host = new OrganHost(organ, name, {
     said: (said) => tell({ kind: 'said', said }),

@@ -6,12 +6,18 @@ import { element, numberIn, setText } from './page';
 const ASK_MS = 150; // at most one request in this time
 const HELD_MS = 1500; // after this time without a hand a slider follows the server again
 
+/** Writes an attribute that differs: to write it at all makes a browser lay out the slider. */
+function put(slider: HTMLInputElement, name: 'min' | 'max' | 'value', value: number): void {
+  const text = String(value);
+  if (slider[name] !== text) slider[name] = text;
+}
+
 /** Narrows a slider to what the server's operator allows. `place`: where on the slider a value lies. */
 function limit(slider: HTMLInputElement, status: Said, name: string, low: number, high: number, place: (value: number) => number): void {
   const limits = status['limits'] as Record<string, (number | null)[]> | undefined;
   const [lowest, highest] = limits?.[name] ?? [null, null]; // null: no bound
-  slider.min = String(typeof lowest === 'number' ? Math.max(low, place(lowest)) : low);
-  slider.max = String(typeof highest === 'number' ? Math.min(high, place(highest)) : high);
+  put(slider, 'min', typeof lowest === 'number' ? Math.max(low, place(lowest)) : low);
+  put(slider, 'max', typeof highest === 'number' ? Math.min(high, place(highest)) : high);
 }
 
 /** The sliders of organ stiffness and friction. The server decides which values are in force. */
@@ -25,12 +31,12 @@ export class Parameters {
   private request = Math.floor(Math.random() * 2 ** 40);
   private touchedMs = -Infinity;
   private askedMs = -Infinity;
+  private timer = 0; // of the next request; 0: none waits
   inForce = { youngsFactor: NaN, friction: NaN };
 
   constructor(private readonly line: Line) {
     this.stiffness.addEventListener('input', () => this.wish({ youngs_factor: 2 ** Number(this.stiffness.value) }));
     this.friction.addEventListener('input', () => this.wish({ friction: Number(this.friction.value) }));
-    setInterval(() => this.ask(), ASK_MS / 3);
   }
 
   /** The values in force, from the viewer's status. */
@@ -45,8 +51,8 @@ export class Parameters {
     limit(this.stiffness, status, 'youngs_modulus', -2, 2, (E) => Math.log2(E / model));
     limit(this.friction, status, 'friction', 0, 2, (mu) => mu);
     if (performance.now() - this.touchedMs < HELD_MS) return;
-    if (youngsFactor > 0) this.stiffness.value = String(Math.log2(youngsFactor));
-    if (!Number.isNaN(friction)) this.friction.value = String(Math.min(2, friction));
+    if (youngsFactor > 0) put(this.stiffness, 'value', Math.log2(youngsFactor));
+    if (!Number.isNaN(friction)) put(this.friction, 'value', Math.min(2, friction));
     this.write(youngsFactor, friction);
   }
 
@@ -70,12 +76,13 @@ export class Parameters {
     Object.assign(this.wishes, wish);
     this.touchedMs = performance.now();
     this.write(2 ** Number(this.stiffness.value), Number(this.friction.value));
+    if (this.timer === 0) this.timer = window.setTimeout(() => this.ask(), this.askedMs + ASK_MS - performance.now());
   }
 
   private ask(): void {
-    const now = performance.now();
-    if (Object.keys(this.wishes).length === 0 || now - this.askedMs < ASK_MS) return;
-    this.askedMs = now;
+    this.timer = 0;
+    if (Object.keys(this.wishes).length === 0) return; // the server went
+    this.askedMs = performance.now();
     this.line.send({ type: 'set', request: ++this.request, ...this.wishes });
     this.wishes = {};
   }

@@ -17,6 +17,7 @@ export class Pictures {
   private drew = false; // in this turn
   private unfinishedMs = NaN; // begin of a picture that the browser still works at
   private bare: OrganView | undefined; // was drawn without the tissue's spots
+  private waiting: { turn: () => void; timer: number } | undefined; // for the next turn
 
   /** @param nowUs  viewer's clock  @param busy  whether somebody presses */
   constructor(
@@ -50,7 +51,22 @@ export class Pictures {
     if (isOrgan && (!this.stage.software || document.hidden)) return void requestAnimationFrame(turn);
     const restMs = Math.max(this.quality.waitMs(performance.now()), this.busy() || this.drew ? TURN_MS : IDLE_MS);
     this.drew = false;
-    setTimeout(() => turn(performance.now()), isOrgan ? restMs : EMPTY_MS);
+    this.later(() => turn(performance.now()), isOrgan ? restMs : EMPTY_MS);
+  }
+
+  private later(turn: () => void, ms: number): void {
+    const timer = window.setTimeout(() => {
+      this.waiting = undefined;
+      turn();
+    }, ms);
+    this.waiting = { turn, timer };
+  }
+
+  /** An organ came: the next turn, where a timer is to bring it, is due. */
+  hurry(): void {
+    if (!this.waiting) return;
+    clearTimeout(this.waiting.timer);
+    this.later(this.waiting.turn, 0);
   }
 
   /** @return whether there is a new picture */

@@ -46,7 +46,7 @@ export class Stage {
   /** @param ratio pixels drawn per CSS pixel */
   resize(ratio: number): void {
     const { clientWidth: w, clientHeight: h } = this.canvas;
-    if (w === 0 || h === 0) return;
+    if (w === 0 || h === 0 || (w === this.width && h === this.height && ratio === this.ratio)) return;
     [this.width, this.height] = [w, h];
     this.ratio = ratio;
     this.renderer.setDrawingBufferSize(w, h, ratio);
