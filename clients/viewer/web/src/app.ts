@@ -33,11 +33,11 @@ import { Stage } from './stage';
 import { Theme, themeColour } from './theme';
 import { Vibration } from './vibration';
 
-const CHART_MS = 40;
+const WORDS_MS = 40; // between chart and words
 const HIDDEN_HZ = 1;
 const SOFTWARE_HZ = 30; // fields of an organ in this page, which draws fewer pictures then
 const SOFTWARE_TARGET_MS = 40; // there the organ's own worker leads the tool from one target to the next
-const WORDS_MS = 300; // after an organ came: its picture is first
+const FIRST_WORDS_MS = 300; // after an organ came: its picture is first
 const SLOW_MS = 30_000; // of reading a model, after which another one is asked for
 const USUAL_TIP = 0.005; // m, until the viewer sends the tip radius
 
@@ -56,8 +56,7 @@ export class App implements LineListener {
   private tipRadius = USUAL_TIP;
   private usualHz = 60;
   private lineOpen = false;
-  private nextChart = 0;
-  private wordsFromMs = 0;
+  private nextWordsMs = 0;
   private organName = '';
   private readonly canvas = element('organ', HTMLCanvasElement);
   private readonly pictures: Pictures;
@@ -173,7 +172,7 @@ export class App implements LineListener {
     this.view.setColouring(this.colouring);
     this.view.showInside(isInsideShown);
     this.keeping.organCame();
-    this.wordsFromMs = performance.now() + WORDS_MS;
+    this.nextWordsMs = performance.now() + FIRST_WORDS_MS;
     this.pictures.hurry();
   }
 
@@ -301,12 +300,10 @@ export class App implements LineListener {
       this.legend.write(this.view, this.stage);
       this.readout.arrow(tool, tool && this.view.toolMesh(tool.id), this.stage);
     }
-    if (!due || performance.now() < this.wordsFromMs) return; // words between two pictures would be one more to the browser
-    if (nowMs >= this.nextChart) {
-      this.nextChart = nowMs + CHART_MS;
-      this.readout.write(tool);
-      this.curves.draw(tool, this.line.nowUs);
-    }
+    if (!due || nowMs < this.nextWordsMs) return; // the browser draws words between two pictures as a picture of their own
+    this.nextWordsMs = nowMs + WORDS_MS;
+    this.readout.write(tool);
+    this.curves.draw(tool, this.line.nowUs);
     this.panel.write(performance.now(), this.flags.at(performance.now()));
   }
 
